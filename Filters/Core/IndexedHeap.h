@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Ring.h"
+#include "WideReal.h"
+
+#include <cassert>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// A heap of vertices and their keys, four children to a node, that knows the place of each vertex:
+/// the first is found at once, any other is changed or erased in O(log n). `Before(a, b)` says
+/// whether key a goes before key b; of equal keys the lower index goes first.
+template <typename Before>
+class IndexedHeap
+{
+public:
+  struct Entry
+  {
+    WideReal key;
+    VertexIndex vertex = NoVertex;
+  };
+
+  bool isEmpty() const { return this->entries_.empty(); }
+  const Entry& first() const { return this->entries_.front(); }
+  const WideReal& key(VertexIndex v) const { return this->entries_[this->places_[v]].key; }
+
+  void insert(VertexIndex v, const WideReal& key)
+  {
+    if (v >= this->places_.size())
+    {
+      this->places_.resize(v + std::size_t(1));
+    }
+    this->entries_.emplace_back();
+    this->moveUp(this->entries_.size() - 1, { key, v });
+  }
+
+  void erase(VertexIndex v)
+  {
+    const std::size_t place = this->places_[v];
+    assert(this->entries_[place].vertex == v);
+    const Entry last = this->entries_.back();
+    this->entries_.pop_back();
+    if (last.vertex != v)
+    {
+      this->settle(place, last);
+    }
+  }
+
+  /// Gives `v` a new key.
+  void change(VertexIndex v, const WideReal& key) { this->settle(this->places_[v], { key, v }); }
+  /// The same where the new key does not go after the old one.
+  void advance(VertexIndex v, const WideReal& key) { this->moveUp(this->places_[v], { key, v }); }
+
+  void reserve(std::size_t count)
+  {
+    this->entries_.reserve(count);
+    this->places_.reserve(count);
+  }
+
+  /// As Mesh::renumber(). Puts the entries in order anew, as ties go by index.
+  void renumber(std::span<const VertexIndex> newIndex)
+  {
+    for (Entry& entry : this->entries_)
+    {
+      entry.vertex = newIndex[entry.vertex];
+    }
+    for (std::size_t place = this->entries_.size(); place-- > 0;)
+    {
+      this->moveDown(place, this->entries_[place]);
+    }
+  }
+
+private:
+  static constexpr std::size_t Arity = 4;
+
+  static bool goesBefore(const Entry& a, const Entry& b)
+  {
+    const auto order = a.key <=> b.key;
+    return order == 0 ? a.vertex < b.vertex : Before()(order);
+  }
+
+  void put(std::size_t place, const Entry& entry)
+  {
+    this->entries_[place] = entry;
+    this->places_[entry.vertex] = std::uint32_t(place);
+  }
+
+  void moveUp(std::size_t place, const Entry& entry)
+  {
+    while (place > 0)
+    {
+      const std::size_t parent = (place - 1) / Arity;
+      if (!goesBefore(entry, this->entries_[parent]))
+      {
+        break;
+      }
+      this->put(place, this->entries_[parent]);
+      place = parent;
+    }
+    this->put(place, entry);
+  }
+
+  void moveDown(std::size_t place, const Entry entry)
+  {
+    for (;;)
+    {
+      const std::size_t begin = place * Arity + 1;
+      if (begin >= this->entries_.size())
+      {
+        break;
+      }
+      const std::size_t end = std::min(begin + Arity, this->entries_.size());
+      std::size_t best = begin;
+      for (std::size_t child = begin + 1; child < end; ++child)
+      {
+        if (goesBefore(this->entries_[child], this->entries_[best]))
+        {
+          best = child;
+        }
+      }
+      if (!goesBefore(this->entries_[best], entry))
+      {
+        break;
+      }
+      this->put(place, this->entries_[best]);
+      place = best;
+    }
+    this->put(place, entry);
+  }
+
+  void settle(std::size_t place, const Entry& entry)
+  {
+    if (place > 0 && goesBefore(entry, this->entries_[(place - 1) / Arity]))
+    {
+      this->moveUp(place, entry);
+    }
+    else
+    {
+      this->moveDown(place, entry);
+    }
+  }
+
+  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> places_;
+};
+}

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Learner.h"
+
+#include "ExactOrder.h"
+#include "HalfEdgeCollapse.h"
+#include "Morton.h"
+#include "Smoothing.h"
+#include "ValenceFlips.h"
+#include "VertexSplit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace neuralmesh
+{
+namespace
+{
+/// A batch is so small a part of the mesh that hardly any vertex wins twice in it.
+constexpr std::size_t VerticesPerSampleOfBatch = 16;
+/// The window of the statistics spans about four batches: batches are sorted, so the last so many
+/// samples would all lie in one corner of the cloud.
+constexpr std::size_t ObservationsPerBatch = 250;
+constexpr std::size_t PrefetchDistance = 8;
+
+/// Width of a grid cell in mean edges.
+constexpr float EdgesPerCell = 2.f;
+/// Vertices are renumbered and the grid is made anew whenever there are so many times more.
+constexpr double GrowthUntilRenumbering = 1.4;
+
+/// Splits tried in a Node Addition before it is given up.
+constexpr int SplitAttempts = 8;
+/// Bounds of the share of activity that a vertex keeps in a split.
+constexpr double LeastShare = 0.05;
+
+/// Radius of the first tetrahedron; the bulk of the cloud has a diagonal of 1.
+constexpr float FirstRadius = 0.1f;
+
+Vector4 meanOf(std::span<const Vector4> points)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Vector4 point : points)
+  {
+    sum += point.toDouble();
+  }
+  return Vector4(Eigen::Vector3d(sum / double(points.size())));
+}
+
+float meanEdgeLength(const Mesh& mesh)
+{
+  double sum = 0.;
+  std::size_t count = 0;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    for (const VertexIndex neighbor : mesh.ring(v))
+    {
+      sum += std::sqrt(squaredNorm(mesh.position(neighbor) - mesh.position(v)));
+      ++count;
+    }
+  }
+  return float(sum / double(count));
+}
+}
+
+Learner::Learner(const PointCloud& cloud, const Parameters& parameters)
+  : Learner(cloud, parameters,
+      Mesh::tetrahedron(
+        max(min(meanOf(cloud.points()), cloud.bulkMax()), cloud.bulkMin()), FirstRadius))
+{
+}
+
+Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh)
+  : parameters_(parameters), mesh_(std::move(mesh)),
+    order_(std::make_unique<ExactOrder>(mesh_.indexEnd())),
+    samples_(cloud.points(), parameters.seed),
+    sampleDistances_(std::size_t(parameters.noiseWindow)), boxMin_(cloud.bulkMin()),
+    boxMax_(cloud.bulkMax()), hasWon_(mesh_.indexEnd(), 1)
+{
+  this->renumber();
+  this->nextAddition_ = std::uint64_t(this->parameters_.samplesPerAddition);
+  this->nextRemoval_ = this->parameters_.variant == Variant::Basic
+    ? std::uint64_t(this->parameters_.removalPatience * double(this->mesh_.vertexCount()))
+    : std::uint64_t(this->parameters_.additionsPerRemoval);
+  this->updateDecay();
+}
+
+void Learner::learn(std::uint64_t sampleCount)
+{
+  const std::uint64_t end = this->counts_.iterations + sampleCount;
+  while (this->counts_.iterations < end && !this->hasAllVertices())
+  {
+    const std::uint64_t left = end - this->counts_.iterations;
+    this->learnBatch(std::size_t(std::min<std::uint64_t>(left, this->batchSize())));
+  }
+}
+
+void Learner::learnBatch(std::size_t size)
+{
+  this->mesh_.releaseErased();
+  const std::span<const Vector4> samples = this->samples_.draw(size);
+  this->prepareNoiseFilter(size);
+  this->findWinners(samples);
+  for (std::size_t i = 0; i < samples.size() && !this->hasAllVertices(); ++i)
+  {
+    this->prefetchAhead(i);
+    if (!this->mesh_.isAlive(this->winners_[i]))
+    {
+      this->winners_[i] = this->grid_.closest(samples[i], this->mesh_.positions());
+    }
+    this->basicStep(samples[i], this->winners_[i]);
+    ++this->counts_.iterations;
+    if (this->isAdditionDue())
+    {
+      this->nodeAddition();
+    }
+    if (this->isRemovalDue())
+    {
+      this->nodeRemoval();
+    }
+  }
+  if (this->mesh_.vertexCount() >= this->nextRenumbering_)
+  {
+    this->renumber();
+  }
+}
+
+std::size_t Learner::batchSize() const
+{
+  return std::clamp<std::size_t>(this->mesh_.vertexCount() / VerticesPerSampleOfBatch, 1,
+    std::size_t(this->parameters_.batchSize));
+}
+
+void Learner::findWinners(std::span<const Vector4> samples)
+{
+  this->winners_.resize(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    if (i + PrefetchDistance < samples.size())
+    {
+      this->grid_.prefetch(samples[i + PrefetchDistance]);
+    }
+    this->winners_[i] = this->grid_.closest(samples[i], this->mesh_.positions());
+  }
+}
+
+void Learner::prefetchAhead(std::size_t sample) const
+{
+  if (sample + PrefetchDistance < this->winners_.size())
+  {
+    const VertexIndex later = this->winners_[sample + PrefetchDistance];
+    __builtin_prefetch(&this->mesh_.ring(later));
+    const Ring& ring = this->mesh_.ring(this->winners_[sample + PrefetchDistance / 2]);
+    for (const VertexIndex neighbor : ring)
+    {
+      __builtin_prefetch(&this->mesh_.ring(neighbor));
+    }
+  }
+}
+
+// --- Geometry learning ---------------------------------------------------------------------------
+
+void Learner::prepareNoiseFilter(std::size_t batchSize)
+{
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  this->observationStride_ = 1 + batchSize / ObservationsPerBatch;
+  this->filterThreshold_ = infinity;
+  this->rejectionLimit_ = infinity;
+  if (this->parameters_.variant == Variant::NoiseFiltering && this->sampleDistances_.isFull())
+  {
+    this->filterThreshold_ = float(this->sampleDistances_.mean() +
+      this->parameters_.noiseTolerance * this->sampleDistances_.deviation());
+    if (this->parameters_.outlierLimit > 0. &&
+      this->mesh_.vertexCount() >= std::size_t(this->parameters_.outlierLimitVertices))
+    {
+      this->rejectionLimit_ = float(this->parameters_.outlierLimit) * this->filterThreshold_;
+    }
+  }
+}
+
+void Learner::basicStep(Vector4 sample, VertexIndex winner)
+{
+  const Vector4 toSample = sample - this->mesh_.position(winner);
+  const float squaredDistance = squaredNorm(toSample);
+  if (this->untilObservation_-- == 0)
+  {
+    this->untilObservation_ = this->observationStride_ - 1;
+    this->sampleDistances_.add(std::min(std::sqrt(squaredDistance), this->rejectionLimit_));
+  }
+  if (squaredDistance > this->rejectionLimit_ * this->rejectionLimit_)
+  {
+    ++this->counts_.rejectedSamples;
+    this->order_->pass(this->decay_);
+    return;
+  }
+  float rate = float(this->parameters_.winnerRate);
+  if (squaredDistance > this->filterThreshold_ * this->filterThreshold_)
+  {
+    rate *= this->filterThreshold_ / std::sqrt(squaredDistance);
+  }
+  this->moveVertex(winner, this->mesh_.position(winner) + rate * toSample);
+  for (int i = 0; i < this->parameters_.smoothingIterations; ++i)
+  {
+    this->smoothNeighbors(winner);
+  }
+  this->order_->win(winner, 1., this->decay_);
+  if (this->parameters_.variant == Variant::Basic)
+  {
+    this->hasWon_[winner] = 1;
+  }
+}
+
+void Learner::smoothNeighbors(VertexIndex winner)
+{
+  // All at once: first where all of them go, then the moves.
+  const Ring& ring = this->mesh_.ring(winner);
+  const auto rate = float(this->parameters_.smoothingRate);
+  auto& positions = this->smoothedPositions_;
+  for (unsigned slot = 0; slot < ring.size(); ++slot)
+  {
+    positions[slot] = smoothedPosition(this->mesh_, ring[slot], rate);
+  }
+  for (unsigned slot = 0; slot < ring.size(); ++slot)
+  {
+    this->moveVertex(ring[slot], positions[slot]);
+  }
+}
+
+// --- Growth --------------------------------------------------------------------------------------
+
+bool Learner::isAdditionDue() const { return this->counts_.iterations >= this->nextAddition_; }
+
+void Learner::nodeAddition()
+{
+  const bool early = this->mesh_.vertexCount() < std::size_t(this->parameters_.earlyVertices);
+  const double patience = early ? this->parameters_.earlyPatience : 1.;
+  this->nextAddition_ +=
+    std::max<std::uint64_t>(1, std::uint64_t(patience * this->parameters_.samplesPerAddition));
+
+  for (int attempt = 0; attempt < SplitAttempts; ++attempt)
+  {
+    const VertexIndex v = this->order_->top();
+    const auto plan = planVertexSplit(this->mesh_, v);
+    if (!plan)
+    {
+      ++this->counts_.illegalOperations;
+      this->order_->demoteTop();
+      continue;
+    }
+    const VertexIndex added = this->mesh_.split(v, plan->first, plan->steps, plan->position);
+    this->grid_.insert(added, plan->position);
+    const double area = restrictedVoronoiArea(this->mesh_, v);
+    const double addedArea = restrictedVoronoiArea(this->mesh_, added);
+    const double share = area + addedArea > 0. ? area / (area + addedArea) : 0.5;
+    this->order_->split(v, added, std::clamp(share, LeastShare, 1. - LeastShare));
+    if (this->parameters_.variant == Variant::Basic)
+    {
+      this->hasWon_.resize(this->mesh_.indexEnd());
+      this->hasWon_[added] = 1;
+    }
+    if (this->parameters_.valenceFlips)
+    {
+      this->counts_.flips += improveValencesAround(this->mesh_, v);
+      this->counts_.flips += improveValencesAround(this->mesh_, added);
+    }
+    ++this->counts_.additions;
+    this->updateDecay();
+    return;
+  }
+}
+
+bool Learner::isRemovalDue() const
+{
+  return (this->parameters_.variant == Variant::Basic
+             ? this->counts_.iterations
+             : this->counts_.additions) >= this->nextRemoval_;
+}
+
+void Learner::nodeRemoval()
+{
+  if (this->parameters_.variant == Variant::Basic)
+  {
+    this->removeIdleVertices();
+    this->nextRemoval_ +=
+      std::uint64_t(this->parameters_.removalPatience * double(this->mesh_.vertexCount()));
+  }
+  else
+  {
+    this->removeVertices();
+    this->nextRemoval_ += std::uint64_t(this->parameters_.additionsPerRemoval);
+  }
+  this->updateDecay();
+}
+
+void Learner::removeIdleVertices()
+{
+  for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
+  {
+    if (this->mesh_.isAlive(v) && !this->hasWon_[v] && !this->removeVertex(v))
+    {
+      ++this->counts_.illegalOperations;
+    }
+    this->hasWon_[v] = 0;
+  }
+}
+
+void Learner::removeVertices()
+{
+  // alpha_n^(C_ec n), with alpha_n of (9.4).
+  const double threshold =
+    std::exp2(-this->parameters_.removalPatience / this->parameters_.counterHalfLife);
+  do
+  {
+    if (!this->removeVertex(this->order_->bottom()))
+    {
+      ++this->counts_.illegalOperations;
+      this->order_->promoteBottom();
+    }
+  } while (this->order_->isBottomBelow(threshold));
+}
+
+bool Learner::removeVertex(VertexIndex v)
+{
+  const VertexIndex kept = bestCollapse(this->mesh_, v);
+  if (kept == NoVertex)
+  {
+    return false;
+  }
+  this->mesh_.collapse(v, kept);
+  this->grid_.erase(v, this->mesh_.position(v));
+  this->order_->erase(v);
+  if (this->parameters_.valenceFlips)
+  {
+    this->counts_.flips += improveValencesAround(this->mesh_, kept);
+  }
+  ++this->counts_.removals;
+  return true;
+}
+
+void Learner::updateDecay()
+{
+  // (9.4) with the current number of vertices.
+  this->decay_ = this->parameters_.variant == Variant::Basic
+    ? this->parameters_.counterDecay
+    : std::exp2(-1. / (this->parameters_.counterHalfLife * double(this->mesh_.vertexCount())));
+}
+
+// --- Memory --------------------------------------------------------------------------------------
+
+void Learner::renumber()
+{
+  std::vector<VertexIndex> alive;
+  std::vector<Vector4> positions;
+  alive.reserve(this->mesh_.vertexCount());
+  positions.reserve(this->mesh_.vertexCount());
+  for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
+  {
+    if (this->mesh_.isAlive(v))
+    {
+      alive.push_back(v);
+      positions.push_back(this->mesh_.position(v));
+    }
+  }
+  std::vector<VertexIndex> order = mortonOrder(positions, this->boxMin_, this->boxMax_);
+  std::vector<std::uint8_t> hasWon(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    order[i] = alive[order[i]];
+    hasWon[i] = this->hasWon_.size() > order[i] ? this->hasWon_[order[i]] : 0;
+  }
+  this->hasWon_ = std::move(hasWon);
+  this->mesh_.renumber(order);
+  this->order_->renumber(order);
+
+  const std::size_t capacity =
+    64 + std::size_t(GrowthUntilRenumbering * 1.1 * double(order.size()));
+  this->nextRenumbering_ = 1 + std::size_t(GrowthUntilRenumbering * double(order.size()));
+  this->mesh_.reserve(capacity);
+  this->grid_.reset(
+    this->boxMin_, this->boxMax_, EdgesPerCell * meanEdgeLength(this->mesh_), capacity);
+  for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
+  {
+    this->grid_.insert(v, this->mesh_.position(v));
+  }
+}
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "ActivityOrder.h"
+#include "Mesh.h"
+#include "MovingStatistics.h"
+#include "Parameters.h"
+#include "PointCloud.h"
+#include "SampleStream.h"
+#include "VertexGrid.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace neuralmesh
+{
+/// What has happened in a run so far.
+struct RunCounts
+{
+  std::uint64_t iterations = 0;
+  std::uint64_t rejectedSamples = 0;
+  std::uint64_t additions = 0;
+  std::uint64_t removals = 0;
+  std::uint64_t flips = 0;
+  std::uint64_t illegalOperations = 0; ///< splits and collapses that were due, but not legal
+};
+
+/// The Neural Mesh algorithm: a mesh that grows and moves towards samples of a cloud. Here is the
+/// algorithm itself, for all variants; when to end a run is for StoppingRules to say.
+class Learner
+{
+public:
+  /// Starts from `mesh`, in the coordinates of `cloud`, which must outlive the learner.
+  Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh);
+  /// Starts from a tetrahedron in the middle of the cloud.
+  Learner(const PointCloud& cloud, const Parameters& parameters);
+
+  /// Learns so many samples, batch by batch. Ends early once the mesh has as many vertices as were
+  /// asked for.
+  void learn(std::uint64_t sampleCount);
+
+  const Mesh& mesh() const { return this->mesh_; }
+  const ActivityOrder& order() const { return *this->order_; }
+  const RunCounts& counts() const { return this->counts_; }
+  /// Distances between samples and winners, in units of the cloud; with the noise filter clipped at
+  /// the distance at which samples are rejected.
+  const MovingStatistics& sampleDistances() const { return this->sampleDistances_; }
+  const VertexGrid& grid() const { return this->grid_; }
+  bool hasAllVertices() const
+  {
+    return this->mesh_.vertexCount() >= this->parameters_.numberOfVertices;
+  }
+
+  /// Vertices in Morton order without gaps, in all structures.
+  void renumber();
+
+private:
+  void learnBatch(std::size_t size);
+  std::size_t batchSize() const;
+  void findWinners(std::span<const Vector4> samples);
+  void prefetchAhead(std::size_t sample) const;
+  void prepareNoiseFilter(std::size_t batchSize);
+
+  void basicStep(Vector4 sample, VertexIndex winner);
+  void moveVertex(VertexIndex v, Vector4 position)
+  {
+    this->grid_.move(v, this->mesh_.position(v), position);
+    this->mesh_.setPosition(v, position);
+  }
+  void smoothNeighbors(VertexIndex winner);
+
+  bool isAdditionDue() const;
+  void nodeAddition();
+  bool isRemovalDue() const;
+  void nodeRemoval();
+  void removeIdleVertices();
+  void removeVertices();
+  bool removeVertex(VertexIndex v);
+
+  void updateDecay();
+
+  Parameters parameters_;
+  Mesh mesh_;
+  VertexGrid grid_;
+  std::unique_ptr<ActivityOrder> order_;
+  SampleStream samples_;
+  MovingStatistics sampleDistances_;
+  RunCounts counts_;
+  Vector4 boxMin_;
+  Vector4 boxMax_;
+
+  std::vector<VertexIndex> winners_;
+  std::array<Vector4, Ring::Capacity> smoothedPositions_;
+  std::vector<std::uint8_t> hasWon_; ///< since the last removal; basic variant only
+  double decay_ = 1.;
+  float filterThreshold_ = 0.f; ///< epsilon_t of (9.2)
+  float rejectionLimit_ = 0.f;
+  std::size_t observationStride_ = 1;
+  std::size_t untilObservation_ = 0;
+  std::uint64_t nextAddition_ = 0;
+  std::uint64_t nextRemoval_ = 0; ///< iteration (basic) or number of additions (noise filtering)
+  std::size_t nextRenumbering_ = 0;
+};
+}

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace neuralmesh
+{
+Mesh Mesh::tetrahedron(Vector4 center, float radius)
+{
+  const float r = radius / std::sqrt(3.f);
+  Mesh mesh;
+  for (const Vector4& corner :
+    { Vector4(r, r, r), Vector4(r, -r, -r), Vector4(-r, r, -r), Vector4(-r, -r, r) })
+  {
+    mesh.newVertex(center + corner);
+  }
+  mesh.rings_[0].assign(std::array<VertexIndex, 3>{ 1, 2, 3 }, false);
+  mesh.rings_[1].assign(std::array<VertexIndex, 3>{ 0, 3, 2 }, false);
+  mesh.rings_[2].assign(std::array<VertexIndex, 3>{ 0, 1, 3 }, false);
+  mesh.rings_[3].assign(std::array<VertexIndex, 3>{ 0, 2, 1 }, false);
+  return mesh;
+}
+
+bool Mesh::isBoundaryEdge(VertexIndex a, VertexIndex b) const
+{
+  const Ring& ring = this->ring(a);
+  return ring.isOpen() && (ring.front() == b || ring.back() == b);
+}
+
+Vector4 Mesh::normal(VertexIndex v) const
+{
+  const Ring& ring = this->ring(v);
+  const Vector4 center = this->position(v);
+  Vector4 sum;
+  Vector4 previous = this->position(ring.isOpen() ? ring.front() : ring.back()) - center;
+  for (const VertexIndex neighbor : ring)
+  {
+    const Vector4 current = this->position(neighbor) - center;
+    sum += crossBeforeRotation(previous, current);
+    previous = current;
+  }
+  return rotated(sum);
+}
+
+std::size_t Mesh::triangleCount() const
+{
+  std::size_t corners = 0;
+  for (const Ring& ring : this->rings_)
+  {
+    corners += ring.isEmpty() ? 0 : ring.triangleCount();
+  }
+  return corners / 3;
+}
+
+bool Mesh::canSplit(VertexIndex v, unsigned first, unsigned steps) const
+{
+  const Ring& ring = this->ring(v);
+  const unsigned size = ring.size();
+  if (steps < 1 || steps >= size)
+  {
+    return false;
+  }
+  if (ring.isOpen())
+  {
+    const unsigned last = first + steps;
+    const bool alongBoundary = (first == 0 && last < size) || last + 1 == size;
+    if (!alongBoundary)
+    {
+      return false;
+    }
+    const VertexIndex inner = first == 0 ? ring[last] : ring[first];
+    return this->valence(inner) < Ring::Capacity && size + 2 - steps <= Ring::Capacity;
+  }
+  return size + 2 - steps <= Ring::Capacity && steps + 2 <= Ring::Capacity &&
+    this->valence(ring[first]) < Ring::Capacity &&
+    this->valence(ring[ring.after(first, steps)]) < Ring::Capacity;
+}
+
+VertexIndex Mesh::split(VertexIndex v, unsigned first, unsigned steps, Vector4 position)
+{
+  assert(this->canSplit(v, first, steps));
+  const VertexIndex added = this->newVertex(position);
+  const Ring old = this->ring(v);
+  const bool open = old.isOpen();
+  const bool startsAtBoundary = open && first == 0;
+  const bool endsAtBoundary = open && !startsAtBoundary;
+
+  std::array<VertexIndex, Ring::Capacity> taken{};
+  for (unsigned i = 0; i <= steps; ++i)
+  {
+    taken[i] = old[old.after(first, i)];
+  }
+  const VertexIndex start = taken[0];
+  const VertexIndex end = taken[steps];
+
+  // The new ring: the neighbours taken over, and v between the last and the first of them.
+  Ring& addedRing = this->rings_[added];
+  addedRing.assign(std::span(taken).first(steps + 1), open);
+  addedRing.insert(endsAtBoundary ? 0 : steps + 1, v);
+
+  // What v keeps: from the end of the part taken over around to its start, and the new vertex.
+  const unsigned kept = old.size() - steps + 1 - (open ? 1 : 0);
+  std::array<VertexIndex, Ring::Capacity> rest{};
+  const unsigned restBegin = endsAtBoundary ? 0 : old.after(first, steps);
+  for (unsigned i = 0; i < kept; ++i)
+  {
+    rest[i] = old[old.after(restBegin, i)];
+  }
+  Ring& ring = this->rings_[v];
+  ring.assign(std::span(rest).first(kept), open);
+  ring.insert(startsAtBoundary ? 0 : kept, added);
+
+  for (unsigned i = 0; i <= steps; ++i)
+  {
+    Ring& neighborRing = this->rings_[taken[i]];
+    const unsigned slot = neighborRing.find(v);
+    if (taken[i] == start && !startsAtBoundary)
+    {
+      neighborRing.insert(slot, added);
+    }
+    else if (taken[i] == end && !endsAtBoundary)
+    {
+      neighborRing.insert(slot + 1, added);
+    }
+    else
+    {
+      neighborRing.replace(slot, added);
+    }
+  }
+  return added;
+}
+
+bool Mesh::canCollapse(VertexIndex removed, VertexIndex kept) const
+{
+  const Ring& ring = this->ring(removed);
+  const Ring& keptRing = this->ring(kept);
+  const unsigned slot = ring.find(kept);
+  const VertexIndex left = ring.next(slot);
+  const VertexIndex right = ring.previous(slot);
+  const bool boundaryEdge = left == NoVertex || right == NoVertex;
+  if (ring.isOpen() && !boundaryEdge)
+  {
+    return false;
+  }
+  // The opposite vertices lose an edge.
+  for (const VertexIndex opposite : { left, right })
+  {
+    if (opposite != NoVertex && this->valence(opposite) <= (this->isBoundary(opposite) ? 2u : 3u))
+    {
+      return false;
+    }
+  }
+  const unsigned valence = ring.size() + keptRing.size() - (boundaryEdge ? 3 : 4);
+  if (valence > Ring::Capacity || valence < (keptRing.isOpen() ? 2u : 3u))
+  {
+    return false;
+  }
+  // Link condition: no common neighbours other than the opposite vertices.
+  return std::none_of(ring.begin(), ring.end(),
+    [&](VertexIndex neighbor)
+    { return neighbor != left && neighbor != right && keptRing.contains(neighbor); });
+}
+
+void Mesh::collapse(VertexIndex removed, VertexIndex kept)
+{
+  assert(this->canCollapse(removed, kept));
+  const Ring ring = this->ring(removed);
+  Ring& keptRing = this->rings_[kept];
+  const unsigned slot = ring.find(kept);
+  const VertexIndex left = ring.next(slot);
+  const VertexIndex right = ring.previous(slot);
+
+  // In the ring of the kept vertex the removed one gives way to its other neighbours: from behind
+  // the left opposite vertex around to before the right one.
+  const unsigned opposites = (left == NoVertex ? 0u : 1u) + (right == NoVertex ? 0u : 1u);
+  const unsigned inheritedCount = ring.size() - 1 - opposites;
+  const unsigned inheritedBegin = left == NoVertex ? 0 : ring.after(slot, 2);
+  unsigned place = keptRing.find(removed);
+  keptRing.erase(place);
+  for (unsigned i = 0; i < inheritedCount; ++i)
+  {
+    const VertexIndex inherited = ring[ring.after(inheritedBegin, i)];
+    keptRing.insert(place++, inherited);
+    Ring& inheritedRing = this->rings_[inherited];
+    inheritedRing.replace(inheritedRing.find(removed), kept);
+  }
+  for (const VertexIndex opposite : { left, right })
+  {
+    if (opposite != NoVertex)
+    {
+      Ring& oppositeRing = this->rings_[opposite];
+      oppositeRing.erase(oppositeRing.find(removed));
+    }
+  }
+  this->eraseVertex(removed);
+}
+
+bool Mesh::canFlip(VertexIndex a, VertexIndex b) const
+{
+  const Ring& ring = this->ring(a);
+  const unsigned slot = ring.find(b);
+  const VertexIndex c = ring.next(slot);
+  const VertexIndex d = ring.previous(slot);
+  if (c == NoVertex || d == NoVertex)
+  {
+    return false;
+  }
+  const auto canLoseEdge = [this](VertexIndex v)
+  { return this->valence(v) > (this->isBoundary(v) ? 2u : 3u); };
+  return canLoseEdge(a) && canLoseEdge(b) && this->valence(c) < Ring::Capacity &&
+    this->valence(d) < Ring::Capacity && !this->ring(c).contains(d);
+}
+
+void Mesh::flip(VertexIndex a, VertexIndex b)
+{
+  assert(this->canFlip(a, b));
+  Ring& ringA = this->rings_[a];
+  Ring& ringB = this->rings_[b];
+  const unsigned slot = ringA.find(b);
+  const VertexIndex c = ringA.next(slot);
+  const VertexIndex d = ringA.previous(slot);
+  ringA.erase(slot);
+  ringB.erase(ringB.find(a));
+  Ring& ringC = this->rings_[c];
+  ringC.insert(ringC.find(a) + 1, d);
+  Ring& ringD = this->rings_[d];
+  ringD.insert(ringD.find(b) + 1, c);
+}
+
+Mesh::RemovedTriangle Mesh::removeTriangle(const Triangle& triangle)
+{
+  RemovedTriangle result;
+  // Where a fan falls into two: the slot of the last neighbour of its first part.
+  std::array<int, 3> gaps{ -1, -1, -1 };
+  for (unsigned corner = 0; corner < 3; ++corner)
+  {
+    Ring& ring = this->rings_[triangle[corner]];
+    const unsigned slot = ring.find(triangle[(corner + 1) % 3]);
+    assert(ring.next(slot) == triangle[(corner + 2) % 3]);
+    if (!ring.isOpen())
+    {
+      ring.rotateToFront(ring.after(slot));
+      ring.setOpen(true);
+    }
+    else if (slot == 0)
+    {
+      ring.erase(0);
+    }
+    else if (slot + 2 == ring.size())
+    {
+      ring.erase(slot + 1);
+    }
+    else
+    {
+      gaps[corner] = int(slot);
+    }
+  }
+  for (unsigned corner = 0; corner < 3; ++corner)
+  {
+    const VertexIndex v = triangle[corner];
+    if (gaps[corner] >= 0)
+    {
+      const Ring ring = this->ring(v);
+      const unsigned firstCount = unsigned(gaps[corner]) + 1;
+      const std::span<const VertexIndex> all(ring.begin(), ring.end());
+      const auto first = all.first(firstCount);
+      const auto second = all.subspan(firstCount);
+      const bool keepFirst = first.size() >= second.size();
+      const auto smaller = keepFirst ? second : first;
+      const VertexIndex duplicate = this->newVertex(this->position(v));
+      this->rings_[v].assign(keepFirst ? first : second, true);
+      this->rings_[duplicate].assign(smaller, true);
+      for (const VertexIndex neighbor : smaller)
+      {
+        Ring& neighborRing = this->rings_[neighbor];
+        neighborRing.replace(neighborRing.find(v), duplicate);
+      }
+      result.duplicates[corner] = { v, duplicate };
+    }
+    else if (this->valence(v) < 2)
+    {
+      this->eraseVertex(v);
+      result.erased[corner] = v;
+    }
+  }
+  return result;
+}
+
+void Mesh::reserve(std::size_t count)
+{
+  this->rings_.reserve(count);
+  this->positions_.reserve(count);
+  this->erased_.reserve(count);
+  this->reusable_.reserve(count);
+}
+
+void Mesh::releaseErased()
+{
+  this->reusable_.insert(this->reusable_.end(), this->erased_.begin(), this->erased_.end());
+  this->erased_.clear();
+}
+
+void Mesh::renumber(std::span<const VertexIndex> order)
+{
+  assert(order.size() == this->vertexCount());
+  std::vector<VertexIndex> newIndex(this->indexEnd(), NoVertex);
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    newIndex[order[i]] = VertexIndex(i);
+  }
+  std::vector<Ring> rings(order.size());
+  std::vector<Vector4> positions(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    rings[i] = this->rings_[order[i]];
+    for (unsigned slot = 0; slot < rings[i].size(); ++slot)
+    {
+      rings[i].replace(slot, newIndex[rings[i][slot]]);
+    }
+    positions[i] = this->positions_[order[i]];
+  }
+  this->rings_ = std::move(rings);
+  this->positions_ = std::move(positions);
+  this->erased_.clear();
+  this->reusable_.clear();
+}
+
+void Mesh::reverseOrientation(std::span<const VertexIndex> component)
+{
+  for (const VertexIndex v : component)
+  {
+    const Ring old = this->ring(v);
+    for (unsigned slot = 0; slot < old.size(); ++slot)
+    {
+      this->rings_[v].replace(slot, old[old.size() - 1 - slot]);
+    }
+  }
+}
+
+VertexIndex Mesh::newVertex(Vector4 position)
+{
+  ++this->vertexCount_;
+  if (!this->reusable_.empty())
+  {
+    const VertexIndex v = this->reusable_.back();
+    this->reusable_.pop_back();
+    this->positions_[v] = position;
+    return v;
+  }
+  this->rings_.emplace_back();
+  this->positions_.push_back(position);
+  return VertexIndex(this->rings_.size() - 1);
+}
+
+void Mesh::eraseVertex(VertexIndex v)
+{
+  this->rings_[v].clear();
+  this->erased_.push_back(v);
+  --this->vertexCount_;
+}
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Ring.h"
+#include "Vector4.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace neuralmesh
+{
+using Triangle = std::array<VertexIndex, 3>;
+
+/// The Neural Mesh M: an oriented triangle 2-manifold, with or without boundary, as the rings of
+/// its vertices. 80 bytes a vertex: a ring of 64 and a position of 16. Triangles are implied: each
+/// is found in the rings of its three corners.
+///
+/// Every operation keeps the manifold; what would break it is refused by the `can` functions,
+/// which must be asked first. So is what would lift a valence above Ring::Capacity.
+///
+/// Indices stay valid until renumber(); those of erased vertices are used again for new ones, but
+/// only after releaseErased(), so that nobody takes the one for the other in between.
+class Mesh
+{
+public:
+  Mesh() = default;
+
+  /// A regular tetrahedron, outwards oriented.
+  static Mesh tetrahedron(Vector4 center, float radius);
+
+  /// From the triangles of an oriented manifold, or why that is not possible. Points that no
+  /// triangle uses are left out; so indices may differ from those given.
+  struct FromTriangles;
+  static FromTriangles fromTriangles(
+    std::span<const Vector4> points, std::span<const Triangle> triangles);
+
+  /// The number of vertices.
+  std::size_t vertexCount() const { return this->vertexCount_; }
+  /// One more than the highest index in use; erased vertices below it have no neighbours.
+  std::size_t indexEnd() const { return this->rings_.size(); }
+  bool isAlive(VertexIndex v) const { return !this->rings_[v].isEmpty(); }
+
+  Vector4 position(VertexIndex v) const { return this->positions_[v]; }
+  void setPosition(VertexIndex v, Vector4 position) { this->positions_[v] = position; }
+  std::span<const Vector4> positions() const { return this->positions_; }
+
+  const Ring& ring(VertexIndex v) const { return this->rings_[v]; }
+  unsigned valence(VertexIndex v) const { return this->rings_[v].size(); }
+  bool isBoundary(VertexIndex v) const { return this->rings_[v].isOpen(); }
+  bool isBoundaryEdge(VertexIndex a, VertexIndex b) const;
+  /// How far the valence is from that of a regular vertex: 6, or 4 on a boundary.
+  int valenceExcess(VertexIndex v) const
+  {
+    return int(this->valence(v)) - (this->isBoundary(v) ? 4 : 6);
+  }
+
+  /// Area-weighted normal at `v`, not normalised.
+  Vector4 normal(VertexIndex v) const;
+
+  /// Calls `use(a, b, c)` for every triangle, once.
+  template <typename Use>
+  void forEachTriangle(Use use) const
+  {
+    for (VertexIndex v = 0; v < this->indexEnd(); ++v)
+    {
+      const Ring& ring = this->ring(v);
+      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+      {
+        const VertexIndex b = ring[slot];
+        const VertexIndex c = ring[ring.after(slot)];
+        if (v < b && v < c)
+        {
+          use(v, b, c);
+        }
+      }
+    }
+  }
+  std::size_t triangleCount() const;
+
+  /// Vertex split of `v` along the edges in the slots `first` and `first + steps` of its ring
+  /// (counter-clockwise, steps >= 1): the new vertex takes over the edges from the one to the other
+  /// and is joined to `v`. Of a boundary vertex, one of the two must be its boundary edge.
+  bool canSplit(VertexIndex v, unsigned first, unsigned steps) const;
+  VertexIndex split(VertexIndex v, unsigned first, unsigned steps, Vector4 position);
+
+  /// Half-edge collapse: `removed` vanishes into its neighbour `kept`, which does not move.
+  /// Illegal: what breaks the link condition, a boundary vertex into an inner one or across an
+  /// inner edge, boundary loops of three edges, the edges of a tetrahedron.
+  bool canCollapse(VertexIndex removed, VertexIndex kept) const;
+  void collapse(VertexIndex removed, VertexIndex kept);
+
+  /// Edge flip: the inner edge a-b becomes the edge between the two vertices opposite to it.
+  bool canFlip(VertexIndex a, VertexIndex b) const;
+  void flip(VertexIndex a, VertexIndex b);
+
+  /// Removes a triangle. Where its removal would leave two fans at a vertex, the smaller one gets a
+  /// vertex of its own at the same place; vertices left without triangles are erased.
+  struct RemovedTriangle;
+  RemovedTriangle removeTriangle(const Triangle& triangle);
+
+  /// Memory for `count` indices: up to there no operation allocates.
+  void reserve(std::size_t count);
+  /// Lets the indices of erased vertices be used again.
+  void releaseErased();
+  /// Gives the vertex `order[i]` the index i, for all vertices; erased ones vanish.
+  void renumber(std::span<const VertexIndex> order);
+
+  /// Turns all triangles of the given vertices, which must be whole components, inside out.
+  void reverseOrientation(std::span<const VertexIndex> component);
+
+private:
+  VertexIndex newVertex(Vector4 position);
+  void eraseVertex(VertexIndex v);
+
+  std::vector<Ring> rings_;
+  std::vector<Vector4> positions_;
+  std::vector<VertexIndex> erased_;
+  std::vector<VertexIndex> reusable_;
+  std::size_t vertexCount_ = 0;
+};
+
+/// What removeTriangle() did: up to three vertices each, the rest NoVertex.
+struct Mesh::RemovedTriangle
+{
+  struct Duplicate
+  {
+    VertexIndex original = NoVertex;
+    VertexIndex duplicate = NoVertex;
+  };
+  std::array<Duplicate, 3> duplicates;
+  std::array<VertexIndex, 3> erased{ NoVertex, NoVertex, NoVertex };
+};
+
+struct Mesh::FromTriangles
+{
+  std::optional<Mesh> mesh;
+  std::string error; ///< empty if there is a mesh
+};
+}

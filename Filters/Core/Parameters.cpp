@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Parameters.h"
+
+#include <cmath>
+
+namespace neuralmesh
+{
+Parameters Parameters::of(Preset preset, Variant variant)
+{
+  Parameters parameters;
+  parameters.variant = variant;
+  if (preset == Preset::Thesis)
+  {
+    parameters.smoothingRate = 0.05;
+    parameters.smoothingIterations = variant == Variant::Basic ? 5 : 1;
+    parameters.outlierLimit = 0.;
+    parameters.earlyPatience = 1.;
+    parameters.additionsPerRemoval = 125;
+    parameters.valenceFlips = false;
+    parameters.batchSize = 1;
+  }
+  return parameters;
+}
+
+std::vector<std::string> Parameters::warnings(std::size_t pointCount) const
+{
+  std::vector<std::string> warnings;
+  // (6.18)
+  const double expansion = std::exp(-this->removalPatience) * this->samplesPerAddition;
+  if (this->removalPatience <= expansion)
+  {
+    warnings.push_back("The mesh may not grow: RemovalPatience (C_ec) should exceed "
+                       "exp(-C_ec) * SamplesPerAddition = " +
+      std::to_string(expansion) + ", as (6.18) demands.");
+  }
+  if (this->numberOfVertices > pointCount)
+  {
+    warnings.push_back(std::to_string(this->numberOfVertices) + " vertices from " +
+      std::to_string(pointCount) +
+      " points: beyond one vertex a point the mesh follows single points, not the surface.");
+  }
+  return warnings;
+}
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace neuralmesh
+{
+enum class Variant
+{
+  Basic,         ///< Algorithm 1
+  NoiseFiltering ///< Algorithm 4
+};
+
+enum class Preset
+{
+  Default, ///< what measures best
+  Thesis   ///< the thesis's own values and nothing that it lacks
+};
+
+/// All parameters of a run, with the product's defaults. Equation and section numbers are those of W. Saleem, A flexible
+/// framework for learning-based surface reconstruction, 2004. Ranges stand with the properties of
+/// vtkNeuralMesh, which are named alike.
+struct Parameters
+{
+  Variant variant = Variant::NoiseFiltering;
+  std::uint64_t seed = 1;
+
+  // Geometry learning
+  double winnerRate = 0.1;         ///< alpha_w (6.1), (9.1)
+  double smoothingRate = 0.2;      ///< alpha_L (6.4)
+  int smoothingIterations = 1;     ///< C_L
+  double counterDecay = 0.95;      ///< alpha_sc (6.6), basic variant
+  double counterHalfLife = 6.;     ///< lambda (9.4), samples per vertex, noise filtering
+  double noiseTolerance = 1.;      ///< alpha_f (9.2)
+  int noiseWindow = 1000;          ///< observations behind M_d and sigma_d
+  double outlierLimit = 5.;        ///< multiple of epsilon_t beyond which samples are rejected
+  int outlierLimitVertices = 1000; ///< no sample is rejected before M has so many vertices
+
+  // Growth
+  int samplesPerAddition = 50;  ///< C_vs
+  double earlyPatience = 4.;    ///< C_vs is multiplied by it at first
+  int earlyVertices = 1000;     ///< ... until M has so many vertices
+  int additionsPerRemoval = 10; ///< C_nr, noise filtering
+  double removalPatience = 10.; ///< C_ec, samples per vertex
+  bool valenceFlips = true;     ///< flips towards regular valences around splits, collapses
+
+  // Samples
+  int batchSize = 16384; ///< samples whose winners are searched at once, at most
+
+  // Stopping rules; 0 = none
+  std::uint64_t numberOfVertices = 20000;
+  std::uint64_t maximumIterations = 0;
+  double targetSampleDistance = 0.; ///< mean |s - v_w|, fraction of the diagonal
+  double targetCloudDistance = 0.;  ///< mean distance of P to M, fraction of the diagonal
+  double timeLimit = 0.;            ///< seconds
+  double stallPatience = 200.;      ///< samples per vertex without growth
+
+  /// The values of the thesis for a variant, or those of the product.
+  static Parameters of(Preset preset, Variant variant);
+
+  /// What does not go together in these values, or with a cloud of so many points, in words; empty
+  /// if all is well.
+  std::vector<std::string> warnings(std::size_t pointCount) const;
+};
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Vector4.h"
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// The point cloud P, made ready for learning: without points that are not finite, moved and scaled
+/// so that its bulk has about unit size around the origin (whatever the units and the offset of the
+/// input are, single precision then resolves 10^-7 of the object), in Morton order.
+class PointCloud
+{
+public:
+  /// Points farther from the bulk of the cloud than this many times its size are dropped, too: no
+  /// arithmetic could take both in.
+  static constexpr double FarthestPoint = 1e6;
+
+  explicit PointCloud(std::span<const Eigen::Vector3d> points);
+
+  std::span<const Vector4> points() const { return this->points_; }
+  std::size_t droppedCount() const { return this->droppedCount_; }
+  /// Whether there are two points apart from each other.
+  bool hasExtent() const { return this->diagonal_ > 0.; }
+
+  /// Diagonal of the bounding box of all points, after the scaling.
+  double diagonal() const { return this->diagonal_; }
+  /// The box of the bulk: without the outermost points, enlarged.
+  Vector4 bulkMin() const { return this->bulkMin_; }
+  Vector4 bulkMax() const { return this->bulkMax_; }
+
+  /// To the units of the input and back.
+  Eigen::Vector3d toInput(Vector4 point) const
+  {
+    return this->center_ + this->size_ * point.toDouble();
+  }
+  Vector4 fromInput(const Eigen::Vector3d& point) const
+  {
+    return Vector4(Eigen::Vector3d((point - this->center_) / this->size_));
+  }
+  /// Length of the unit of this cloud in the units of the input.
+  double unit() const { return this->size_; }
+
+private:
+  std::vector<Vector4> points_;
+  std::size_t droppedCount_ = 0;
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
+  double size_ = 1.;
+  double diagonal_ = 0.;
+  Vector4 bulkMin_;
+  Vector4 bulkMax_;
+};
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace neuralmesh
+{
+/// Deterministic random numbers: the SplitMix64 generator (Steele, Lea, Flood 2014). Integer
+/// arithmetic only, so that a seed gives the same stream on every platform. Streams of one seed
+/// with different names do not overlap in practice.
+class Random
+{
+public:
+  explicit Random(std::uint64_t seed, std::uint64_t stream = 0)
+    : state_(mix(seed + Golden) ^ mix(stream * Golden + 1))
+  {
+  }
+
+  std::uint64_t next()
+  {
+    this->state_ += Golden;
+    return mix(this->state_);
+  }
+
+  /// Uniform in 0 ... bound - 1.
+  std::uint32_t below(std::uint32_t bound)
+  {
+    return std::uint32_t(((this->next() >> 32) * bound) >> 32);
+  }
+
+  /// Uniform in [0, 1).
+  double uniform() { return double(this->next() >> 11) * 0x1p-53; }
+
+private:
+  static constexpr std::uint64_t Golden = 0x9e3779b97f4a7c15u;
+
+  static std::uint64_t mix(std::uint64_t z)
+  {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+
+  std::uint64_t state_;
+};
+}

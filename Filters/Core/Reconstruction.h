@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Learner.h"
+#include "StoppingRules.h"
+#include "TriangleMesh.h"
+
+#include <functional>
+#include <vector>
+
+namespace neuralmesh
+{
+/// Told how much of a run is done, 0 to 1; ends the run by returning false.
+using Progress = std::function<bool(double fraction)>;
+
+/// What a run gives, in the coordinates of the input.
+struct Reconstruction
+{
+  TriangleMesh mesh;
+  std::vector<Eigen::Vector3d> normals;
+  std::vector<double> activities;
+  RunCounts counts;
+  StopReason stopReason = StopReason::None;
+};
+
+/// Grows a mesh over a cloud that has an extent: from a tetrahedron until a stopping rule is met,
+/// then oriented outwards.
+Reconstruction reconstruct(
+  const PointCloud& cloud, const Parameters& parameters, const Progress& progress);
+}

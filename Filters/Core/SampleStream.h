@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "PointCloud.h"
+#include "Random.h"
+
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// The samples: points of the cloud, drawn uniformly at random with replacement, in batches. A
+/// batch comes roughly in Morton order, so that one sample finds in the cache what the one before
+/// it has used; which samples it holds depends on the seed alone.
+class SampleStream
+{
+public:
+  SampleStream(std::span<const Vector4> points, std::uint64_t seed) : points_(points), random_(seed)
+  {
+  }
+
+  /// The next `count` samples; valid until the next call.
+  std::span<const Vector4> draw(std::size_t count);
+
+private:
+  std::span<const Vector4> points_;
+  Random random_;
+  std::vector<std::uint32_t> drawn_;
+  std::vector<std::uint32_t> bucketBegin_;
+  std::vector<Vector4> batch_;
+};
+}

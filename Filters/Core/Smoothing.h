@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh.h"
+
+namespace neuralmesh
+{
+/// Where smoothing moves a vertex: `rate` (alpha_L) times the tangential part of its Laplacian,
+/// (6.2) to (6.4). The normal need not have unit length: L - (L.n) n / (n.n).
+inline Vector4 smoothedInnerPosition(
+  const Vector4* positions, Vector4 center, const Ring& ring, float rate)
+{
+  static constexpr std::array<float, Ring::Capacity + 1> inverse{ 0.f, 1.f, 1.f / 2.f, 1.f / 3.f,
+    1.f / 4.f, 1.f / 5.f, 1.f / 6.f, 1.f / 7.f, 1.f / 8.f, 1.f / 9.f, 1.f / 10.f, 1.f / 11.f,
+    1.f / 12.f, 1.f / 13.f, 1.f / 14.f, 1.f / 15.f };
+  Vector4 sum;
+  Vector4 normal;
+  Vector4 previous = positions[ring.back()] - center;
+  for (const VertexIndex neighbor : ring)
+  {
+    const Vector4 edge = positions[neighbor] - center;
+    sum += edge;
+    normal += crossBeforeRotation(previous, edge);
+    previous = edge;
+  }
+  normal = rotated(normal);
+  const float normalSquared = squaredNorm(normal);
+  const float along = normalSquared > 0.f ? dot(sum, normal) / normalSquared : 0.f;
+  return center + (rate * inverse[ring.size()]) * (sum - along * normal);
+}
+
+/// A boundary vertex moves along the boundary only. Across, smoothing would shorten the boundary
+/// and so close openings that are there.
+inline Vector4 smoothedBoundaryPosition(
+  const Vector4* positions, Vector4 center, const Ring& ring, float rate)
+{
+  const Vector4 first = positions[ring.front()];
+  const Vector4 last = positions[ring.back()];
+  const Vector4 tangent = last - first;
+  const float tangentSquared = squaredNorm(tangent);
+  const Vector4 laplacian = 0.5f * (first + last) - center;
+  const float along = tangentSquared > 0.f ? dot(laplacian, tangent) / tangentSquared : 0.f;
+  return center + (rate * along) * tangent;
+}
+
+inline Vector4 smoothedPosition(const Mesh& mesh, VertexIndex v, float rate)
+{
+  const Vector4* positions = mesh.positions().data();
+  const Ring& ring = mesh.ring(v);
+  return ring.isOpen() ? smoothedBoundaryPosition(positions, positions[v], ring, rate)
+                       : smoothedInnerPosition(positions, positions[v], ring, rate);
+}
+}

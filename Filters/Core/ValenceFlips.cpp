@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ValenceFlips.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Cosine of the angle between two normals from which on a flip may not bend the surface more.
+constexpr float CosineOfBend = 0.5f;
+constexpr int MaximumPasses = 4;
+
+/// By how much a flip of a-b to c-d lowers the sum of squared excesses of valence.
+int valenceGain(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
+{
+  return 2 *
+    (mesh.valenceExcess(a) + mesh.valenceExcess(b) - mesh.valenceExcess(c) -
+      mesh.valenceExcess(d)) -
+    4;
+}
+
+float cosine(Vector4 a, Vector4 b)
+{
+  const float lengths = std::sqrt(squaredNorm(a) * squaredNorm(b));
+  return lengths > 0.f ? dot(a, b) / lengths : -1.f;
+}
+
+bool keepsShape(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
+{
+  const Vector4 pa = mesh.position(a), pb = mesh.position(b);
+  const Vector4 pc = mesh.position(c), pd = mesh.position(d);
+  const Vector4 old1 = cross(pb - pa, pc - pa), old2 = cross(pa - pb, pd - pb);
+  const Vector4 new1 = cross(pd - pa, pc - pa), new2 = cross(pc - pb, pd - pb);
+  const Vector4 old = old1 + old2;
+  return dot(new1, old) > 0.f && dot(new2, old) > 0.f &&
+    cosine(new1, new2) >= std::min(CosineOfBend, cosine(old1, old2));
+}
+
+bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b)
+{
+  const Ring& ring = mesh.ring(a);
+  const unsigned slot = ring.find(b);
+  const VertexIndex c = ring.next(slot);
+  const VertexIndex d = ring.previous(slot);
+  if (c == NoVertex || d == NoVertex || valenceGain(mesh, a, b, c, d) <= 0 || !mesh.canFlip(a, b) ||
+    !keepsShape(mesh, a, b, c, d))
+  {
+    return false;
+  }
+  mesh.flip(a, b);
+  return true;
+}
+}
+
+unsigned improveValencesAround(Mesh& mesh, VertexIndex v)
+{
+  unsigned flips = 0;
+  bool improved = true;
+  for (int pass = 0; improved && pass < MaximumPasses; ++pass)
+  {
+    improved = false;
+    const Ring before = mesh.ring(v);
+    for (unsigned slot = 0; slot < before.size(); ++slot)
+    {
+      const VertexIndex neighbor = before[slot];
+      const VertexIndex next = before.next(slot);
+      const bool opposite = next != NoVertex && mesh.ring(neighbor).contains(next) &&
+        flipIfBetter(mesh, neighbor, next);
+      const bool spoke = mesh.ring(v).contains(neighbor) && flipIfBetter(mesh, v, neighbor);
+      flips += unsigned(opposite) + unsigned(spoke);
+      improved = improved || opposite || spoke;
+    }
+  }
+  return flips;
+}
+}

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VertexGrid.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+/// 64 MiB of block numbers at most.
+constexpr double MaximumBlockCount = double(1 << 24);
+/// So that a float tells coordinates in cells to within CellMargin.
+constexpr double MaximumBlocksAlong = double(1 << 12);
+constexpr float CellMargin = 0.01f;
+
+float squaredDistanceOf(std::uint64_t candidate)
+{
+  return std::bit_cast<float>(std::uint32_t(candidate >> 32));
+}
+}
+
+void VertexGrid::reset(Vector4 boxMin, Vector4 boxMax, float cellSize, std::size_t vertexCapacity)
+{
+  const Vector4 extent = boxMax - boxMin;
+  const auto blocksAlong = [&](int axis)
+  { return std::floor(double(extent[axis]) / (double(cellSize) * BlockWidth)) + 1.; };
+  const auto tooMany = [&]
+  {
+    const double x = blocksAlong(0), y = blocksAlong(1), z = blocksAlong(2);
+    return x * y * z > MaximumBlockCount || std::max({ x, y, z }) > MaximumBlocksAlong;
+  };
+  while (tooMany())
+  {
+    cellSize *= 1.25f;
+  }
+  this->origin_ = boxMin;
+  this->cellSize_ = cellSize;
+  this->inverseCellSize_ = 1.f / cellSize;
+  std::size_t blockCount = 1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto i = std::size_t(axis);
+    this->blockCounts_[i] = int(blocksAlong(axis));
+    this->cells_[i] = this->blockCounts_[i] * BlockWidth;
+    blockCount *= std::size_t(this->blockCounts_[i]);
+  }
+  this->lastCell_ =
+    Vector4(float(this->cells_[0] - 1), float(this->cells_[1] - 1), float(this->cells_[2] - 1));
+
+  // Every line but the empty one holds a vertex, so there are never more of them.
+  this->lines_.clear();
+  this->lines_.reserve(vertexCapacity + 1);
+  this->lines_.emplace_back();
+  this->freeLines_.clear();
+  this->freeLines_.reserve(vertexCapacity + 1);
+
+  const std::size_t blocksBefore = this->blocks_.size();
+  this->blocks_.clear();
+  this->blocks_.reserve(4 * blocksBefore + 8);
+  this->blocks_.emplace_back();
+  this->freeBlocks_.clear();
+  this->freeBlocks_.reserve(4 * blocksBefore + 8);
+  this->blockNumbers_.assign(blockCount, 0);
+}
+
+std::uint32_t VertexGrid::takeLine()
+{
+  if (!this->freeLines_.empty())
+  {
+    const std::uint32_t line = this->freeLines_.back();
+    this->freeLines_.pop_back();
+    return line;
+  }
+  this->lines_.emplace_back();
+  return std::uint32_t(this->lines_.size() - 1);
+}
+
+void VertexGrid::insertAt(CellIndex cell, VertexIndex v)
+{
+  std::uint32_t& blockNumber = this->blockNumbers_[this->blockOf(cell)];
+  if (blockNumber == 0)
+  {
+    if (this->freeBlocks_.empty())
+    {
+      this->blocks_.emplace_back();
+      this->freeBlocks_.push_back(std::uint32_t(this->blocks_.size() - 1));
+    }
+    blockNumber = this->freeBlocks_.back();
+    this->freeBlocks_.pop_back();
+  }
+  Block& block = this->blocks_[blockNumber];
+  std::uint32_t& first = block.lines[cellInBlock(cell)];
+  if (first == 0 || this->lines_[first].count == Line::Capacity)
+  {
+    block.cellCount += first == 0;
+    const std::uint32_t line = this->takeLine();
+    this->lines_[line].count = 0;
+    this->lines_[line].next = first;
+    first = line;
+  }
+  Line& line = this->lines_[first];
+  line.vertices[line.count++] = v;
+}
+
+void VertexGrid::eraseAt(CellIndex cell, VertexIndex v)
+{
+  std::uint32_t& blockNumber = this->blockNumbers_[this->blockOf(cell)];
+  Block& block = this->blocks_[blockNumber];
+  std::uint32_t& firstNumber = block.lines[cellInBlock(cell)];
+  Line& first = this->lines_[firstNumber];
+  for (std::uint32_t number = firstNumber; number != 0; number = this->lines_[number].next)
+  {
+    Line& line = this->lines_[number];
+    const auto end = line.vertices.begin() + line.count;
+    const auto place = std::find(line.vertices.begin(), end, v);
+    if (place == end)
+    {
+      continue;
+    }
+    *place = first.vertices[--first.count];
+    if (first.count == 0)
+    {
+      this->freeLines_.push_back(firstNumber);
+      firstNumber = first.next;
+      if (firstNumber == 0 && --block.cellCount == 0)
+      {
+        this->freeBlocks_.push_back(blockNumber);
+        blockNumber = 0;
+      }
+    }
+    return;
+  }
+  assert(false && "the grid was not told of this position");
+}
+
+VertexGrid::Candidate VertexGrid::searchCell(
+  std::uint32_t number, Vector4 sample, const Vector4* positions, Candidate best) const
+{
+  for (; number != 0; number = this->lines_[number].next)
+  {
+    const Line& line = this->lines_[number];
+    for (unsigned i = 0; i < line.count; ++i)
+    {
+      const VertexIndex v = line.vertices[i];
+      const auto distance = std::bit_cast<std::uint32_t>(squaredNorm(positions[v] - sample));
+      best = std::min(best, Candidate(distance) << 32 | v);
+    }
+  }
+  return best;
+}
+
+VertexGrid::Candidate VertexGrid::searchBall(
+  CellIndex home, Vector4 sample, const Vector4* positions, Candidate best) const
+{
+  // A hair more than the radius, so that rounding never hides a cell.
+  const float radius = 1.00001f * std::sqrt(squaredDistanceOf(best));
+  const Vector4 reach(radius, radius, radius);
+  const CellIndex low = this->cellOf(sample - reach);
+  const CellIndex high = this->cellOf(sample + reach);
+  for (int z = low.z; z <= high.z; ++z)
+  {
+    for (int y = low.y; y <= high.y; ++y)
+    {
+      for (int x = low.x; x <= high.x; ++x)
+      {
+        if (x != home.x || y != home.y || z != home.z)
+        {
+          best = this->searchCell(this->lineOf({ x, y, z }), sample, positions, best);
+        }
+      }
+    }
+  }
+  return best;
+}
+
+VertexGrid::Candidate VertexGrid::searchBlocks(
+  CellIndex home, Vector4 sample, const Vector4* positions) const
+{
+  const std::array<int, 3> homeBlock{ home.x >> BlockBits, home.y >> BlockBits,
+    home.z >> BlockBits };
+  const Vector4 inside = this->inCells(sample);
+  const int shells = *std::max_element(this->blockCounts_.begin(), this->blockCounts_.end());
+
+  // Squared distance in cells from the sample, as clamped to the box, to a slab of cells.
+  const auto slab = [](float coordinate, int begin, int end)
+  {
+    const float gap = std::max(float(begin) - coordinate, coordinate - float(end)) - CellMargin;
+    return gap > 0.f ? gap * gap : 0.f;
+  };
+  const float cellArea = this->cellSize_ * this->cellSize_;
+
+  Candidate best = NoCandidate;
+  const auto searchBlock = [&](int bx, int by, int bz)
+  {
+    const CellIndex corner{ bx * BlockWidth, by * BlockWidth, bz * BlockWidth };
+    const std::uint32_t number = this->blockNumbers_[this->blockOf(corner)];
+    if (number == 0)
+    {
+      return;
+    }
+    const Block& block = this->blocks_[number];
+    for (int z = 0; z < BlockWidth; ++z)
+    {
+      const float dz = slab(inside[2], corner.z + z, corner.z + z + 1);
+      for (int y = 0; y < BlockWidth; ++y)
+      {
+        const float dyz = dz + slab(inside[1], corner.y + y, corner.y + y + 1);
+        if (dyz * cellArea > squaredDistanceOf(best))
+        {
+          continue;
+        }
+        for (int x = 0; x < BlockWidth; ++x)
+        {
+          const std::uint32_t line = block.lines[cellInBlock({ x, y, z })];
+          const float d = dyz + slab(inside[0], corner.x + x, corner.x + x + 1);
+          if (line != 0 && d * cellArea <= squaredDistanceOf(best))
+          {
+            best = this->searchCell(line, sample, positions, best);
+          }
+        }
+      }
+    }
+  };
+
+  for (int shell = 0; shell < shells; ++shell)
+  {
+    const float gap = (float((shell - 1) * BlockWidth) - CellMargin) * this->cellSize_;
+    if (shell > 1 && gap * gap > squaredDistanceOf(best))
+    {
+      break;
+    }
+    const auto from = [&](std::size_t axis) { return std::max(homeBlock[axis] - shell, 0); };
+    const auto to = [&](std::size_t axis)
+    { return std::min(homeBlock[axis] + shell, this->blockCounts_[axis] - 1); };
+    for (int bz = from(2); bz <= to(2); ++bz)
+    {
+      for (int by = from(1); by <= to(1); ++by)
+      {
+        const bool wholeRow =
+          std::abs(bz - homeBlock[2]) == shell || std::abs(by - homeBlock[1]) == shell;
+        const int step = wholeRow || shell == 0 ? 1 : 2 * shell;
+        for (int bx = wholeRow ? from(0) : homeBlock[0] - shell; bx <= to(0); bx += step)
+        {
+          if (bx >= 0)
+          {
+            searchBlock(bx, by, bz);
+          }
+        }
+      }
+    }
+  }
+  return best;
+}
+
+VertexGrid::Candidate VertexGrid::searchOctant(
+  CellIndex home, Vector4 sample, const Vector4* positions) const
+{
+  const Vector4 inside = this->inCells(sample);
+  const auto neighbor = [&](int axis, int cell)
+  {
+    const int other = inside[axis] - float(cell) < 0.5f ? cell - 1 : cell + 1;
+    return std::clamp(other, 0, this->cells_[std::size_t(axis)] - 1);
+  };
+  const CellIndex other{ neighbor(0, home.x), neighbor(1, home.y), neighbor(2, home.z) };
+  Candidate best = NoCandidate;
+  for (unsigned corner = 1; corner < 8; ++corner)
+  {
+    const CellIndex cell{ corner & 1 ? other.x : home.x, corner & 2 ? other.y : home.y,
+      corner & 4 ? other.z : home.z };
+    best = this->searchCell(this->lineOf(cell), sample, positions, best);
+  }
+  return best;
+}
+
+VertexIndex VertexGrid::closest(Vector4 sample, std::span<const Vector4> positions) const
+{
+  const CellIndex home = this->cellOf(sample);
+  Candidate best = this->searchCell(this->lineOf(home), sample, positions.data(), NoCandidate);
+  if (best == NoCandidate)
+  {
+    best = this->searchOctant(home, sample, positions.data());
+  }
+  best = best != NoCandidate ? this->searchBall(home, sample, positions.data(), best)
+                             : this->searchBlocks(home, sample, positions.data());
+  return VertexIndex(best & NoVertex);
+}
+}

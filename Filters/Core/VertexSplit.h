@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh.h"
+
+#include <optional>
+
+namespace neuralmesh
+{
+/// How to split a vertex (6.2.1): the slots that Mesh::split() takes, and where the new vertex goes.
+struct VertexSplit
+{
+  unsigned first = 0;
+  unsigned steps = 0;
+  Vector4 position; ///< midpoint of the longest edge
+};
+
+/// The longest edge at `v`, and the two edges that divide the edge star in half around it. At a
+/// boundary the longest boundary edge, and the edge in the middle of the star; a boundary vertex of
+/// valence below 4 is not split (chapter 7). Nothing if the split is not legal.
+std::optional<VertexSplit> planVertexSplit(const Mesh& mesh, VertexIndex v);
+
+/// Area of the restricted Voronoi cell of a vertex, F_v of (6.19).
+double restrictedVoronoiArea(const Mesh& mesh, VertexIndex v);
+}

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNeuralMesh.h"
+
+#include "Reconstruction.h"
+#include "vtkPointCloudCollector.h"
+
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkNeuralMesh);
+
+// The parameters that a preset sets, as (name of the property, name in the core).
+#define NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(use)                                                 \
+  use(WinnerRate, winnerRate) use(SmoothingRate, smoothingRate)                                    \
+    use(SmoothingIterations, smoothingIterations) use(CounterDecay, counterDecay)                  \
+      use(CounterHalfLife, counterHalfLife) use(NoiseTolerance, noiseTolerance)                    \
+        use(NoiseWindow, noiseWindow) use(OutlierLimit, outlierLimit)                              \
+          use(OutlierLimitVertices, outlierLimitVertices)                                          \
+            use(SamplesPerAddition, samplesPerAddition) use(EarlyPatience, earlyPatience)          \
+              use(EarlyVertices, earlyVertices) use(AdditionsPerRemoval, additionsPerRemoval)      \
+                use(RemovalPatience, removalPatience) use(ValenceFlips, valenceFlips)              \
+                  use(BatchSize, batchSize)
+
+// The others that the core knows.
+#define NEURAL_MESH_FOR_EACH_OTHER_PARAMETER(use)                                                  \
+  use(NumberOfVertices, numberOfVertices) use(Seed, seed) use(Variant, variant)                    \
+    use(MaximumIterations, maximumIterations) use(TargetSampleDistance, targetSampleDistance)      \
+      use(TargetCloudDistance, targetCloudDistance) use(TimeLimit, timeLimit)                      \
+        use(StallPatience, stallPatience)
+
+namespace
+{
+/// Progress is reported in steps of this size.
+constexpr double ProgressStep = 0.01;
+
+template <typename ArrayT, typename ValueT>
+void AddFieldValue(vtkPolyData* output, const char* name, ValueT value)
+{
+  vtkNew<ArrayT> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+
+vtkNew<vtkPoints> MakePoints(const std::vector<Eigen::Vector3d>& positions, int precision)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(precision == vtkAlgorithm::DOUBLE_PRECISION ? VTK_DOUBLE : VTK_FLOAT);
+  points->SetNumberOfPoints(static_cast<vtkIdType>(positions.size()));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    points->SetPoint(static_cast<vtkIdType>(i), positions[i].data());
+  }
+  return points;
+}
+
+vtkNew<vtkCellArray> MakeTriangles(const neuralmesh::TriangleMesh& mesh)
+{
+  vtkNew<vtkIdTypeArray> connectivity;
+  connectivity->SetNumberOfValues(3 * static_cast<vtkIdType>(mesh.triangles.size()));
+  vtkIdType* corner = connectivity->GetPointer(0);
+  for (const auto& triangle : mesh.triangles)
+  {
+    corner = std::copy(triangle.begin(), triangle.end(), corner);
+  }
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(3, connectivity);
+  return cells;
+}
+
+vtkNew<vtkFloatArray> MakeNormals(const std::vector<Eigen::Vector3d>& normals)
+{
+  vtkNew<vtkFloatArray> array;
+  array->SetName("Normals");
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(normals.size()));
+  for (std::size_t i = 0; i < normals.size(); ++i)
+  {
+    array->SetTuple(static_cast<vtkIdType>(i), normals[i].data());
+  }
+  return array;
+}
+
+vtkNew<vtkDoubleArray> MakeActivity(const std::vector<double>& activities)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("Activity");
+  array->SetNumberOfValues(static_cast<vtkIdType>(activities.size()));
+  std::copy(activities.begin(), activities.end(), array->GetPointer(0));
+  return array;
+}
+}
+
+vtkNeuralMesh::vtkNeuralMesh()
+{
+  this->StallPatience = neuralmesh::Parameters().stallPatience;
+  this->SetPreset(DEFAULT);
+}
+
+vtkNeuralMesh::~vtkNeuralMesh() = default;
+
+void vtkNeuralMesh::SetPreset(int preset)
+{
+  this->Preset = std::clamp<int>(preset, DEFAULT, THESIS);
+  const auto values = neuralmesh::Parameters::of(
+    this->Preset == THESIS ? neuralmesh::Preset::Thesis : neuralmesh::Preset::Default,
+    this->Variant == BASIC ? neuralmesh::Variant::Basic : neuralmesh::Variant::NoiseFiltering);
+#define SET_PROPERTY(property, parameter) this->property = values.parameter;
+  NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(SET_PROPERTY)
+#undef SET_PROPERTY
+  this->Modified();
+}
+
+int vtkNeuralMesh::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (!this->Superclass::FillInputPortInformation(port, info))
+  {
+    return 0;
+  }
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+int vtkNeuralMesh::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  this->StopReason = "none";
+
+  vtkPointCloudCollector collector;
+  collector.Collect(vtkDataObject::GetData(inputVector[0]));
+  if (collector.GetNumberOfOtherLeaves() > 0)
+  {
+    vtkWarningMacro(<< collector.GetNumberOfOtherLeaves()
+                    << " blocks are no point sets and were left out.");
+  }
+  if (collector.GetPoints().empty())
+  {
+    return 1;
+  }
+  const neuralmesh::PointCloud cloud(collector.GetPoints());
+  collector.ReleasePoints();
+  if (!cloud.hasExtent())
+  {
+    vtkErrorMacro(<< (cloud.points().empty() ? "No point of the input is finite."
+                                             : "All points of the input coincide."));
+    return 0;
+  }
+
+  neuralmesh::Parameters parameters;
+#define SET_PARAMETER(property, parameter)                                                         \
+  parameters.parameter = static_cast<decltype(parameters.parameter)>(this->property);
+  NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(SET_PARAMETER)
+  NEURAL_MESH_FOR_EACH_OTHER_PARAMETER(SET_PARAMETER)
+#undef SET_PARAMETER
+  for (const std::string& warning : parameters.warnings(cloud.points().size()))
+  {
+    vtkWarningMacro(<< warning);
+  }
+
+  double reported = 0.0;
+  const auto progress = [this, &reported](double fraction)
+  {
+    if (fraction >= reported + ProgressStep)
+    {
+      reported = fraction;
+      this->UpdateProgress(fraction);
+    }
+    // Not CheckAbort(): it would have the executive throw away the mesh learnt so far.
+    return !this->GetAbortExecute();
+  };
+  const neuralmesh::Reconstruction result = neuralmesh::reconstruct(cloud, parameters, progress);
+  this->StopReason = neuralmesh::name(result.stopReason).data();
+
+  int precision = this->OutputPointsPrecision;
+  if (precision == DEFAULT_PRECISION)
+  {
+    precision = collector.HasDoublePoints() ? DOUBLE_PRECISION : SINGLE_PRECISION;
+  }
+  output->SetPoints(MakePoints(result.mesh.points, precision));
+  output->SetPolys(MakeTriangles(result.mesh));
+  output->GetPointData()->SetNormals(MakeNormals(result.normals));
+  output->GetPointData()->AddArray(MakeActivity(result.activities));
+
+  AddFieldValue<vtkIdTypeArray>(output, "NumberOfVertices", output->GetNumberOfPoints());
+  AddFieldValue<vtkIdTypeArray>(
+    output, "Iterations", static_cast<vtkIdType>(result.counts.iterations));
+  AddFieldValue<vtkIdTypeArray>(output, "Seed", this->Seed);
+  AddFieldValue<vtkStringArray>(output, "StopReason", this->StopReason);
+  AddFieldValue<vtkIdTypeArray>(
+    output, "DroppedPoints", static_cast<vtkIdType>(cloud.droppedCount()));
+  return 1;
+}
+
+void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Preset: " << (this->Preset == THESIS ? "Thesis" : "Default") << "\n";
+#define PRINT_PROPERTY(property, parameter)                                                        \
+  os << indent << #property ": " << this->property << "\n";
+  NEURAL_MESH_FOR_EACH_OTHER_PARAMETER(PRINT_PROPERTY)
+  NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(PRINT_PROPERTY)
+#undef PRINT_PROPERTY
+  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  os << indent << "StopReason: " << this->StopReason << "\n";
+}

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkNeuralMesh
+ * @brief   triangle mesh of a wanted size from a raw point cloud, by learning
+ *
+ * vtkNeuralMesh turns an unorganised point cloud into a triangle mesh with as many vertices as are
+ * asked for. It needs no normals and no connectivity, and it averages noise out. The mesh starts as
+ * a tetrahedron. Again and again a random point of the cloud, the sample, is drawn; the vertex
+ * closest to it, the winner, moves towards it, and the neighbours of the winner are smoothed. Where
+ * vertices win often, the mesh grows by a vertex split; where they hardly ever win, by half-edge
+ * collapses it shrinks. So the vertices come to be spread as the points of the cloud are.
+ *
+ * The time grows as n log n with the number n of vertices, and hardly with the number of points.
+ *
+ * @par Input
+ * Any vtkPointSet, of which only the points count, or a composite dataset, of which all point sets
+ * are taken as one cloud (other leaves are left out with a warning). Ghost points and blanked
+ * points are skipped. Points with NaN or infinity, and those farther than 10^6 times the size of
+ * the cloud's bulk from it, are dropped and counted. Duplicates do no harm. Coordinates may be
+ * large against the extent (UTM, say): the filter computes in coordinates of its own.
+ * An input without points gives an empty output. An input whose points all coincide, or of which
+ * none is finite, is an error.
+ *
+ * @par Output
+ * vtkPolyData with triangles: an oriented 2-manifold without unused points; closed components are
+ * oriented outwards. Point data:
+ * - `Normals` (float, 3 components): area-weighted unit normals, the active normals;
+ * - `Activity` (double): the signal counter of the vertex, in wins.
+ *
+ * Field data, one value each: `NumberOfVertices`, `Iterations` (samples drawn), `Seed`,
+ * `StopReason` (a string: see GetStopReason()), `DroppedPoints`.
+ *
+ * The same input and seed give the same bytes, on any number of threads; another seed gives another
+ * mesh of the same quality. This holds as long as TimeLimit is not met.
+ *
+ * @par What it does not do
+ * The result has the topology of a sphere: handles and boundaries of the shape are covered by
+ * triangles. The mesh approximates: vertices lie near the points, not on them. Interpolation of
+ * the points is done by vtkDelaunay3D or vtkSurfaceReconstructionFilter; where there are reliable
+ * oriented normals, vtkSignedDistance with vtkExtractSurface is an alternative.
+ *
+ * @par Sources
+ * W. Saleem, A flexible framework for learning-based surface reconstruction, Universitaet des
+ * Saarlandes and MPI Informatik, 2004. Equation numbers below are of this thesis. The basic method:
+ * I. Ivrissimtzis, W.-K. Jeong, H.-P. Seidel, Using growing cell structures for surface
+ * reconstruction, Shape Modeling International 2003; the noise filter: I. Ivrissimtzis, W.-K.
+ * Jeong, S. Lee, Y. Lee, H.-P. Seidel, Neural meshes: surface reconstruction with a learning
+ * algorithm, 2004.
+ *
+ * @sa vtkSurfaceReconstructionFilter vtkExtractSurface vtkHausdorffDistancePointSetFilter
+ */
+
+#ifndef vtkNeuralMesh_h
+#define vtkNeuralMesh_h
+
+#include "vtkFiltersNeuralMeshModule.h" // For export macro
+#include "vtkPolyDataAlgorithm.h"
+
+class VTKFILTERSNEURALMESH_EXPORT vtkNeuralMesh : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkNeuralMesh* New();
+  vtkTypeMacro(vtkNeuralMesh, vtkPolyDataAlgorithm)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * How many vertices the mesh shall have: exactly so many, unless another stopping rule is met
+   * first. More than there are points makes sense seldom and gives a warning.
+   * Default 20000, at least 4, at most 1000000000.
+   */
+  vtkSetClampMacro(NumberOfVertices, vtkIdType, 4, 1000000000);
+  vtkGetMacro(NumberOfVertices, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Seed of the random numbers: which samples are drawn in which order. Default 1, at least 0.
+   */
+  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+  enum VariantType
+  {
+    BASIC,
+    NOISE_FILTERING
+  };
+
+  ///@{
+  /**
+   * Variant of the method. BASIC is Algorithm 1: every sample pulls alike, and vertices that have
+   * not won for a while are removed all at once. NOISE_FILTERING (default) is Algorithm 4: samples
+   * far from the mesh pull less than their distance would have it, and vertices are removed a few
+   * at a time.
+   */
+  vtkSetClampMacro(Variant, int, BASIC, NOISE_FILTERING);
+  vtkGetMacro(Variant, int);
+  void SetVariantToBasic() { this->SetVariant(BASIC); }
+  void SetVariantToNoiseFiltering() { this->SetVariant(NOISE_FILTERING); }
+  ///@}
+
+  enum PresetType
+  {
+    DEFAULT,
+    THESIS
+  };
+
+  ///@{
+  /**
+   * Sets all parameters of learning and growth, from WinnerRate to BatchSize below: to the defaults
+   * named there, or to those of the thesis for the current variant, without anything that the
+   * thesis lacks (valence flips, rejection of outliers, patience at first, batches). So choose the
+   * variant first, then the preset, then single values. Default DEFAULT.
+   */
+  void SetPreset(int preset);
+  vtkGetMacro(Preset, int);
+  void SetPresetToDefault() { this->SetPreset(DEFAULT); }
+  void SetPresetToThesis() { this->SetPreset(THESIS); }
+  ///@}
+
+  ///@{
+  /**
+   * alpha_w of (6.1) and (9.1): how far the winner moves towards the sample, as a fraction of the
+   * way. More learns faster and leaves more folds. Default 0.1 (thesis 0.1), range 0 to 1.
+   */
+  vtkSetClampMacro(WinnerRate, double, 0.0, 1.0);
+  vtkGetMacro(WinnerRate, double);
+  ///@}
+
+  ///@{
+  /**
+   * alpha_L of (6.4): how far the neighbours of the winner move along their tangential Laplacian,
+   * as a fraction. Default 0.2 (thesis 0.05), range 0 to 1.
+   */
+  vtkSetClampMacro(SmoothingRate, double, 0.0, 1.0);
+  vtkGetMacro(SmoothingRate, double);
+  ///@}
+
+  ///@{
+  /**
+   * C_L of chapter 6: how often the neighbours of the winner are smoothed for each sample. More
+   * gives rounder triangles, takes time and blurs.
+   * Default 1 (thesis: 5 in the basic variant, else 1), range 0 to 100.
+   */
+  vtkSetClampMacro(SmoothingIterations, int, 0, 100);
+  vtkGetMacro(SmoothingIterations, int);
+  ///@}
+
+  ///@{
+  /**
+   * alpha_sc of (6.6), basic variant: what is left of all signal counters after each sample.
+   * Default 0.95 (thesis 0.95), range 0.01 to 1.
+   */
+  vtkSetClampMacro(CounterDecay, double, 0.01, 1.0);
+  vtkGetMacro(CounterDecay, double);
+  ///@}
+
+  ///@{
+  /**
+   * lambda of (9.4), noise-filtering variant: the number of samples per vertex in which a signal
+   * counter falls to its half. Default 6 (thesis 6), range 0.01 to 1000000.
+   */
+  vtkSetClampMacro(CounterHalfLife, double, 0.01, 1e6);
+  vtkGetMacro(CounterHalfLife, double);
+  ///@}
+
+  ///@{
+  /**
+   * alpha_f of section 9, noise-filtering variant: samples farther from their winner than
+   * epsilon_t, the mean distance plus so many standard deviations, pull as if they were at
+   * epsilon_t (9.2). Default 1 (thesis 1), range 0 to 1000.
+   */
+  vtkSetClampMacro(NoiseTolerance, double, 0.0, 1000.0);
+  vtkGetMacro(NoiseTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Number of distances between sample and winner behind the mean and the standard deviation above,
+   * and behind TargetSampleDistance. In large batches only every so-many-th sample is observed, so
+   * that the distances come from everywhere. Default 1000 (thesis 1000), range 2 to 1000000.
+   */
+  vtkSetClampMacro(NoiseWindow, int, 2, 1000000);
+  vtkGetMacro(NoiseWindow, int);
+  ///@}
+
+  ///@{
+  /**
+   * Noise-filtering variant: samples farther from their winner than this multiple of epsilon_t are
+   * outliers, from which nothing is learnt; 0 learns from all. Default 5 (thesis 0), range 0 to
+   * 1000000.
+   */
+  vtkSetClampMacro(OutlierLimit, double, 0.0, 1e6);
+  vtkGetMacro(OutlierLimit, double);
+  ///@}
+
+  ///@{
+  /**
+   * OutlierLimit holds from so many vertices on: before, the mesh does not know the rough shape,
+   * and what is far from it need not be an outlier. Default 1000, at least 4.
+   */
+  vtkSetClampMacro(OutlierLimitVertices, int, 4, VTK_INT_MAX);
+  vtkGetMacro(OutlierLimitVertices, int);
+  ///@}
+
+  ///@{
+  /**
+   * C_vs of chapter 6: the number of samples between two vertex splits. The time is in proportion.
+   * More follows the cloud closer; less makes misplaced vertices more frequent, of which the
+   * maximum of the distances tells sooner than the mean.
+   * Default 50 (thesis 50), range 1 to 1000000.
+   */
+  vtkSetClampMacro(SamplesPerAddition, int, 1, 1000000);
+  vtkGetMacro(SamplesPerAddition, int);
+  ///@}
+
+  ///@{
+  /**
+   * SamplesPerAddition is multiplied by this as long as the mesh has less than EarlyVertices
+   * vertices, while it learns the rough shape: that makes twists and bridges rarer.
+   * Default 4 (thesis 1), range 0.01 to 1000.
+   */
+  vtkSetClampMacro(EarlyPatience, double, 0.01, 1000.0);
+  vtkGetMacro(EarlyPatience, double);
+  ///@}
+
+  ///@{
+  /**
+   * See EarlyPatience. Default 1000, at least 0.
+   */
+  vtkSetClampMacro(EarlyVertices, int, 0, VTK_INT_MAX);
+  vtkGetMacro(EarlyVertices, int);
+  ///@}
+
+  ///@{
+  /**
+   * C_nr of section 9.1, noise-filtering variant: the number of vertex splits between two removals
+   * of the laziest vertices. Default 10 (thesis 125), range 1 to 1000000.
+   */
+  vtkSetClampMacro(AdditionsPerRemoval, int, 1, 1000000);
+  vtkGetMacro(AdditionsPerRemoval, int);
+  ///@}
+
+  ///@{
+  /**
+   * C_ec of chapters 6 and 9: the number of samples per vertex in which a vertex must win so as not
+   * to be removed. Growth needs C_ec > exp(-C_ec) C_vs (6.18); less gives a warning, and maybe a
+   * mesh that stalls. Default 10 (thesis 10), range 0.01 to 1000000.
+   */
+  vtkSetClampMacro(RemovalPatience, double, 0.01, 1e6);
+  vtkGetMacro(RemovalPatience, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether edges are flipped around vertex splits and collapses where that brings valences closer
+   * to 6 without folds. Default on (thesis off).
+   */
+  vtkSetMacro(ValenceFlips, vtkTypeBool);
+  vtkGetMacro(ValenceFlips, vtkTypeBool);
+  vtkBooleanMacro(ValenceFlips, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * The largest number of samples that are drawn at once; there is never more than one for sixteen
+   * vertices. The winners of a batch are searched before it is learnt, which is faster by far.
+   * Another size gives another mesh of the same quality. Default 16384 (thesis 1, one by one),
+   * range 1 to 1048576.
+   */
+  vtkSetClampMacro(BatchSize, int, 1, 1048576);
+  vtkGetMacro(BatchSize, int);
+  ///@}
+
+  ///@{
+  /**
+   * Stopping rule: the number of samples to draw at most; 0 for any number. Default 0.
+   */
+  vtkSetClampMacro(MaximumIterations, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(MaximumIterations, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Stopping rule: end when the mean distance between sample and winner over the last NoiseWindow
+   * observations is at most this fraction of the diagonal of the cloud's bounding box; 0 for never.
+   * Default 0, range 0 to 1.
+   */
+  vtkSetClampMacro(TargetSampleDistance, double, 0.0, 1.0);
+  vtkGetMacro(TargetSampleDistance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Stopping rule: end when the mean distance from the cloud to the surface is at most this
+   * fraction of the diagonal of the cloud's bounding box; 0 for never. Measured with 4096 points
+   * whenever the mesh has grown by a tenth. Default 0, range 0 to 1.
+   */
+  vtkSetClampMacro(TargetCloudDistance, double, 0.0, 1.0);
+  vtkGetMacro(TargetCloudDistance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Stopping rule: the number of seconds to learn at most; 0 for any. Results then depend on the
+   * machine. Default 0, at least 0.
+   */
+  vtkSetClampMacro(TimeLimit, double, 0.0, 1e9);
+  vtkGetMacro(TimeLimit, double);
+  ///@}
+
+  ///@{
+  /**
+   * Stopping rule: the run has stalled if in so many samples per vertex (of a mesh of at least 100
+   * vertices) there was no growth. Default 200, range 1 to 1e9.
+   */
+  vtkSetClampMacro(StallPatience, double, 1.0, 1e9);
+  vtkGetMacro(StallPatience, double);
+  ///@}
+
+  ///@{
+  /**
+   * Precision of the output points, a vtkAlgorithm::DesiredOutputPrecision. DEFAULT_PRECISION
+   * (default) is that of the input; double if blocks differ. Inside, positions are resolved to
+   * about 10^-7 of the extent in any case.
+   */
+  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
+  vtkGetMacro(OutputPointsPrecision, int);
+  ///@}
+
+  /**
+   * Why the last run ended: "vertices", "iterations", "sample distance", "cloud distance",
+   * "time limit", "stalled" or "cancelled"; "none" before the first.
+   */
+  const char* GetStopReason() const { return this->StopReason; }
+
+protected:
+  vtkNeuralMesh();
+  ~vtkNeuralMesh() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkNeuralMesh(const vtkNeuralMesh&) = delete;
+  void operator=(const vtkNeuralMesh&) = delete;
+
+  vtkIdType NumberOfVertices = 20000;
+  int Seed = 1;
+  int Variant = NOISE_FILTERING;
+  int Preset = DEFAULT;
+
+  double WinnerRate;
+  double SmoothingRate;
+  int SmoothingIterations;
+  double CounterDecay;
+  double CounterHalfLife;
+  double NoiseTolerance;
+  int NoiseWindow;
+  double OutlierLimit;
+  int OutlierLimitVertices;
+  int SamplesPerAddition;
+  double EarlyPatience;
+  int EarlyVertices;
+  int AdditionsPerRemoval;
+  double RemovalPatience;
+  vtkTypeBool ValenceFlips;
+  int BatchSize;
+
+  vtkIdType MaximumIterations = 0;
+  double TargetSampleDistance = 0.0;
+  double TargetCloudDistance = 0.0;
+  double TimeLimit = 0.0;
+  double StallPatience;
+
+  int OutputPointsPrecision = DEFAULT_PRECISION;
+  const char* StopReason = "none";
+};
+
+#endif

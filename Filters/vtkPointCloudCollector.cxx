@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPointCloudCollector.h"
+
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataArrayRange.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+
+void vtkPointCloudCollector::Collect(vtkDataObject* data)
+{
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    auto iterator = vtk::TakeSmartPointer(composite->NewIterator());
+    iterator->SkipEmptyNodesOn();
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      this->Collect(iterator->GetCurrentDataObject());
+    }
+  }
+  else if (auto* pointSet = vtkPointSet::SafeDownCast(data))
+  {
+    this->CollectPointSet(pointSet);
+  }
+  else if (data)
+  {
+    ++this->NumberOfOtherLeaves;
+  }
+}
+
+void vtkPointCloudCollector::CollectPointSet(vtkPointSet* pointSet)
+{
+  if (!pointSet->GetPoints() || pointSet->GetNumberOfPoints() == 0)
+  {
+    return;
+  }
+  vtkDataArray* coordinates = pointSet->GetPoints()->GetData();
+  this->DoublePoints = this->DoublePoints || coordinates->GetDataType() == VTK_DOUBLE;
+  auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
+    pointSet->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  constexpr unsigned char skipped =
+    vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
+
+  this->Points.reserve(
+    this->Points.size() + static_cast<std::size_t>(coordinates->GetNumberOfTuples()));
+  const auto append = [&](const auto& range)
+  {
+    vtkIdType i = 0;
+    for (const auto point : range)
+    {
+      if (!ghosts || (ghosts->GetValue(i) & skipped) == 0)
+      {
+        this->Points.emplace_back(point[0], point[1], point[2]);
+      }
+      ++i;
+    }
+  };
+  if (auto* floats = vtkFloatArray::SafeDownCast(coordinates))
+  {
+    append(vtk::DataArrayTupleRange<3>(floats));
+  }
+  else if (auto* doubles = vtkDoubleArray::SafeDownCast(coordinates))
+  {
+    append(vtk::DataArrayTupleRange<3>(doubles));
+  }
+  else
+  {
+    append(vtk::DataArrayTupleRange<3>(coordinates));
+  }
+}
