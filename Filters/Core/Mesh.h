@@ -6,9 +6,7 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace neuralmesh
@@ -31,12 +29,6 @@ public:
 
   /// A regular tetrahedron, outwards oriented.
   static Mesh tetrahedron(Vector4 center, float radius);
-
-  /// From the triangles of an oriented manifold, or why that is not possible. Points that no
-  /// triangle uses are left out; so indices may differ from those given.
-  struct FromTriangles;
-  static FromTriangles fromTriangles(
-    std::span<const Vector4> points, std::span<const Triangle> triangles);
 
   /// The number of vertices.
   std::size_t vertexCount() const { return this->vertexCount_; }
@@ -133,11 +125,5 @@ struct Mesh::RemovedTriangle
   };
   std::array<Duplicate, 3> duplicates;
   std::array<VertexIndex, 3> erased{ NoVertex, NoVertex, NoVertex };
-};
-
-struct Mesh::FromTriangles
-{
-  std::optional<Mesh> mesh;
-  std::string error; ///< empty if there is a mesh
 };
 }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ErrorCollector_h
+#define ErrorCollector_h
+
+#include "vtkCommand.h"
+
+#include <string>
+
+/**
+ * Observes the errors and warnings of a VTK object, which are then not printed. Errors are kept,
+ * the first one as the message; warnings go to stderr, as a line each.
+ */
+class ErrorCollector : public vtkCommand
+{
+public:
+  static ErrorCollector* New() { return new ErrorCollector; }
+  vtkTypeMacro(ErrorCollector, vtkCommand)
+
+  void Execute(vtkObject* caller, unsigned long event, void* callData) override;
+
+  /** From now on, the errors and warnings of `object`. */
+  void Observe(vtkObject* object);
+
+  bool HasError() const { return !this->Message.empty(); }
+  const std::string& GetMessage() const { return this->Message; }
+
+private:
+  std::string Message;
+};
+
+#endif

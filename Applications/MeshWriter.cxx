@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshWriter.h"
+
+#include "ErrorCollector.h"
+#include "FileExtension.h"
+
+#include "vtkErrorCode.h"
+#include "vtkNew.h"
+#include "vtkOBJWriter.h"
+#include "vtkPLYWriter.h"
+#include "vtkPolyData.h"
+#include "vtkSTLWriter.h"
+#include "vtkXMLPolyDataWriter.h"
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <type_traits>
+
+#include <unistd.h>
+
+namespace
+{
+template <typename WriterT>
+void WriteWith(vtkPolyData* mesh, const std::string& path)
+{
+  vtkNew<ErrorCollector> errors;
+  vtkNew<WriterT> writer;
+  errors->Observe(writer);
+  if constexpr (std::is_same_v<WriterT, vtkSTLWriter>)
+  {
+    writer->SetFileTypeToBinary();
+  }
+  writer->SetFileName(path.c_str());
+  writer->SetInputData(mesh);
+  const bool written = writer->Write() == 1;
+  if (errors->HasError())
+  {
+    throw std::runtime_error(errors->GetMessage());
+  }
+  if (!written || writer->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    throw std::runtime_error(vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+  }
+}
+
+using Write = std::function<void(vtkPolyData*, const std::string&)>;
+
+const std::map<std::string, Write>& Writers()
+{
+  static const std::map<std::string, Write> writers{
+    { ".vtp", WriteWith<vtkXMLPolyDataWriter> },
+    { ".ply", WriteWith<vtkPLYWriter> },
+    { ".obj", WriteWith<vtkOBJWriter> },
+    { ".stl", WriteWith<vtkSTLWriter> },
+  };
+  return writers;
+}
+}
+
+void RequireWritableExtension(const std::string& path)
+{
+  if (Writers().count(FileExtension(path)) == 0)
+  {
+    throw std::runtime_error(path + ": unknown extension; writable are .vtp .ply .obj .stl");
+  }
+}
+
+void WriteMesh(vtkPolyData* mesh, const std::string& path)
+{
+  RequireWritableExtension(path);
+  const std::filesystem::path target(path);
+  const std::string extension = FileExtension(path);
+  std::string name = ".";
+  name += target.stem().string() + "." + std::to_string(getpid()) + extension;
+  const std::filesystem::path temporary = target.parent_path() / name;
+  try
+  {
+    Writers().at(extension)(mesh, temporary.string());
+    std::filesystem::rename(temporary, target);
+  }
+  catch (const std::exception& error)
+  {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw std::runtime_error(path + ": cannot be written: " + error.what());
+  }
+}

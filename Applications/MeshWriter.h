@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef MeshWriter_h
+#define MeshWriter_h
+
+#include <string>
+
+class vtkPolyData;
+
+/** Throws std::runtime_error if WriteMesh() would not know the extension: to be asked early. */
+void RequireWritableExtension(const std::string& path);
+
+/**
+ * Writes a mesh, by the extension: .vtp .ply .obj .stl. The file is written under another name
+ * beside its own, and then renamed: nobody ever sees half of it, and if writing fails, what was
+ * there before stays. Throws std::runtime_error, with a message that names the file, on failure.
+ */
+void WriteMesh(vtkPolyData* mesh, const std::string& path);
+
+#endif

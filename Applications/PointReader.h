@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef PointReader_h
+#define PointReader_h
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+class vtkPointSet;
+
+/**
+ * Reads a file that holds points, by its extension: .ply .vtp .vtk .vtu .obj .stl, and as text .xyz
+ * .pts .txt .csv. Throws std::runtime_error, with a message that names the file, if it cannot be
+ * read or is of another kind.
+ */
+vtkSmartPointer<vtkPointSet> ReadPoints(const std::string& path);
+
+#endif

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReconstructCommand.h"
+
+#include "ErrorCollector.h"
+#include "LearningParameters.h"
+#include "MeshWriter.h"
+#include "PointReader.h"
+#include "ProgressBar.h"
+
+#include "vtkNeuralMesh.h"
+
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+namespace
+{
+struct Options
+{
+  std::string Input;
+  std::string Output;
+  long long Vertices = 20000;
+  int Seed = 1;
+  int Variant = vtkNeuralMesh::NOISE_FILTERING;
+  int Preset = vtkNeuralMesh::DEFAULT;
+  std::vector<std::string> Assignments;
+  double TimeLimit = 0.0;
+  bool Quiet = false;
+};
+
+class Stopwatch
+{
+public:
+  /** Seconds since the last call. */
+  double Lap()
+  {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - this->Last).count();
+    this->Last = now;
+    return seconds;
+  }
+
+private:
+  std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
+};
+
+long long FieldValue(vtkPolyData* mesh, const char* name)
+{
+  return static_cast<long long>(mesh->GetFieldData()->GetArray(name)->GetTuple1(0));
+}
+
+void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
+{
+  filter->SetNumberOfVertices(options.Vertices);
+  filter->SetSeed(options.Seed);
+  filter->SetVariant(options.Variant);
+  filter->SetPreset(options.Preset);
+  filter->SetTimeLimit(options.TimeLimit);
+  for (const std::string& assignment : options.Assignments)
+  {
+    SetLearningParameter(filter, assignment);
+  }
+}
+
+void Reconstruct(const Options& options)
+{
+  vtkNew<vtkNeuralMesh> filter;
+  PrepareFilter(filter, options);
+  RequireWritableExtension(options.Output);
+
+  Stopwatch stopwatch;
+  const auto points = ReadPoints(options.Input);
+  const double reading = stopwatch.Lap();
+
+  vtkNew<ErrorCollector> errors;
+  errors->Observe(filter);
+  vtkNew<ProgressBar> bar;
+  if (!options.Quiet)
+  {
+    bar->SetNumberOfVertices(options.Vertices);
+    filter->AddObserver(vtkCommand::ProgressEvent, bar);
+  }
+  filter->SetInputData(points);
+  filter->Update();
+  bar->Clear();
+  if (errors->HasError())
+  {
+    throw std::runtime_error(options.Input + ": " + errors->GetMessage());
+  }
+  vtkPolyData* mesh = filter->GetOutput();
+  if (mesh->GetNumberOfPoints() == 0)
+  {
+    throw std::runtime_error(options.Input + ": there are no points in it");
+  }
+  const double learning = stopwatch.Lap();
+
+  WriteMesh(mesh, options.Output);
+  const double writing = stopwatch.Lap();
+
+  if (!options.Quiet)
+  {
+    std::printf("points     %lld (%lld dropped)\n",
+      static_cast<long long>(points->GetNumberOfPoints()), FieldValue(mesh, "DroppedPoints"));
+    std::printf("vertices   %lld\n", static_cast<long long>(mesh->GetNumberOfPoints()));
+    std::printf("triangles  %lld\n", static_cast<long long>(mesh->GetNumberOfPolys()));
+    std::printf(
+      "samples    %lld, ended by: %s\n", FieldValue(mesh, "Iterations"), filter->GetStopReason());
+    std::printf("time       %.2f s (reading %.2f, learning %.2f, writing %.2f)\n",
+      reading + learning + writing, reading, learning, writing);
+  }
+}
+}
+
+std::function<void()> AddReconstructCommand(CLI::App& application)
+{
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+    application.add_subcommand("reconstruct", "Make a triangle mesh from a point cloud");
+  command
+    ->add_option("INPUT", options->Input,
+      "Points: .ply .vtp .vtk .vtu .obj .stl, or text: .xyz .pts .txt .csv")
+    ->required();
+  command->add_option("OUTPUT", options->Output, "Mesh: .vtp .ply .obj .stl")->required();
+  command->add_option("--vertices", options->Vertices, "Number of vertices, 4 to 1000000000")
+    ->check(CLI::Range(4LL, 1000000000LL))
+    ->capture_default_str();
+  command->add_option("--seed", options->Seed, "Seed of the random numbers, from 0 on")
+    ->check(CLI::Range(0, VTK_INT_MAX))
+    ->capture_default_str();
+  const std::map<std::string, int> variants{ { "basic", vtkNeuralMesh::BASIC },
+    { "noise", vtkNeuralMesh::NOISE_FILTERING } };
+  command
+    ->add_option("--method", options->Variant,
+      "basic: every sample pulls alike; noise (default): samples far off pull less")
+    ->transform(CLI::CheckedTransformer(variants).description("basic|noise"));
+  const std::map<std::string, int> presets{ { "default", vtkNeuralMesh::DEFAULT },
+    { "thesis", vtkNeuralMesh::THESIS } };
+  command
+    ->add_option("--preset", options->Preset,
+      "default: what measures best; thesis: the values of the thesis, nothing that it lacks")
+    ->transform(CLI::CheckedTransformer(presets).description("default|thesis"));
+  command->add_option("--set", options->Assignments, "Set a parameter of learning; see below")
+    ->type_name("NAME=VALUE")
+    ->take_all()
+    ->allow_extra_args(false);
+  command
+    ->add_option("--time-limit", options->TimeLimit,
+      "Seconds to learn at most; the mesh learnt so far is written (0: no limit)")
+    ->check(CLI::Range(0.0, 1e9));
+  command->add_flag("--quiet", options->Quiet, "Print nothing but errors and warnings");
+  command->footer("Parameters of learning (see the documentation of vtkNeuralMesh):\n" +
+    DescribeLearningParameters() +
+    "\nExit status: 0 done, 1 failed (the message is on stderr), 2 wrong use.");
+  return [options] { Reconstruct(*options); };
+}
