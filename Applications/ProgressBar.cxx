@@ -12,7 +12,10 @@ namespace
 constexpr int Width = 30;
 }
 
-ProgressBar::ProgressBar() : OnTerminal(isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar()
+  : OnTerminal(isatty(STDERR_FILENO) == 1)
+{
+}
 
 void ProgressBar::Execute(vtkObject*, unsigned long event, void* callData)
 {

@@ -25,7 +25,8 @@ enum Stream : std::uint64_t
 class SurfaceSampler
 {
 public:
-  explicit SurfaceSampler(const TriangleMesh& surface) : surface_(surface)
+  explicit SurfaceSampler(const TriangleMesh& surface)
+    : surface_(surface)
   {
     this->areaUpTo_.reserve(surface.triangles.size());
     double area = 0.;

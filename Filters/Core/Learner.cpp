@@ -60,21 +60,29 @@ float meanEdgeLength(const Mesh& mesh)
   }
   return float(sum / double(count));
 }
+
+Mesh firstTetrahedron(const PointCloud& cloud)
+{
+  const Vector4 center = max(min(meanOf(cloud.points()), cloud.bulkMax()), cloud.bulkMin());
+  return Mesh::tetrahedron(center, FirstRadius);
+}
 }
 
 Learner::Learner(const PointCloud& cloud, const Parameters& parameters)
-  : Learner(cloud, parameters,
-      Mesh::tetrahedron(
-        max(min(meanOf(cloud.points()), cloud.bulkMax()), cloud.bulkMin()), FirstRadius))
+  : Learner(cloud, parameters, firstTetrahedron(cloud), std::make_unique<ExactOrder>(4))
 {
 }
 
-Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh)
-  : parameters_(parameters), mesh_(std::move(mesh)),
-    order_(std::make_unique<ExactOrder>(mesh_.indexEnd())),
-    samples_(cloud.points(), parameters.seed),
-    sampleDistances_(std::size_t(parameters.noiseWindow)), boxMin_(cloud.bulkMin()),
-    boxMax_(cloud.bulkMax()), hasWon_(mesh_.indexEnd(), 1)
+Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh,
+  std::unique_ptr<ActivityOrder> order)
+  : parameters_(parameters)
+  , mesh_(std::move(mesh))
+  , order_(std::move(order))
+  , samples_(cloud.points(), parameters.seed)
+  , sampleDistances_(std::size_t(parameters.noiseWindow))
+  , boxMin_(cloud.bulkMin())
+  , boxMax_(cloud.bulkMax())
+  , hasWon_(mesh_.indexEnd(), 1)
 {
   this->renumber();
   this->nextAddition_ = std::uint64_t(this->parameters_.samplesPerAddition);

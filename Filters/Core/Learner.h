@@ -31,9 +31,11 @@ struct RunCounts
 class Learner
 {
 public:
-  /// Starts from `mesh`, in the coordinates of `cloud`, which must outlive the learner.
-  Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh);
-  /// Starts from a tetrahedron in the middle of the cloud.
+  /// Starts from `mesh`, in the coordinates of `cloud`, which must outlive the learner. `order` holds
+  /// the vertices of the mesh.
+  Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh,
+    std::unique_ptr<ActivityOrder> order);
+  /// Starts from a tetrahedron in the middle of the cloud, with exact counters.
   Learner(const PointCloud& cloud, const Parameters& parameters);
 
   /// Learns so many samples, batch by batch. Ends early once the mesh has as many vertices as were

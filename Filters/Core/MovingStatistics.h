@@ -12,7 +12,10 @@ namespace neuralmesh
 class MovingStatistics
 {
 public:
-  explicit MovingStatistics(std::size_t window) : observations_(window, 0.) {}
+  explicit MovingStatistics(std::size_t window)
+    : observations_(window, 0.)
+  {
+  }
 
   void add(double observation)
   {

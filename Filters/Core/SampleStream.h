@@ -15,7 +15,9 @@ namespace neuralmesh
 class SampleStream
 {
 public:
-  SampleStream(std::span<const Vector4> points, std::uint64_t seed) : points_(points), random_(seed)
+  SampleStream(std::span<const Vector4> points, std::uint64_t seed)
+    : points_(points)
+    , random_(seed)
   {
   }
 

@@ -43,7 +43,9 @@ std::string_view name(StopReason reason)
 }
 
 StoppingRules::StoppingRules(const PointCloud& cloud, const Parameters& parameters)
-  : cloud_(cloud), parameters_(parameters), nextCloudDistance_(FirstCloudDistance)
+  : cloud_(cloud)
+  , parameters_(parameters)
+  , nextCloudDistance_(FirstCloudDistance)
 {
 }
 

@@ -15,8 +15,14 @@ struct Vector4
   Lanes lanes{};
 
   Vector4() = default;
-  Vector4(Lanes values) : lanes(values) {}
-  Vector4(float x, float y, float z) : lanes{ x, y, z, 0.f } {}
+  Vector4(Lanes values)
+    : lanes(values)
+  {
+  }
+  Vector4(float x, float y, float z)
+    : lanes{ x, y, z, 0.f }
+  {
+  }
   explicit Vector4(const Eigen::Vector3d& v)
     : lanes{ float(v.x()), float(v.y()), float(v.z()), 0.f }
   {
