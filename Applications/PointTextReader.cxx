@@ -83,8 +83,10 @@ vtkSmartPointer<vtkPolyData> ReadPointText(const std::string& path)
     const bool isNames = !ParseNumber(first, number) && !third.empty();
     if (points->GetNumberOfPoints() > 0 || !(isCount || isNames))
     {
-      throw std::runtime_error(
-        path + ", line " + std::to_string(lineNumber) + ": this is not a point: " + text);
+      std::string message = path;
+      message.append(", line ").append(std::to_string(lineNumber));
+      message.append(": this is not a point: ").append(text);
+      throw std::runtime_error(message);
     }
   }
   if (file.bad())

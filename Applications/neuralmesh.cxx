@@ -10,9 +10,8 @@ namespace
 {
 constexpr int Failed = 1;
 constexpr int WrongUse = 2;
-}
 
-int main(int argc, char* argv[])
+int Run(int argc, char* argv[])
 {
   CLI::App application("Triangle meshes from point clouds, by learning", "neuralmesh");
   application.set_version_flag("--version", NEURALMESH_VERSION);
@@ -21,11 +20,21 @@ int main(int argc, char* argv[])
   try
   {
     application.parse(argc, argv);
-    reconstruct();
   }
   catch (const CLI::ParseError& error)
   {
     return application.exit(error) == 0 ? 0 : WrongUse;
+  }
+  reconstruct();
+  return 0;
+}
+}
+
+int main(int argc, char* argv[])
+{
+  try
+  {
+    return Run(argc, argv);
   }
   catch (const UsageError& error)
   {
@@ -37,5 +46,4 @@ int main(int argc, char* argv[])
     std::cerr << "neuralmesh: " << error.what() << std::endl;
     return Failed;
   }
-  return 0;
 }

@@ -17,6 +17,8 @@ public:
   /// An iteration in which `winner` won, worth `gain`, (6.5) or (8.3), before which all activities
   /// decayed by `decay`, (6.6), (8.4) or (9.4).
   virtual void win(VertexIndex winner, double gain, double decay) = 0;
+  /// Brings into the cache what a win of `winner` will need.
+  virtual void prefetch(VertexIndex winner) const = 0;
   /// An iteration without a winner.
   virtual void pass(double decay) = 0;
 

@@ -21,6 +21,7 @@ public:
   explicit ExactOrder(std::size_t count);
 
   void win(VertexIndex winner, double gain, double decay) override;
+  void prefetch(VertexIndex winner) const override { this->mostActive_.prefetch(winner); }
   void pass(double decay) override;
   VertexIndex top() const override { return this->mostActive_.first().vertex; }
   VertexIndex bottom() override;

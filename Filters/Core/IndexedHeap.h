@@ -28,6 +28,14 @@ public:
   const Entry& first() const { return this->entries_.front(); }
   const WideReal& key(VertexIndex v) const { return this->entries_[this->places_[v]].key; }
 
+  /// Brings the entry of `v` and the one above it into the cache.
+  void prefetch(VertexIndex v) const
+  {
+    const std::size_t place = this->places_[v];
+    __builtin_prefetch(&this->entries_[place]);
+    __builtin_prefetch(&this->entries_[(place > 0 ? place - 1 : 0) / Arity]);
+  }
+
   void insert(VertexIndex v, const WideReal& key)
   {
     if (v >= this->places_.size())

@@ -157,10 +157,13 @@ void Learner::prefetchAhead(std::size_t sample) const
   {
     const VertexIndex later = this->winners_[sample + PrefetchDistance];
     __builtin_prefetch(&this->mesh_.ring(later));
-    const Ring& ring = this->mesh_.ring(this->winners_[sample + PrefetchDistance / 2]);
+    const VertexIndex sooner = this->winners_[sample + PrefetchDistance / 2];
+    this->order_->prefetch(sooner);
+    const Ring& ring = this->mesh_.ring(sooner);
     for (const VertexIndex neighbor : ring)
     {
       __builtin_prefetch(&this->mesh_.ring(neighbor));
+      __builtin_prefetch(this->mesh_.positions().data() + neighbor);
     }
   }
 }

@@ -73,11 +73,12 @@ private:
 
   static constexpr int BlockBits = 3;
   static constexpr int BlockWidth = 1 << BlockBits;
+  static constexpr std::size_t CellsPerBlock = std::size_t(1) << (3 * BlockBits);
 
   /// First lines of the cells of a block. Block 0 stays empty: it stands for all empty ones.
   struct Block
   {
-    std::array<std::uint32_t, BlockWidth * BlockWidth * BlockWidth> lines{};
+    std::array<std::uint32_t, CellsPerBlock> lines{};
     std::uint32_t cellCount = 0;
   };
 

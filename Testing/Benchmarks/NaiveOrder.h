@@ -22,6 +22,7 @@ public:
   }
 
   void win(VertexIndex winner, double gain, double decay) override;
+  void prefetch(VertexIndex) const override {}
   void pass(double decay) override;
   VertexIndex top() const override;
   VertexIndex bottom() override;

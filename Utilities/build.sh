@@ -1,0 +1,33 @@
+# Sourced by demo.sh and test.sh: installs what is missing and builds. Debian 12, root or sudo.
+
+# The build with ParaView's VTK.
+build_packages=(g++ cmake ninja-build paraview-dev python3-paraview libopenmpi-dev libcli11-dev)
+
+# Installs those of the given Debian packages that are missing.
+install_packages()
+{
+  local missing=() package
+  for package in "$@"; do
+    if [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" != installed ]; then
+      missing+=("$package")
+    fi
+  done
+  [ "${#missing[@]}" -gt 0 ] || return 0
+  echo "Installing: ${missing[*]}"
+  local as_root=()
+  [ "$(id -u)" -eq 0 ] || as_root=(sudo)
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}"
+}
+
+# Configures if there is need, and builds: build FOLDER TARGET [CMAKE-OPTION...].
+build()
+{
+  local folder=$1 target=$2
+  shift 2
+  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" > "$folder.log" 2>&1 ||
+    { cat "$folder.log"; return 1; }
+  rm -f "$folder.log"
+  cmake --build "$folder" --target "$target"
+}

@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and runs all tests. Options go to ctest.
+set -euo pipefail
+cd "$(dirname "$0")"
+source Utilities/build.sh
+
+install_packages "${build_packages[@]}" libgtest-dev libcgal-demo
+build build all -DNEURALMESH_WARNINGS_AS_ERRORS="${CI:+ON}"
+ctest --test-dir build --output-on-failure --no-tests=error "$@"
