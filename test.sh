@@ -5,5 +5,5 @@ cd "$(dirname "$0")"
 source Utilities/build.sh
 
 install_packages "${build_packages[@]}" libgtest-dev libcgal-demo
-build build all -DNEURALMESH_WARNINGS_AS_ERRORS="${CI:+ON}"
+build build all -DNEURALMESH_BUILD_TESTING=ON -DNEURALMESH_WARNINGS_AS_ERRORS="${CI:+ON}"
 ctest --test-dir build --output-on-failure --no-tests=error "$@"

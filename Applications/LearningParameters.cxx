@@ -32,9 +32,9 @@ std::vector<LearningParameter> MakeParameters()
     PARAMETER(CounterDecay), PARAMETER(CounterHalfLife), PARAMETER(NoiseTolerance),
     PARAMETER(NoiseWindow), PARAMETER(OutlierLimit), PARAMETER(OutlierLimitVertices),
     PARAMETER(SamplesPerAddition), PARAMETER(EarlyPatience), PARAMETER(EarlyVertices),
-    PARAMETER(AdditionsPerRemoval), PARAMETER(RemovalPatience), PARAMETER_IN(ValenceFlips, 0, 1),
-    PARAMETER(BatchSize), PARAMETER(MaximumIterations), PARAMETER(TargetSampleDistance),
-    PARAMETER(TargetCloudDistance), PARAMETER(StallPatience) };
+    PARAMETER(AdditionsPerRemoval), PARAMETER(RemovalPatience), PARAMETER(RemovalLimit),
+    PARAMETER_IN(ValenceFlips, 0, 1), PARAMETER(BatchSize), PARAMETER(MaximumIterations),
+    PARAMETER(TargetSampleDistance), PARAMETER(TargetCloudDistance), PARAMETER(StallPatience) };
 #undef PARAMETER
 #undef PARAMETER_IN
 }

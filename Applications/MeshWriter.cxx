@@ -3,6 +3,7 @@
 
 #include "ErrorCollector.h"
 #include "FileExtension.h"
+#include "WrittenMesh.h"
 
 #include "vtkErrorCode.h"
 #include "vtkNew.h"
@@ -78,6 +79,10 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path)
   try
   {
     Writers().at(extension)(mesh, temporary.string());
+    if (!IsWrittenWhole(mesh, temporary.string()))
+    {
+      throw std::runtime_error("not all of it could be written; is the disk full?");
+    }
     std::filesystem::rename(temporary, target);
   }
   catch (const std::exception& error)

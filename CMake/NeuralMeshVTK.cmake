@@ -4,7 +4,8 @@ set(NEURALMESH_VTK_COMPONENTS
   CommonDataModel
   CommonExecutionModel
   CommonMisc
-  FiltersModeling
+  CommonSystem
+  FiltersSources
   IOGeometry
   IOLegacy
   IOPLY

@@ -21,24 +21,38 @@
 
 vtkStandardNewMacro(vtkNeuralMesh);
 
+// clang-format off
 // The parameters that a preset sets, as (name of the property, name in the core).
-#define NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(use)                                                 \
-  use(WinnerRate, winnerRate) use(SmoothingRate, smoothingRate)                                    \
-    use(SmoothingIterations, smoothingIterations) use(CounterDecay, counterDecay)                  \
-      use(CounterHalfLife, counterHalfLife) use(NoiseTolerance, noiseTolerance)                    \
-        use(NoiseWindow, noiseWindow) use(OutlierLimit, outlierLimit)                              \
-          use(OutlierLimitVertices, outlierLimitVertices)                                          \
-            use(SamplesPerAddition, samplesPerAddition) use(EarlyPatience, earlyPatience)          \
-              use(EarlyVertices, earlyVertices) use(AdditionsPerRemoval, additionsPerRemoval)      \
-                use(RemovalPatience, removalPatience) use(ValenceFlips, valenceFlips)              \
-                  use(BatchSize, batchSize)
+#define NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(use)          \
+  use(WinnerRate, winnerRate)                               \
+  use(SmoothingRate, smoothingRate)                         \
+  use(SmoothingIterations, smoothingIterations)             \
+  use(CounterDecay, counterDecay)                           \
+  use(CounterHalfLife, counterHalfLife)                     \
+  use(NoiseTolerance, noiseTolerance)                       \
+  use(NoiseWindow, noiseWindow)                             \
+  use(OutlierLimit, outlierLimit)                           \
+  use(OutlierLimitVertices, outlierLimitVertices)           \
+  use(SamplesPerAddition, samplesPerAddition)               \
+  use(EarlyPatience, earlyPatience)                         \
+  use(EarlyVertices, earlyVertices)                         \
+  use(AdditionsPerRemoval, additionsPerRemoval)             \
+  use(RemovalPatience, removalPatience)                     \
+  use(RemovalLimit, removalLimit)                           \
+  use(ValenceFlips, valenceFlips)                           \
+  use(BatchSize, batchSize)
 
 // The others that the core knows.
-#define NEURAL_MESH_FOR_EACH_OTHER_PARAMETER(use)                                                  \
-  use(NumberOfVertices, numberOfVertices) use(Seed, seed) use(Variant, variant)                    \
-    use(MaximumIterations, maximumIterations) use(TargetSampleDistance, targetSampleDistance)      \
-      use(TargetCloudDistance, targetCloudDistance) use(TimeLimit, timeLimit)                      \
-        use(StallPatience, stallPatience)
+#define NEURAL_MESH_FOR_EACH_OTHER_PARAMETER(use)           \
+  use(NumberOfVertices, numberOfVertices)                   \
+  use(Seed, seed)                                           \
+  use(Variant, variant)                                     \
+  use(MaximumIterations, maximumIterations)                 \
+  use(TargetSampleDistance, targetSampleDistance)           \
+  use(TargetCloudDistance, targetCloudDistance)             \
+  use(TimeLimit, timeLimit)                                 \
+  use(StallPatience, stallPatience)
+// clang-format on
 
 namespace
 {
@@ -106,7 +120,7 @@ vtkNew<vtkDoubleArray> MakeActivity(const std::vector<double>& activities)
 vtkNeuralMesh::vtkNeuralMesh()
 {
   this->StallPatience = neuralmesh::Parameters().stallPatience;
-  this->SetPreset(DEFAULT);
+  this->ApplyPreset();
 }
 
 vtkNeuralMesh::~vtkNeuralMesh() = default;
@@ -114,13 +128,24 @@ vtkNeuralMesh::~vtkNeuralMesh() = default;
 void vtkNeuralMesh::SetPreset(int preset)
 {
   this->Preset = std::clamp<int>(preset, DEFAULT, THESIS);
+  if (this->ApplyPreset())
+  {
+    this->Modified();
+  }
+}
+
+bool vtkNeuralMesh::ApplyPreset()
+{
   const auto values = neuralmesh::Parameters::of(
     this->Preset == THESIS ? neuralmesh::Preset::Thesis : neuralmesh::Preset::Default,
     this->Variant == BASIC ? neuralmesh::Variant::Basic : neuralmesh::Variant::NoiseFiltering);
-#define SET_PROPERTY(property, parameter) this->property = values.parameter;
+  bool changed = false;
+#define SET_PROPERTY(property, parameter)                                                          \
+  changed = changed || this->property != static_cast<decltype(this->property)>(values.parameter);  \
+  this->property = values.parameter;
   NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(SET_PROPERTY)
 #undef SET_PROPERTY
-  this->Modified();
+  return changed;
 }
 
 int vtkNeuralMesh::FillInputPortInformation(int port, vtkInformation* info)

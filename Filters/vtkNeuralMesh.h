@@ -254,6 +254,17 @@ public:
 
   ///@{
   /**
+   * Noise-filtering variant: the number of vertices removed at a time is at most this multiple of
+   * AdditionsPerRemoval; 0 for no limit. Where the cloud is open or falls into pieces, parts of the
+   * mesh are always idle: without a limit their removal can outweigh all growth.
+   * Default 0.5 (thesis 0), range 0 to 1000.
+   */
+  vtkSetClampMacro(RemovalLimit, double, 0.0, 1000.0);
+  vtkGetMacro(RemovalLimit, double);
+  ///@}
+
+  ///@{
+  /**
    * Whether edges are flipped around vertex splits and collapses where that brings valences closer
    * to 6 without folds. Default on (thesis off).
    */
@@ -347,27 +358,32 @@ private:
   vtkNeuralMesh(const vtkNeuralMesh&) = delete;
   void operator=(const vtkNeuralMesh&) = delete;
 
+  /** Sets what the preset sets. Returns whether anything has changed. */
+  bool ApplyPreset();
+
   vtkIdType NumberOfVertices = 20000;
   int Seed = 1;
   int Variant = NOISE_FILTERING;
   int Preset = DEFAULT;
 
-  double WinnerRate;
-  double SmoothingRate;
-  int SmoothingIterations;
-  double CounterDecay;
-  double CounterHalfLife;
-  double NoiseTolerance;
-  int NoiseWindow;
-  double OutlierLimit;
-  int OutlierLimitVertices;
-  int SamplesPerAddition;
-  double EarlyPatience;
-  int EarlyVertices;
-  int AdditionsPerRemoval;
-  double RemovalPatience;
-  vtkTypeBool ValenceFlips;
-  int BatchSize;
+  // What a preset sets; the values are those of the core's presets.
+  double WinnerRate = 0;
+  double SmoothingRate = 0;
+  int SmoothingIterations = 0;
+  double CounterDecay = 0;
+  double CounterHalfLife = 0;
+  double NoiseTolerance = 0;
+  int NoiseWindow = 0;
+  double OutlierLimit = 0;
+  int OutlierLimitVertices = 0;
+  int SamplesPerAddition = 0;
+  double EarlyPatience = 0;
+  int EarlyVertices = 0;
+  int AdditionsPerRemoval = 0;
+  double RemovalPatience = 0;
+  double RemovalLimit = 0;
+  vtkTypeBool ValenceFlips = 0;
+  int BatchSize = 0;
 
   vtkIdType MaximumIterations = 0;
   double TargetSampleDistance = 0.0;

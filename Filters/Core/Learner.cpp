@@ -319,6 +319,10 @@ void Learner::removeVertices()
   // alpha_n^(C_ec n), with alpha_n of (9.4).
   const double threshold =
     std::exp2(-this->parameters_.removalPatience / this->parameters_.counterHalfLife);
+  const double limit = this->parameters_.removalLimit > 0.
+    ? std::ceil(this->parameters_.removalLimit * this->parameters_.additionsPerRemoval)
+    : std::numeric_limits<double>::infinity();
+  double tried = 0.;
   do
   {
     if (!this->removeVertex(this->order_->bottom()))
@@ -326,7 +330,7 @@ void Learner::removeVertices()
       ++this->counts_.illegalOperations;
       this->order_->promoteBottom();
     }
-  } while (this->order_->isBottomBelow(threshold));
+  } while (++tried < limit && this->order_->isBottomBelow(threshold));
 }
 
 bool Learner::removeVertex(VertexIndex v)

@@ -16,6 +16,7 @@ Parameters Parameters::of(Preset preset, Variant variant)
     parameters.outlierLimit = 0.;
     parameters.earlyPatience = 1.;
     parameters.additionsPerRemoval = 125;
+    parameters.removalLimit = 0.;
     parameters.valenceFlips = false;
     parameters.batchSize = 1;
   }

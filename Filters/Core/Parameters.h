@@ -45,6 +45,7 @@ struct Parameters
   int earlyVertices = 1000;     ///< ... until M has so many vertices
   int additionsPerRemoval = 10; ///< C_nr, noise filtering
   double removalPatience = 10.; ///< C_ec, samples per vertex
+  double removalLimit = 0.5;    ///< removals per addition at most, noise filtering; 0 = any
   bool valenceFlips = true;     ///< flips towards regular valences around splits, collapses
 
   // Samples

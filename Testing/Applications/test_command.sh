@@ -1,0 +1,167 @@
+#!/usr/bin/env bash
+# test_command.sh COMMAND CASE: what `neuralmesh reconstruct` promises to those who type it.
+set -euo pipefail
+neuralmesh=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+fail() { echo "FAILED: $*"; exit 1; }
+
+# expect STATUS COMMAND...: runs it, output to `out` and `err`, and compares the exit status.
+expect()
+{
+  local expected=$1 status=0
+  shift
+  "$@" > out 2> err || status=$?
+  [ "$status" -eq "$expected" ] || { cat out err; fail "status $status, not $expected: $*"; }
+}
+
+# 3000 points of a unit sphere, on a spiral.
+make_cloud()
+{
+  awk 'BEGIN { for (i = 0; i < 3000; ++i) { z = 1 - (2 * i + 1) / 3000; r = sqrt(1 - z * z);
+    printf "%.9f %.9f %.9f\n", r * cos(2.39996 * i), r * sin(2.39996 * i), z } }' > cloud.xyz
+}
+
+# Promise: the asked number of vertices, said on stdout; nothing on stderr where that is no terminal.
+test_reconstructs()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 500
+  grep -q '^element vertex 500$' <(head -c 600 mesh.ply | tr '\r' '\n') || fail "not 500 vertices"
+  grep -Eq '^vertices +500$' out || fail "the summary does not say 500"
+  grep -q 'ended by: vertices' out || fail "the summary does not say why it ended"
+  [ ! -s err ] || { cat err; fail "there is something on stderr"; }
+}
+
+# Promise: each output format is written, by its extension in any case.
+test_formats_out()
+{
+  local extension
+  for extension in vtp ply obj stl PLY; do
+    expect 0 "$neuralmesh" reconstruct cloud.xyz "mesh.$extension" --vertices 100
+    [ -s "mesh.$extension" ] || fail "no mesh.$extension"
+  done
+  [ "$(grep -c '^v ' mesh.obj)" -eq 100 ] || fail "the .obj has not 100 vertices"
+}
+
+# Promise: same input and seed, same bytes; another seed, other bytes.
+test_same_bytes()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz a.ply --vertices 400 --seed 3
+  expect 0 "$neuralmesh" reconstruct cloud.xyz b.ply --vertices 400 --seed 3
+  expect 0 "$neuralmesh" reconstruct cloud.xyz c.ply --vertices 400 --seed 4
+  cmp a.ply b.ply || fail "the same seed gave other bytes"
+  ! cmp -s a.ply c.ply || fail "another seed gave the same bytes"
+}
+
+# Promise: methods, presets and single parameters have an effect.
+test_parameters()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz default.ply --vertices 400
+  expect 0 "$neuralmesh" reconstruct cloud.xyz basic.ply --vertices 400 --method basic
+  expect 0 "$neuralmesh" reconstruct cloud.xyz thesis.ply --vertices 400 --preset thesis
+  expect 0 "$neuralmesh" reconstruct cloud.xyz set.ply --vertices 400 \
+    --set WinnerRate=0.2 --set ValenceFlips=0
+  local other
+  for other in basic thesis set; do
+    ! cmp -s default.ply "$other.ply" || fail "$other changed nothing"
+  done
+  expect 0 "$neuralmesh" reconstruct cloud.xyz few.ply --set MaximumIterations=5000
+  grep -q 'samples    5000, ended by: iterations' out || fail "the iterations were not limited"
+}
+
+# Promise: exit status 2 and a message for wrong use, and nothing is written.
+test_wrong_use()
+{
+  local arguments
+  while read -r arguments; do
+    # shellcheck disable=SC2086
+    expect 2 "$neuralmesh" $arguments
+    [ -s err ] || fail "no message for: $arguments"
+    [ ! -e mesh.ply ] || fail "something was written for: $arguments"
+  done <<'CASES'
+
+nonsense
+reconstruct
+reconstruct cloud.xyz
+reconstruct cloud.xyz mesh.ply --vertices 3
+reconstruct cloud.xyz mesh.ply --vertices many
+reconstruct cloud.xyz mesh.ply --seed -1
+reconstruct cloud.xyz mesh.ply --method guess
+reconstruct cloud.xyz mesh.ply --preset guess
+reconstruct cloud.xyz mesh.ply --set WinnerRate
+reconstruct cloud.xyz mesh.ply --set WinnerRate=2
+reconstruct cloud.xyz mesh.ply --set WinnerRate=x
+reconstruct cloud.xyz mesh.ply --set NoiseWindow=10.5
+reconstruct cloud.xyz mesh.ply --set Nothing=1
+reconstruct cloud.xyz mesh.ply --time-limit -1
+CASES
+  expect 0 "$neuralmesh" --help
+  expect 0 "$neuralmesh" reconstruct --help
+  grep -q WinnerRate out || fail "the help does not name the parameters"
+  expect 0 "$neuralmesh" --version
+}
+
+# Promise: exit status 1 and a message that names the file for what cannot be read or written.
+test_bad_files()
+{
+  mkdir folder.ply
+  echo "not a point" > text.xyz
+  printf '0 0 0\n1 0 0\n0 x 0\n' > broken.xyz
+  : > empty.xyz
+  head -c 3000 /dev/urandom > garbage.ply
+  cp cloud.xyz cloud.unknown
+  local input
+  for input in missing.ply folder.ply text.xyz broken.xyz empty.xyz garbage.ply cloud.unknown; do
+    expect 1 "$neuralmesh" reconstruct "$input" mesh.ply --vertices 100
+    grep -q "$input" err || { cat err; fail "the message does not name $input"; }
+    [ ! -e mesh.ply ] || fail "something was written for $input"
+  done
+  grep -q 'line 3' <("$neuralmesh" reconstruct broken.xyz mesh.ply 2>&1 || true) ||
+    fail "the line is not named"
+  expect 1 "$neuralmesh" reconstruct cloud.xyz mesh.unknown
+  expect 1 "$neuralmesh" reconstruct cloud.xyz nowhere/mesh.ply --vertices 100
+}
+
+# Promise: --quiet prints nothing.
+test_quiet()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 200 --quiet
+  [ ! -s out ] && [ ! -s err ] || fail "it was not quiet"
+}
+
+# Promise: on a terminal there is a bar with rate and remaining time.
+test_progress_on_terminal()
+{
+  script -qec "$neuralmesh reconstruct cloud.xyz mesh.ply --vertices 500" typescript > /dev/null
+  grep -q 'vertices/s' typescript || fail "no rate"
+  grep -q 's left' typescript || fail "no remaining time"
+}
+
+# Promise: --time-limit ends with status 0 and the mesh learnt so far.
+test_time_limit()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 100000000 --time-limit 0.5
+  grep -q 'ended by: time limit' out || fail "it was not ended by the time limit"
+  [ -s mesh.ply ] || fail "there is no mesh"
+}
+
+# Promise: if writing fails, what was there stays, and nothing else is left behind.
+test_never_half_a_file()
+{
+  local extension
+  for extension in ply stl obj vtp; do
+    echo "what was there" > "mesh.$extension"
+    (
+      ulimit -f 16 # blocks of 1 KiB: too few for the mesh
+      trap '' XFSZ
+      expect 1 "$neuralmesh" reconstruct cloud.xyz "mesh.$extension" --vertices 2000
+    ) || fail "a failed write of .$extension was not noticed"
+    [ "$(cat "mesh.$extension")" = "what was there" ] || fail "the old .$extension is gone"
+    [ -z "$(find . -name '.mesh*')" ] || fail "a temporary file was left behind"
+  done
+}
+
+make_cloud
+"test_$2"

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef FilterTesting_h
+#define FilterTesting_h
+
+#include "ManifoldCheck.h"
+
+#include "vtkCellArray.h"
+#include "vtkCommand.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkMinimalStandardRandomSequence.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <vector>
+
+/** Ends the test with a failure, telling where, if `condition` does not hold. */
+#define CHECK(condition)                                                                           \
+  do                                                                                               \
+  {                                                                                                \
+    if (!(condition))                                                                              \
+    {                                                                                              \
+      std::cerr << __FILE__ << ":" << __LINE__ << ": " #condition " does not hold" << std::endl;   \
+      return EXIT_FAILURE;                                                                         \
+    }                                                                                              \
+  } while (false)
+
+namespace FilterTesting
+{
+/** Points evenly on a sphere, by VTK's random numbers. */
+inline vtkNew<vtkPoints> SpherePoints(
+  int count, double radius = 1.0, std::array<double, 3> center = { 0, 0, 0 }, int type = VTK_FLOAT)
+{
+  vtkNew<vtkMinimalStandardRandomSequence> random;
+  random->SetSeed(7);
+  vtkNew<vtkPoints> points;
+  points->SetDataType(type);
+  for (int i = 0; i < count; ++i)
+  {
+    const double z = random->GetNextRangeValue(-1.0, 1.0);
+    const double angle = random->GetNextRangeValue(0.0, 2.0 * 3.14159265358979);
+    const double r = std::sqrt(1.0 - z * z);
+    points->InsertNextPoint(center[0] + radius * r * std::cos(angle),
+      center[1] + radius * r * std::sin(angle), center[2] + radius * z);
+  }
+  return points;
+}
+
+inline vtkNew<vtkPolyData> SphereCloud(int count)
+{
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(SpherePoints(count));
+  return cloud;
+}
+
+/** What the independent check finds in the triangles of a mesh. */
+inline neuralmesh::testing::ManifoldReport Manifold(vtkPolyData* mesh)
+{
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  vtkNew<vtkIdList> ids;
+  vtkCellArray* polys = mesh->GetPolys();
+  for (polys->InitTraversal(); polys->GetNextCell(ids);)
+  {
+    if (ids->GetNumberOfIds() != 3)
+    {
+      neuralmesh::testing::ManifoldReport report;
+      report.defect = "a cell is no triangle";
+      return report;
+    }
+    triangles.push_back({ static_cast<std::uint32_t>(ids->GetId(0)),
+      static_cast<std::uint32_t>(ids->GetId(1)), static_cast<std::uint32_t>(ids->GetId(2)) });
+  }
+  return neuralmesh::testing::checkManifold(
+    static_cast<std::size_t>(mesh->GetNumberOfPoints()), triangles);
+}
+
+inline double FieldValue(vtkPolyData* mesh, const char* name)
+{
+  vtkDataArray* array = mesh->GetFieldData()->GetArray(name);
+  return array ? array->GetTuple1(0) : -1.0;
+}
+
+/** Counts errors and warnings, which are then not printed. */
+class MessageCounter : public vtkCommand
+{
+public:
+  static MessageCounter* New() { return new MessageCounter; }
+
+  void Execute(vtkObject*, unsigned long event, void* callData) override
+  {
+    ++(event == vtkCommand::ErrorEvent ? this->Errors : this->Warnings);
+    this->LastText = static_cast<const char*>(callData);
+  }
+
+  void Observe(vtkObject* object)
+  {
+    object->AddObserver(vtkCommand::ErrorEvent, this);
+    object->AddObserver(vtkCommand::WarningEvent, this);
+  }
+
+  int Errors = 0;
+  int Warnings = 0;
+  std::string LastText;
+};
+}
+
+#endif

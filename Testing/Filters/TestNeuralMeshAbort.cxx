@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Promise: an abort ends the run at once, and what was learnt until then is a valid mesh.
+#include "FilterTesting.h"
+
+#include "vtkNeuralMesh.h"
+
+#include "vtkTimerLog.h"
+
+namespace
+{
+/** Aborts the run in the middle, and remembers when. */
+class Aborter : public vtkCommand
+{
+public:
+  static Aborter* New() { return new Aborter; }
+  void Execute(vtkObject* caller, unsigned long, void* callData) override
+  {
+    if (*static_cast<double*>(callData) > 0.5 && this->AbortTime == 0.0)
+    {
+      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+      this->AbortTime = vtkTimerLog::GetUniversalTime();
+    }
+  }
+  double AbortTime = 0.0;
+};
+}
+
+int TestNeuralMeshAbort(int, char*[])
+{
+  const auto cloud = FilterTesting::SphereCloud(20000);
+  vtkNew<vtkNeuralMesh> filter;
+  vtkNew<Aborter> aborter;
+  filter->AddObserver(vtkCommand::ProgressEvent, aborter);
+  filter->SetNumberOfVertices(10000);
+  filter->SetInputData(cloud);
+  filter->Update();
+  CHECK(aborter->AbortTime > 0.0);
+  CHECK(std::string(filter->GetStopReason()) == "cancelled");
+  vtkPolyData* mesh = filter->GetOutput();
+  CHECK(mesh->GetNumberOfPoints() > 100 && mesh->GetNumberOfPoints() < 10000);
+  const auto report = FilterTesting::Manifold(mesh);
+  CHECK(report.defect.empty() && report.isClosed());
+
+  // The next run starts clean.
+  filter->RemoveAllObservers();
+  filter->SetAbortExecute(0);
+  filter->SetNumberOfVertices(500);
+  filter->Update();
+  CHECK(std::string(filter->GetStopReason()) == "vertices");
+  CHECK(filter->GetOutput()->GetNumberOfPoints() == 500);
+  return EXIT_SUCCESS;
+}

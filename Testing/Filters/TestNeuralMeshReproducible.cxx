@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Promise: the same input and seed give the same bytes, at any number of threads of VTK; another
+// seed gives another mesh.
+#include "FilterTesting.h"
+
+#include "vtkNeuralMesh.h"
+
+#include "vtkDataArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkPointData.h"
+#include "vtkSMPTools.h"
+
+#include <cstring>
+
+namespace
+{
+vtkNew<vtkPolyData> Run(vtkPolyData* cloud, int seed)
+{
+  vtkNew<vtkNeuralMesh> filter;
+  filter->SetNumberOfVertices(2000);
+  filter->SetSeed(seed);
+  filter->SetInputData(cloud);
+  filter->Update();
+  vtkNew<vtkPolyData> mesh;
+  mesh->DeepCopy(filter->GetOutput());
+  return mesh;
+}
+
+bool SameBytes(vtkDataArray* a, vtkDataArray* b)
+{
+  const auto size = static_cast<std::size_t>(a->GetNumberOfValues()) *
+    static_cast<std::size_t>(a->GetDataTypeSize());
+  return a->GetNumberOfValues() == b->GetNumberOfValues() && a->GetDataType() == b->GetDataType() &&
+    std::memcmp(a->GetVoidPointer(0), b->GetVoidPointer(0), size) == 0;
+}
+
+bool SameMesh(vtkPolyData* a, vtkPolyData* b)
+{
+  return SameBytes(a->GetPoints()->GetData(), b->GetPoints()->GetData()) &&
+    SameBytes(a->GetPolys()->GetConnectivityArray(), b->GetPolys()->GetConnectivityArray()) &&
+    SameBytes(a->GetPointData()->GetNormals(), b->GetPointData()->GetNormals()) &&
+    SameBytes(a->GetPointData()->GetArray("Activity"), b->GetPointData()->GetArray("Activity"));
+}
+}
+
+int TestNeuralMeshReproducible(int, char*[])
+{
+  const auto cloud = FilterTesting::SphereCloud(10000);
+  vtkSMPTools::Initialize(1);
+  const auto first = Run(cloud, 1);
+  const auto second = Run(cloud, 1);
+  CHECK(SameMesh(first, second));
+  vtkSMPTools::Initialize(4);
+  const auto threads = Run(cloud, 1);
+  CHECK(SameMesh(first, threads));
+  const auto other = Run(cloud, 2);
+  CHECK(!SameBytes(first->GetPoints()->GetData(), other->GetPoints()->GetData()));
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and makes meshes of two real scans that come with Debian
+# packages. Meshes and pictures go to demo/.
+set -euo pipefail
+cd "$(dirname "$0")"
+source Utilities/build.sh
+
+install_packages "${build_packages[@]}" libcgal-demo glmark2-data xvfb xauth libgl1-mesa-dri
+build build neuralmesh
+
+mkdir -p demo
+if [ ! -e demo/kitten.xyz ]; then
+  tar -xzf /usr/share/doc/libcgal-dev/data.tar.gz -C demo --strip-components=2 \
+    data/points_3/kitten.xyz
+fi
+
+# show NAME POINTS VERTICES VIEW...: reconstructs, measures and draws.
+show()
+{
+  local name=$1 points=$2 vertices=$3
+  shift 3
+  echo
+  echo "$name: $points"
+  build/bin/neuralmesh reconstruct "$points" "demo/$name.ply" --vertices "$vertices"
+  xvfb-run -a /usr/bin/python3 Applications/Demo/show.py \
+    "$points" "demo/$name.ply" "demo/$name.png" "$@"
+}
+
+show kitten demo/kitten.xyz 2000 --up y --azimuth 20
+show bunny /usr/share/glmark2/models/bunny.obj 5000 --up y --azimuth 30
