@@ -26,5 +26,5 @@ show()
     "$points" "demo/$name.ply" "demo/$name.png" "$@"
 }
 
-show kitten demo/kitten.xyz 2000 --up y --azimuth 20
+show kitten demo/kitten.xyz 2000 --up y --azimuth 200
 show bunny /usr/share/glmark2/models/bunny.obj 5000 --up y --azimuth 30

@@ -106,7 +106,7 @@ def draw(cloud, mesh, picture, up, azimuth):
             camera.Azimuth(azimuth)
             camera.Elevation(15)
             renderer.ResetCamera(mesh.GetBounds())
-            camera.Zoom(1.4)
+            camera.Zoom(1.2)
             renderer.ResetCameraClippingRange()
         else:
             renderer.SetActiveCamera(camera)
