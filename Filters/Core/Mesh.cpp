@@ -70,7 +70,7 @@ bool Mesh::canSplit(VertexIndex v, unsigned first, unsigned steps) const
       return false;
     }
     const VertexIndex inner = first == 0 ? ring[last] : ring[first];
-    return this->valence(inner) < Ring::Capacity && size + 2 - steps <= Ring::Capacity;
+    return this->valence(inner) < Ring::Capacity && steps + 2 <= Ring::Capacity;
   }
   return size + 2 - steps <= Ring::Capacity && steps + 2 <= Ring::Capacity &&
     this->valence(ring[first]) < Ring::Capacity &&

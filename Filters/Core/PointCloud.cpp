@@ -9,34 +9,24 @@ namespace neuralmesh
 {
 namespace
 {
-/// The box that holds all but the outermost hundredth of the points at each side of each axis,
-/// estimated from at most 2^16 of them.
+/// The box that holds all but the outermost hundredth of the points at each side of each axis.
 Eigen::AlignedBox3d bulkOf(std::span<const Eigen::Vector3d> points)
 {
-  const std::size_t stride = 1 + points.size() / (1u << 16);
-  Eigen::AlignedBox3d box;
   Eigen::Vector3d low, high;
-  std::vector<double> coordinates;
-  for (int axis = 0; axis < 3; ++axis)
+  std::vector<double> coordinates(points.size());
+  const auto outermost = std::ptrdiff_t(points.size() / 100);
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
   {
-    coordinates.clear();
-    for (std::size_t i = 0; i < points.size(); i += stride)
-    {
-      coordinates.push_back(points[i][axis]);
-    }
-    const auto quantile = [&](std::size_t rank)
-    {
-      const auto place = coordinates.begin() + std::ptrdiff_t(rank);
-      std::nth_element(coordinates.begin(), place, coordinates.end());
-      return *place;
-    };
-    const std::size_t outermost = coordinates.size() / 100;
-    low[axis] = quantile(outermost);
-    high[axis] = quantile(coordinates.size() - 1 - outermost);
+    std::transform(points.begin(), points.end(), coordinates.begin(),
+      [axis](const Eigen::Vector3d& point) { return point[axis]; });
+    const auto lowest = coordinates.begin() + outermost;
+    const auto highest = coordinates.end() - 1 - outermost;
+    std::nth_element(coordinates.begin(), lowest, coordinates.end());
+    low[axis] = *lowest;
+    std::nth_element(lowest, highest, coordinates.end());
+    high[axis] = *highest;
   }
-  box.extend(low);
-  box.extend(high);
-  return box;
+  return { low, high };
 }
 }
 

@@ -44,6 +44,11 @@ struct WideReal
   /// This number plus one that is not of an earlier epoch.
   WideReal plus(const WideReal& later) const
   {
+    // Adding nothing must not take this number into an epoch in which it vanishes.
+    if (later.significand == 0.)
+    {
+      return *this;
+    }
     return { this->in(later.epoch) + later.significand, later.epoch };
   }
 

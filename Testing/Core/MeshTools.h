@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "ManifoldCheck.h"
+#include "Mesh.h"
+#include "Random.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace neuralmesh::testing
+{
+inline std::vector<Triangle> trianglesOf(const Mesh& mesh)
+{
+  std::vector<Triangle> triangles;
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+      triangles.push_back({ a, b, c });
+    });
+  return triangles;
+}
+
+/// Triangles that start at their lowest corner, in order: equal for equal sets of triangles.
+inline std::vector<Triangle> canonical(std::vector<Triangle> triangles)
+{
+  for (Triangle& triangle : triangles)
+  {
+    std::rotate(
+      triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+inline ManifoldReport reportOf(const Mesh& mesh)
+{
+  return checkManifold(mesh.indexEnd(), trianglesOf(mesh));
+}
+
+/// What is wrong with a mesh, in words: its triangles no manifold, or its rings at odds with its
+/// triangles or its counts; empty if all is well.
+inline std::string defectOf(const Mesh& mesh)
+{
+  const std::vector<Triangle> triangles = trianglesOf(mesh);
+  const ManifoldReport report = checkManifold(mesh.indexEnd(), triangles);
+  if (!report.defect.empty())
+  {
+    return report.defect;
+  }
+  if (report.usedPoints != mesh.vertexCount() || triangles.size() != mesh.triangleCount())
+  {
+    return "the counts are not those of the triangles";
+  }
+  // Every triangle must be in the rings of its three corners, and nothing else in any ring.
+  std::vector<Triangle> seen;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    const Ring& ring = mesh.ring(v);
+    for (unsigned slot = 0; slot + (ring.isOpen() ? 1 : 0) < ring.size(); ++slot)
+    {
+      seen.push_back({ v, ring[slot], ring[(slot + 1) % ring.size()] });
+    }
+  }
+  std::vector<Triangle> thrice;
+  for (const Triangle& triangle : triangles)
+  {
+    thrice.insert(thrice.end(), 3, triangle);
+  }
+  if (canonical(seen) != canonical(thrice))
+  {
+    return "the rings are not those of the triangles";
+  }
+  return {};
+}
+
+inline double signedVolume(const Mesh& mesh)
+{
+  double volume = 0.;
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    {
+      volume += mesh.position(a).toDouble().dot(
+                  mesh.position(b).toDouble().cross(mesh.position(c).toDouble())) /
+        6.;
+    });
+  return volume;
+}
+
+/// Puts a new vertex into the middle of the triangle of `v` and its neighbours in `slot` and the
+/// slot after: a split that takes over two edges only.
+inline VertexIndex insertIntoTriangle(Mesh& mesh, VertexIndex v, unsigned slot)
+{
+  const Ring& ring = mesh.ring(v);
+  const Vector4 sum =
+    mesh.position(v) + mesh.position(ring[slot]) + mesh.position(ring[ring.after(slot)]);
+  return mesh.split(v, slot, 1, (1.f / 3.f) * sum);
+}
+
+/// Vertex 0 in the origin, in the middle of `rim` boundary vertices on the unit circle.
+inline Mesh makeFan(unsigned rim)
+{
+  Mesh mesh = Mesh::tetrahedron({}, 1.f);
+  mesh.removeTriangle({ 1, 3, 2 });
+  while (mesh.valence(0) < rim)
+  {
+    mesh.split(1, 0, 1, {});
+  }
+  mesh.setPosition(0, {});
+  for (unsigned slot = 0; slot < rim; ++slot)
+  {
+    const double angle = 2. * std::numbers::pi * slot / rim;
+    mesh.setPosition(
+      mesh.ring(0)[slot], Vector4(float(std::cos(angle)), float(std::sin(angle)), 0.f));
+  }
+  return mesh;
+}
+
+/// Vertices 0 and 4 above and below a ring of `rim` vertices on the unit circle.
+inline Mesh makeBipyramid(unsigned rim)
+{
+  Mesh mesh = Mesh::tetrahedron({}, 1.f);
+  insertIntoTriangle(mesh, 1, mesh.ring(1).find(3));
+  while (mesh.valence(0) < rim)
+  {
+    mesh.split(1, mesh.ring(1).find(0), 2, {});
+  }
+  mesh.setPosition(0, Vector4(0.f, 0.f, 1.f));
+  mesh.setPosition(4, Vector4(0.f, 0.f, -1.f));
+  for (unsigned slot = 0; slot < rim; ++slot)
+  {
+    const double angle = 2. * std::numbers::pi * slot / rim;
+    mesh.setPosition(
+      mesh.ring(0)[slot], Vector4(float(std::cos(angle)), float(std::sin(angle)), 0.f));
+  }
+  return mesh;
+}
+
+inline Vector4 randomPoint(Random& random, float halfWidth = 1.f)
+{
+  const auto coordinate = [&] { return halfWidth * float(2. * random.uniform() - 1.); };
+  const float x = coordinate(), y = coordinate(), z = coordinate();
+  return { x, y, z };
+}
+
+/// A closed mesh of random splits, its vertices at random places.
+inline Mesh makeRandomMesh(std::size_t vertices, Random& random)
+{
+  Mesh mesh = Mesh::tetrahedron({}, 1.f);
+  while (mesh.vertexCount() < vertices)
+  {
+    const VertexIndex v = random.below(std::uint32_t(mesh.indexEnd()));
+    const unsigned first = random.below(mesh.valence(v));
+    const unsigned steps = 1 + random.below(mesh.valence(v) - 1);
+    if (mesh.canSplit(v, first, steps))
+    {
+      mesh.split(v, first, steps, randomPoint(random));
+    }
+  }
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    mesh.setPosition(v, randomPoint(random));
+  }
+  return mesh;
+}
+
+/// Removes random triangles, with those that become isolated.
+inline void tear(Mesh& mesh, unsigned triangles, Random& random)
+{
+  for (unsigned i = 0; i < triangles; ++i)
+  {
+    const std::vector<Triangle> all = trianglesOf(mesh);
+    mesh.removeTriangle(all[random.below(std::uint32_t(all.size()))]);
+  }
+}
+}

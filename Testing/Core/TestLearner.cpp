@@ -1,0 +1,485 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "AllocationCounter.h"
+#include "CloudDistance.h"
+#include "CloudGenerator.h"
+#include "ExactOrder.h"
+#include "MeshTools.h"
+#include "Reconstruction.h"
+#include "Shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+const double SphereDiagonal = 2. * std::sqrt(3.);
+constexpr double SphereVolume = 4. / 3. * std::numbers::pi;
+
+std::vector<Eigen::Vector3d> sphereCloud(CloudOptions options = {})
+{
+  options.count = options.count == CloudOptions().count ? 40000 : options.count;
+  return generateCloud(makeSphere(), options);
+}
+
+const PointCloud& cleanSphere()
+{
+  static const PointCloud cloud(sphereCloud());
+  return cloud;
+}
+
+bool goOn(double) { return true; }
+
+double volumeOf(const TriangleMesh& mesh)
+{
+  double volume = 0.;
+  for (const auto& [a, b, c] : mesh.triangles)
+  {
+    volume += mesh.points[a].dot(mesh.points[b].cross(mesh.points[c])) / 6.;
+  }
+  return volume;
+}
+
+/// The farthest that a vertex is from the unit sphere, and the mean distance.
+struct Deviation
+{
+  double mean = 0.;
+  double largest = 0.;
+};
+
+Deviation deviationFromSphere(const TriangleMesh& mesh)
+{
+  Deviation deviation;
+  for (const Eigen::Vector3d& point : mesh.points)
+  {
+    const double distance = std::abs(point.norm() - 1.);
+    deviation.mean += distance / double(mesh.points.size());
+    deviation.largest = std::max(deviation.largest, distance);
+  }
+  return deviation;
+}
+
+/// Mean of a distance over some of the points.
+template <typename Distance>
+double meanOver(const std::vector<Eigen::Vector3d>& points, Distance distance)
+{
+  constexpr std::size_t Some = 1000;
+  double sum = 0.;
+  for (std::size_t i = 0; i < Some; ++i)
+  {
+    sum += distance(points[i * points.size() / Some]);
+  }
+  return sum / double(Some);
+}
+
+Parameters small()
+{
+  Parameters parameters;
+  parameters.numberOfVertices = 500;
+  return parameters;
+}
+
+/// A learner that starts from the mesh that another has grown.
+Learner goOnWith(Learner& grown, const Parameters& parameters)
+{
+  grown.renumber();
+  return { cleanSphere(), parameters, grown.mesh(),
+    std::make_unique<ExactOrder>(grown.mesh().indexEnd()) };
+}
+
+struct Setting
+{
+  Preset preset;
+  Variant variant;
+};
+
+std::string settingName(const ::testing::TestParamInfo<Setting>& info)
+{
+  return std::string(info.param.preset == Preset::Default ? "Default" : "Thesis") +
+    (info.param.variant == Variant::Basic ? "Basic" : "NoiseFiltering");
+}
+
+class LearnerSettings : public ::testing::TestWithParam<Setting>
+{
+protected:
+  static Parameters parameters(std::uint64_t vertices)
+  {
+    Parameters result = Parameters::of(GetParam().preset, GetParam().variant);
+    result.numberOfVertices = vertices;
+    return result;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Learner, LearnerSettings,
+  ::testing::Values(Setting{ Preset::Default, Variant::NoiseFiltering },
+    Setting{ Preset::Default, Variant::Basic }, Setting{ Preset::Thesis, Variant::NoiseFiltering },
+    Setting{ Preset::Thesis, Variant::Basic }),
+  settingName);
+}
+
+// A sphere comes out with exactly the vertices asked for, closed, without handles, oriented
+// outwards, and as large as it is.
+TEST_P(LearnerSettings, SphereComesOut)
+{
+  const Reconstruction result = reconstruct(cleanSphere(), parameters(2000), goOn);
+  EXPECT_EQ(result.stopReason, StopReason::Vertices);
+  EXPECT_EQ(result.mesh.points.size(), 2000u);
+  const ManifoldReport report = checkManifold(result.mesh.points.size(), result.mesh.triangles);
+  EXPECT_EQ(report.defect, "");
+  EXPECT_EQ(report.usedPoints, 2000u);
+  EXPECT_TRUE(report.isClosed());
+  EXPECT_EQ(report.components, 1u);
+  EXPECT_EQ(report.genus(), 0);
+
+  double radius = 0.;
+  double outwards = 0.;
+  ASSERT_EQ(result.normals.size(), 2000u);
+  for (std::size_t i = 0; i < 2000; ++i)
+  {
+    radius += result.mesh.points[i].norm() / 2000.;
+    outwards += result.normals[i].dot(result.mesh.points[i].normalized()) / 2000.;
+  }
+  EXPECT_NEAR(radius, 1., 0.01);
+  EXPECT_GT(outwards, 0.99);
+  EXPECT_NEAR(volumeOf(result.mesh), SphereVolume, 0.02 * SphereVolume);
+  EXPECT_LT(deviationFromSphere(result.mesh).largest, 0.03);
+  EXPECT_EQ(result.activities.size(), 2000u);
+}
+
+// The same seed gives the same mesh to the last bit, another seed another one.
+TEST_P(LearnerSettings, SeedDecides)
+{
+  Parameters settings = parameters(600);
+  const Reconstruction first = reconstruct(cleanSphere(), settings, goOn);
+  const Reconstruction second = reconstruct(cleanSphere(), settings, goOn);
+  EXPECT_EQ(first.mesh.points, second.mesh.points);
+  EXPECT_EQ(first.mesh.triangles, second.mesh.triangles);
+  EXPECT_EQ(first.activities, second.activities);
+  settings.seed = 2;
+  const Reconstruction other = reconstruct(cleanSphere(), settings, goOn);
+  EXPECT_NE(first.mesh.points, other.mesh.points);
+  EXPECT_NE(first.mesh.triangles, other.mesh.triangles);
+}
+
+// While the mesh grows it is a closed manifold all the time, and grid and order know its vertices.
+TEST_P(LearnerSettings, StructuresAgreeAllTheTime)
+{
+  Learner learner(cleanSphere(), parameters(800));
+  std::uint64_t iterations = 0;
+  while (!learner.hasAllVertices())
+  {
+    learner.learn(1111);
+    iterations += 1111;
+    ASSERT_LT(iterations, 5000000u);
+    const Mesh& mesh = learner.mesh();
+    ASSERT_EQ(defectOf(mesh), "");
+    ASSERT_TRUE(reportOf(mesh).isClosed());
+    EXPECT_TRUE(mesh.isAlive(learner.order().top()));
+    EXPECT_EQ(learner.counts().additions - learner.counts().removals + 4, mesh.vertexCount());
+    if (!learner.hasAllVertices())
+    {
+      EXPECT_EQ(learner.counts().iterations, iterations);
+    }
+    for (VertexIndex v = 0; v < mesh.indexEnd(); v += 7)
+    {
+      if (mesh.isAlive(v))
+      {
+        const VertexIndex closest = learner.grid().closest(mesh.position(v), mesh.positions());
+        ASSERT_NE(closest, NoVertex);
+        EXPECT_EQ(squaredNorm(mesh.position(closest) - mesh.position(v)), 0.f);
+        EXPECT_GE(learner.order().activity(v), 0.);
+      }
+    }
+  }
+}
+
+// Renumbering closes the gaps that removed vertices have left, and keeps the shape.
+TEST_P(LearnerSettings, RenumberKeepsTheShape)
+{
+  Learner learner(cleanSphere(), parameters(700));
+  learner.learn(5000000);
+  const auto shape = [&]
+  {
+    std::vector<std::array<double, 10>> result;
+    for (const Triangle& triangle : trianglesOf(learner.mesh()))
+    {
+      std::array<std::array<double, 3>, 3> corners{};
+      double activities = 0.;
+      for (unsigned k = 0; k < 3; ++k)
+      {
+        const Vector4 p = learner.mesh().position(triangle[k]);
+        corners[k] = { double(p[0]), double(p[1]), double(p[2]) };
+        activities += learner.order().activity(triangle[k]);
+      }
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      result.push_back({ corners[0][0], corners[0][1], corners[0][2], corners[1][0], corners[1][1],
+        corners[1][2], corners[2][0], corners[2][1], corners[2][2], std::round(1e6 * activities) });
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+  };
+  const auto before = shape();
+  learner.renumber();
+  EXPECT_EQ(learner.mesh().indexEnd(), 700u);
+  EXPECT_EQ(defectOf(learner.mesh()), "");
+  EXPECT_EQ(shape(), before);
+}
+
+// The cloud's units and place do not matter.
+TEST(Learner, UnitsDoNotMatter)
+{
+  const std::vector<Eigen::Vector3d> points = sphereCloud();
+  for (const double scale : { 1e-20, 1., 1e20 })
+  {
+    const Eigen::Vector3d offset = scale * Eigen::Vector3d(100., -2000., 30.);
+    std::vector<Eigen::Vector3d> moved;
+    for (const Eigen::Vector3d& point : points)
+    {
+      moved.push_back(offset + scale * point);
+    }
+    Reconstruction result = reconstruct(PointCloud(moved), small(), goOn);
+    for (Eigen::Vector3d& point : result.mesh.points)
+    {
+      point = (point - offset) / scale;
+    }
+    EXPECT_LT(deviationFromSphere(result.mesh).mean, 0.01) << scale;
+    EXPECT_NEAR(volumeOf(result.mesh), SphereVolume, 0.05 * SphereVolume) << scale;
+  }
+}
+
+// Noise is filtered: the mesh is closer to the sphere than the points are.
+TEST(Learner, NoiseIsFiltered)
+{
+  CloudOptions options;
+  options.noise = 0.01;
+  const PointCloud cloud(sphereCloud(options));
+  Parameters parameters;
+  parameters.numberOfVertices = 2000;
+  const Reconstruction result = reconstruct(cloud, parameters, goOn);
+  EXPECT_EQ(result.stopReason, StopReason::Vertices);
+  const double sigma = 0.01 * SphereDiagonal;
+  EXPECT_LT(deviationFromSphere(result.mesh).mean, sigma);
+}
+
+// Outliers are left alone; without the limit the mesh grows to them.
+TEST(Learner, OutliersAreRejected)
+{
+  CloudOptions options;
+  options.outliers = 0.02;
+  const PointCloud cloud(sphereCloud(options));
+  Parameters parameters;
+  parameters.numberOfVertices = 6000;
+  const Reconstruction limited = reconstruct(cloud, parameters, goOn);
+  parameters.outlierLimit = 0.;
+  const Reconstruction unlimited = reconstruct(cloud, parameters, goOn);
+  EXPECT_GT(limited.counts.rejectedSamples, 100u);
+  EXPECT_EQ(unlimited.counts.rejectedSamples, 0u);
+  EXPECT_LT(deviationFromSphere(limited.mesh).largest, 0.1);
+  EXPECT_GT(deviationFromSphere(unlimited.mesh).largest, 0.1);
+}
+
+// --- Stopping rules ------------------------------------------------------------------------------
+
+// The number of iterations is met exactly.
+TEST(StoppingRules, Iterations)
+{
+  for (const std::uint64_t most : { 1u, 4096u, 12345u })
+  {
+    Parameters parameters = small();
+    parameters.maximumIterations = most;
+    const Reconstruction result = reconstruct(cleanSphere(), parameters, goOn);
+    EXPECT_EQ(result.stopReason, StopReason::Iterations);
+    EXPECT_EQ(result.counts.iterations, most);
+    EXPECT_EQ(checkManifold(result.mesh.points.size(), result.mesh.triangles).defect, "");
+  }
+}
+
+// The mean distance of samples and winners ends a run as soon as it is small enough.
+TEST(StoppingRules, SampleDistance)
+{
+  const std::vector<Eigen::Vector3d> points = sphereCloud();
+  for (const double target : { 0.05, 0.02 })
+  {
+    Parameters parameters;
+    parameters.targetSampleDistance = target;
+    const Reconstruction result = reconstruct(cleanSphere(), parameters, goOn);
+    EXPECT_EQ(result.stopReason, StopReason::SampleDistance);
+    const double distance = meanOver(points,
+      [&](const Eigen::Vector3d& point)
+      {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Eigen::Vector3d& vertex : result.mesh.points)
+        {
+          least = std::min(least, (vertex - point).norm());
+        }
+        return least;
+      });
+    EXPECT_LT(distance, 1.1 * target * SphereDiagonal);
+    EXPECT_GT(distance, 0.7 * target * SphereDiagonal);
+  }
+}
+
+// The mean distance from the points to the surface ends a run as soon as it is small enough.
+TEST(StoppingRules, CloudDistance)
+{
+  const std::vector<Eigen::Vector3d> points = sphereCloud();
+  for (const double target : { 0.01, 0.002 })
+  {
+    Parameters parameters;
+    parameters.targetCloudDistance = target;
+    const Reconstruction result = reconstruct(cleanSphere(), parameters, goOn);
+    EXPECT_EQ(result.stopReason, StopReason::CloudDistance);
+    const double distance = meanOver(points,
+      [&](const Eigen::Vector3d& point)
+      {
+        double least = std::numeric_limits<double>::infinity();
+        for (const auto& [a, b, c] : result.mesh.triangles)
+        {
+          least = std::min(least,
+            squaredDistanceToTriangle(
+              point, result.mesh.points[a], result.mesh.points[b], result.mesh.points[c]));
+        }
+        return std::sqrt(least);
+      });
+    EXPECT_LT(distance, 1.1 * target * SphereDiagonal);
+    EXPECT_GT(distance, 0.6 * target * SphereDiagonal);
+  }
+}
+
+// The time limit ends a run that would go on.
+TEST(StoppingRules, TimeLimit)
+{
+  Parameters parameters;
+  parameters.numberOfVertices = 1000000000;
+  parameters.timeLimit = 1e-3;
+  const Reconstruction result = reconstruct(cleanSphere(), parameters, goOn);
+  EXPECT_EQ(result.stopReason, StopReason::TimeLimit);
+}
+
+// A mesh that does not grow ends as stalled: the basic variant where (6.18) is violated, the noise
+// filtering one where every addition is followed by a removal.
+TEST(StoppingRules, Stalled)
+{
+  for (const Variant variant : { Variant::Basic, Variant::NoiseFiltering })
+  {
+    Parameters parameters = Parameters::of(Preset::Default, variant);
+    parameters.removalPatience = 0.1;
+    parameters.additionsPerRemoval = 1;
+    parameters.stallPatience = 50.;
+    ASSERT_LT(parameters.removalPatience, std::exp(-0.1) * double(parameters.samplesPerAddition));
+    const Reconstruction result = reconstruct(cleanSphere(), parameters, goOn);
+    EXPECT_EQ(result.stopReason, StopReason::Stalled);
+    EXPECT_LT(result.mesh.points.size(), 1000u);
+    EXPECT_EQ(checkManifold(result.mesh.points.size(), result.mesh.triangles).defect, "");
+    // Patience is per vertex of a mesh of a hundred or more.
+    EXPECT_GT(result.counts.iterations, 50u * 100u);
+    EXPECT_LT(result.counts.iterations, 100000u);
+  }
+}
+
+// The caller ends a run by returning false, at once.
+TEST(StoppingRules, Cancelled)
+{
+  int calls = 0;
+  const Reconstruction result =
+    reconstruct(cleanSphere(), small(), [&](double) { return ++calls < 5; });
+  EXPECT_EQ(result.stopReason, StopReason::Cancelled);
+  EXPECT_EQ(calls, 5);
+  EXPECT_EQ(checkManifold(result.mesh.points.size(), result.mesh.triangles).defect, "");
+  EXPECT_GT(result.mesh.points.size(), 4u);
+  EXPECT_LT(result.mesh.points.size(), 500u);
+}
+
+// Every reason has a name of its own.
+TEST(StoppingRules, NamesOfReasons)
+{
+  std::set<std::string_view> names;
+  for (int reason = 0; reason <= int(StopReason::Cancelled); ++reason)
+  {
+    names.insert(name(StopReason(reason)));
+  }
+  EXPECT_EQ(names.size(), std::size_t(StopReason::Cancelled) + 1);
+  EXPECT_FALSE(names.contains(""));
+}
+
+// Progress is told often, rises evenly from 0 towards 1, and never falls.
+TEST(StoppingRules, ProgressIsEven)
+{
+  Parameters byVertices;
+  byVertices.numberOfVertices = 3000;
+  Parameters byIterations;
+  byIterations.maximumIterations = 200000;
+  for (const Parameters& parameters : { byVertices, byIterations })
+  {
+    std::vector<double> told;
+    reconstruct(cleanSphere(), parameters,
+      [&](double fraction)
+      {
+        told.push_back(fraction);
+        return true;
+      });
+    ASSERT_GE(told.size(), 20u);
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_LT(told.front(), 0.05);
+    EXPECT_GT(told.back(), 0.9);
+    EXPECT_LE(told.back(), 1.);
+    for (std::size_t i = 0; i < told.size(); ++i)
+    {
+      EXPECT_NEAR(told[i], double(i) / double(told.size()), 0.05);
+    }
+  }
+}
+
+// --- Memory --------------------------------------------------------------------------------------
+
+// The learning loop allocates nothing: neither where the mesh only moves ...
+TEST_P(LearnerSettings, MovingAllocatesNothing)
+{
+  Learner grown(cleanSphere(), parameters(2000));
+  grown.learn(5000000);
+  ASSERT_EQ(grown.mesh().vertexCount(), 2000u);
+
+  Parameters moving = parameters(1000000);
+  moving.samplesPerAddition = 1000000000;
+  moving.removalPatience = 1e6;
+  Learner learner = goOnWith(grown, moving);
+  learner.learn(10000);
+  const std::size_t before = allocationCount();
+  learner.learn(100000);
+  EXPECT_EQ(allocationCount() - before, 0u);
+  EXPECT_EQ(learner.mesh().vertexCount(), 2000u);
+  EXPECT_EQ(learner.counts().iterations, 110000u);
+}
+
+// ... nor where vertices come and go at a steady size.
+TEST(Learner, SteadySizeAllocatesNothing)
+{
+  Parameters growing;
+  growing.numberOfVertices = 2000;
+  Learner grown(cleanSphere(), growing);
+  grown.learn(5000000);
+
+  Parameters steady;
+  steady.numberOfVertices = 1000000;
+  steady.additionsPerRemoval = 1;
+  steady.removalPatience = 100.;
+  Learner learner = goOnWith(grown, steady);
+  learner.learn(20000);
+  const std::size_t before = allocationCount();
+  learner.learn(100000);
+  EXPECT_EQ(allocationCount() - before, 0u);
+  EXPECT_GT(learner.counts().additions, 1000u);
+  EXPECT_GT(learner.counts().removals, 1000u);
+  EXPECT_NEAR(double(learner.mesh().vertexCount()), 2000., 200.);
+}
+
+// Allocations are counted at all, where there are some.
+TEST(Learner, AllocationsAreCounted)
+{
+  const std::size_t before = allocationCount();
+  Learner learner(cleanSphere(), small());
+  EXPECT_GT(allocationCount(), before);
+}
+}
