@@ -33,7 +33,7 @@ std::vector<LearningParameter> MakeParameters()
     PARAMETER(NoiseWindow), PARAMETER(OutlierLimit), PARAMETER(OutlierLimitVertices),
     PARAMETER(SamplesPerAddition), PARAMETER(EarlyPatience), PARAMETER(EarlyVertices),
     PARAMETER(AdditionsPerRemoval), PARAMETER(RemovalPatience), PARAMETER(RemovalLimit),
-    PARAMETER_IN(ValenceFlips, 0, 1), PARAMETER(BatchSize), PARAMETER(MaximumIterations),
+    PARAMETER_IN(EdgeFlips, 0, 1), PARAMETER(BatchSize), PARAMETER(MaximumIterations),
     PARAMETER(TargetSampleDistance), PARAMETER(TargetCloudDistance), PARAMETER(StallPatience) };
 #undef PARAMETER
 #undef PARAMETER_IN

@@ -265,12 +265,13 @@ public:
 
   ///@{
   /**
-   * Whether edges are flipped around vertex splits and collapses where that brings valences closer
-   * to 6 without folds. Default on (thesis off).
+   * Whether edges are flipped around vertex splits and collapses: where that brings valences closer
+   * to 6 without folds, and where an edge is the rim of two sheets that lie back to back, as bridges
+   * over gaps are. Default on (thesis off).
    */
-  vtkSetMacro(ValenceFlips, vtkTypeBool);
-  vtkGetMacro(ValenceFlips, vtkTypeBool);
-  vtkBooleanMacro(ValenceFlips, vtkTypeBool);
+  vtkSetMacro(EdgeFlips, vtkTypeBool);
+  vtkGetMacro(EdgeFlips, vtkTypeBool);
+  vtkBooleanMacro(EdgeFlips, vtkTypeBool);
   ///@}
 
   ///@{
@@ -382,7 +383,7 @@ private:
   int AdditionsPerRemoval = 0;
   double RemovalPatience = 0;
   double RemovalLimit = 0;
-  vtkTypeBool ValenceFlips = 0;
+  vtkTypeBool EdgeFlips = 0;
   int BatchSize = 0;
 
   vtkIdType MaximumIterations = 0;

@@ -3,6 +3,7 @@
 
 #include "Ring.h"
 
+#include <cstddef>
 #include <span>
 
 namespace neuralmesh
@@ -33,14 +34,16 @@ public:
   /// rest is that of `added`. (6.19)
   virtual void split(VertexIndex split, VertexIndex added, double share) = 0;
   virtual void erase(VertexIndex v) = 0;
-  /// The most active vertex cannot be split: something else shall be tried before it is again.
+  /// The most active vertex cannot be split: lowers it, so that others get their turn.
   virtual void demoteTop() = 0;
-  /// The laziest vertex cannot be removed: something else shall be tried before it is again.
+  /// The laziest vertex cannot be removed: raises it, so that others get their turn.
   virtual void promoteBottom() = 0;
 
   /// The activity in units of one win, as far as the number range goes.
   virtual double activity(VertexIndex v) const = 0;
 
+  /// Memory for `count` indices: up to there no operation allocates.
+  virtual void reserve(std::size_t count) = 0;
   /// As Mesh::renumber().
   virtual void renumber(std::span<const VertexIndex> order) = 0;
 };

@@ -31,8 +31,8 @@ public:
   void demoteTop() override;
   void promoteBottom() override;
   double activity(VertexIndex v) const override;
+  void reserve(std::size_t count) override;
   void renumber(std::span<const VertexIndex> order) override;
-  void reserve(std::size_t count);
 
 private:
   struct MoreActive

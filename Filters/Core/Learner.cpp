@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Learner.h"
 
+#include "EdgeFlips.h"
 #include "ExactOrder.h"
 #include "HalfEdgeCollapse.h"
 #include "Morton.h"
 #include "Smoothing.h"
-#include "ValenceFlips.h"
 #include "VertexSplit.h"
 
 #include <algorithm>
@@ -22,6 +22,10 @@ constexpr std::size_t VerticesPerSampleOfBatch = 16;
 /// samples would all lie in one corner of the cloud.
 constexpr std::size_t ObservationsPerBatch = 250;
 constexpr std::size_t PrefetchDistance = 8;
+
+/// Where outliers are rejected, distances count as at most so many epsilon_t in the statistics:
+/// otherwise outliers raise the very limit beyond which they are rejected.
+constexpr float ObservationLimit = 1.5f;
 
 /// Width of a grid cell in mean edges.
 constexpr float EdgesPerCell = 2.f;
@@ -175,6 +179,7 @@ void Learner::prepareNoiseFilter(std::size_t batchSize)
   constexpr float infinity = std::numeric_limits<float>::infinity();
   this->observationStride_ = 1 + batchSize / ObservationsPerBatch;
   this->filterThreshold_ = infinity;
+  this->observationLimit_ = infinity;
   this->rejectionLimit_ = infinity;
   if (this->parameters_.variant == Variant::NoiseFiltering && this->sampleDistances_.isFull())
   {
@@ -183,6 +188,7 @@ void Learner::prepareNoiseFilter(std::size_t batchSize)
     if (this->parameters_.outlierLimit > 0. &&
       this->mesh_.vertexCount() >= std::size_t(this->parameters_.outlierLimitVertices))
     {
+      this->observationLimit_ = ObservationLimit * this->filterThreshold_;
       this->rejectionLimit_ = float(this->parameters_.outlierLimit) * this->filterThreshold_;
     }
   }
@@ -195,7 +201,7 @@ void Learner::basicStep(Vector4 sample, VertexIndex winner)
   if (this->untilObservation_-- == 0)
   {
     this->untilObservation_ = this->observationStride_ - 1;
-    this->sampleDistances_.add(std::min(std::sqrt(squaredDistance), this->rejectionLimit_));
+    this->sampleDistances_.add(std::min(std::sqrt(squaredDistance), this->observationLimit_));
   }
   if (squaredDistance > this->rejectionLimit_ * this->rejectionLimit_)
   {
@@ -268,10 +274,10 @@ void Learner::nodeAddition()
       this->hasWon_.resize(this->mesh_.indexEnd());
       this->hasWon_[added] = 1;
     }
-    if (this->parameters_.valenceFlips)
+    if (this->parameters_.edgeFlips)
     {
-      this->counts_.flips += improveValencesAround(this->mesh_, v);
-      this->counts_.flips += improveValencesAround(this->mesh_, added);
+      this->counts_.flips += flipEdgesAround(this->mesh_, v);
+      this->counts_.flips += flipEdgesAround(this->mesh_, added);
     }
     ++this->counts_.additions;
     this->updateDecay();
@@ -343,9 +349,9 @@ bool Learner::removeVertex(VertexIndex v)
   this->mesh_.collapse(v, kept);
   this->grid_.erase(v, this->mesh_.position(v));
   this->order_->erase(v);
-  if (this->parameters_.valenceFlips)
+  if (this->parameters_.edgeFlips)
   {
-    this->counts_.flips += improveValencesAround(this->mesh_, kept);
+    this->counts_.flips += flipEdgesAround(this->mesh_, kept);
   }
   ++this->counts_.removals;
   return true;
@@ -390,6 +396,8 @@ void Learner::renumber()
     64 + std::size_t(GrowthUntilRenumbering * 1.1 * double(order.size()));
   this->nextRenumbering_ = 1 + std::size_t(GrowthUntilRenumbering * double(order.size()));
   this->mesh_.reserve(capacity);
+  this->order_->reserve(capacity);
+  this->hasWon_.reserve(capacity);
   this->grid_.reset(
     this->boxMin_, this->boxMax_, EdgesPerCell * meanEdgeLength(this->mesh_), capacity);
   for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)

@@ -45,8 +45,8 @@ public:
   const Mesh& mesh() const { return this->mesh_; }
   const ActivityOrder& order() const { return *this->order_; }
   const RunCounts& counts() const { return this->counts_; }
-  /// Distances between samples and winners, in units of the cloud; with the noise filter clipped at
-  /// the distance at which samples are rejected.
+  /// Distances between samples and winners, in units of the cloud; clipped where outliers are
+  /// rejected.
   const MovingStatistics& sampleDistances() const { return this->sampleDistances_; }
   const VertexGrid& grid() const { return this->grid_; }
   bool hasAllVertices() const
@@ -97,6 +97,7 @@ private:
   std::vector<std::uint8_t> hasWon_; ///< since the last removal; basic variant only
   double decay_ = 1.;
   float filterThreshold_ = 0.f; ///< epsilon_t of (9.2)
+  float observationLimit_ = 0.f;
   float rejectionLimit_ = 0.f;
   std::size_t observationStride_ = 1;
   std::size_t untilObservation_ = 0;

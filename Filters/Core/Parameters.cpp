@@ -17,7 +17,7 @@ Parameters Parameters::of(Preset preset, Variant variant)
     parameters.earlyPatience = 1.;
     parameters.additionsPerRemoval = 125;
     parameters.removalLimit = 0.;
-    parameters.valenceFlips = false;
+    parameters.edgeFlips = false;
     parameters.batchSize = 1;
   }
   return parameters;

@@ -46,12 +46,12 @@ struct Parameters
   int additionsPerRemoval = 10; ///< C_nr, noise filtering
   double removalPatience = 10.; ///< C_ec, samples per vertex
   double removalLimit = 0.5;    ///< removals per addition at most, noise filtering; 0 = any
-  bool valenceFlips = true;     ///< flips towards regular valences around splits, collapses
+  bool edgeFlips = true;        ///< flips towards regular valences around splits, collapses
 
   // Samples
   int batchSize = 16384; ///< samples whose winners are searched at once, at most
 
-  // Stopping rules; 0 = none
+  // Stopping rules; 0 = none, but for the first and the last
   std::uint64_t numberOfVertices = 20000;
   std::uint64_t maximumIterations = 0;
   double targetSampleDistance = 0.; ///< mean |s - v_w|, fraction of the diagonal

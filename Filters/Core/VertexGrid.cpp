@@ -177,7 +177,7 @@ VertexGrid::Candidate VertexGrid::searchBall(
 }
 
 VertexGrid::Candidate VertexGrid::searchBlocks(
-  CellIndex home, Vector4 sample, const Vector4* positions) const
+  CellIndex home, Vector4 sample, const Vector4* positions, Candidate best) const
 {
   const std::array<int, 3> homeBlock{ home.x >> BlockBits, home.y >> BlockBits,
     home.z >> BlockBits };
@@ -192,7 +192,6 @@ VertexGrid::Candidate VertexGrid::searchBlocks(
   };
   const float cellArea = this->cellSize_ * this->cellSize_;
 
-  Candidate best = NoCandidate;
   const auto searchBlock = [&](int bx, int by, int bz)
   {
     const CellIndex corner{ bx * BlockWidth, by * BlockWidth, bz * BlockWidth };
@@ -283,8 +282,11 @@ VertexIndex VertexGrid::closest(Vector4 sample, std::span<const Vector4> positio
   {
     best = this->searchOctant(home, sample, positions.data());
   }
-  best = best != NoCandidate ? this->searchBall(home, sample, positions.data(), best)
-                             : this->searchBlocks(home, sample, positions.data());
+  // In a ball of many cells, most of which are empty, it is quicker to look at blocks.
+  const float farthest = BlockWidth / 2 * this->cellSize_;
+  best = squaredDistanceOf(best) < farthest * farthest
+    ? this->searchBall(home, sample, positions.data(), best)
+    : this->searchBlocks(home, sample, positions.data(), best);
   return VertexIndex(best & NoVertex);
 }
 }

@@ -20,7 +20,7 @@ namespace neuralmesh
 ///
 /// A query looks into the cell of the sample (if that is empty, into the seven cells that are
 /// closest, too), then into those that the ball to the best vertex so far touches. Where all eight
-/// are empty, it goes outwards block by block.
+/// are empty, or the best is far, it goes outwards block by block.
 /// Positions outside the box count to the cells at its border; as clamping to a box never
 /// lengthens a distance, all bounds hold there, too.
 ///
@@ -105,7 +105,8 @@ private:
   Candidate searchOctant(CellIndex home, Vector4 sample, const Vector4* positions) const;
   Candidate searchBall(
     CellIndex home, Vector4 sample, const Vector4* positions, Candidate best) const;
-  Candidate searchBlocks(CellIndex home, Vector4 sample, const Vector4* positions) const;
+  Candidate searchBlocks(
+    CellIndex home, Vector4 sample, const Vector4* positions, Candidate best) const;
 
   Vector4 origin_;
   Vector4 lastCell_;

@@ -62,7 +62,7 @@ test_parameters()
   expect 0 "$neuralmesh" reconstruct cloud.xyz basic.ply --vertices 400 --method basic
   expect 0 "$neuralmesh" reconstruct cloud.xyz thesis.ply --vertices 400 --preset thesis
   expect 0 "$neuralmesh" reconstruct cloud.xyz set.ply --vertices 400 \
-    --set WinnerRate=0.2 --set ValenceFlips=0
+    --set WinnerRate=0.2 --set EdgeFlips=0
   local other
   for other in basic thesis set; do
     ! cmp -s default.ply "$other.ply" || fail "$other changed nothing"

@@ -32,6 +32,11 @@ public:
   void demoteTop() override;
   void promoteBottom() override;
   double activity(VertexIndex v) const override { return this->counters_[v]; }
+  void reserve(std::size_t count) override
+  {
+    this->counters_.reserve(count);
+    this->updates_.reserve(count);
+  }
   void renumber(std::span<const VertexIndex> order) override;
 
 private:

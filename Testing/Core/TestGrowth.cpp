@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "EdgeFlips.h"
 #include "HalfEdgeCollapse.h"
 #include "MeshTools.h"
-#include "ValenceFlips.h"
 #include "VertexSplit.h"
 
 #include <gtest/gtest.h>
@@ -376,28 +376,18 @@ TEST(Growth, BestCollapseIsTheLeastLegalOne)
   EXPECT_GT(none, 0);
 }
 
-// Flips bring valences closer to regular, and never farther from it.
-TEST(Growth, FlipsImproveValences)
+// Flips keep the manifold, its topology and its vertices, however folded it is.
+TEST(Growth, FlipsKeepTopology)
 {
-  unsigned allFlips = 0;
+  unsigned flips = 0;
   for (const bool open : { false, true })
   {
     for (Mesh& mesh : randomMeshes(40, open, 6))
     {
       const ManifoldReport before = reportOf(mesh);
-      int irregularity = Connectivity(mesh).irregularity();
       for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
       {
-        if (!mesh.isAlive(v))
-        {
-          continue;
-        }
-        const unsigned flips = improveValencesAround(mesh, v);
-        allFlips += flips;
-        const int now = Connectivity(mesh).irregularity();
-        // The sum of squares is even or odd for good, so that every flip lowers it by two or more.
-        EXPECT_LE(now, irregularity - 2 * int(flips));
-        irregularity = now;
+        flips += mesh.isAlive(v) ? flipEdgesAround(mesh, v) : 0;
       }
       ASSERT_EQ(defectOf(mesh), "");
       const ManifoldReport after = reportOf(mesh);
@@ -406,7 +396,45 @@ TEST(Growth, FlipsImproveValences)
       EXPECT_EQ(after.usedPoints, before.usedPoints);
     }
   }
+  EXPECT_GT(flips, 100u);
+}
+
+// Where the mesh is not folded, flips bring valences closer to regular, and never farther from it.
+TEST(Growth, FlipsImproveValences)
+{
+  Random random(11);
+  unsigned allFlips = 0;
+  for (int repetition = 0; repetition < 10; ++repetition)
+  {
+    Mesh mesh = makeIrregularDisk(80, random);
+    int irregularity = Connectivity(mesh).irregularity();
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      const unsigned flips = flipEdgesAround(mesh, v);
+      allFlips += flips;
+      const int now = Connectivity(mesh).irregularity();
+      // The sum of squares is even or odd for good, so that every flip lowers it by two or more.
+      EXPECT_LE(now, irregularity - 2 * int(flips));
+      irregularity = now;
+    }
+  }
   EXPECT_GT(allFlips, 100u);
+}
+
+// The rim of two sheets that lie back to back retracts; that of a body does not.
+TEST(Growth, FlipsRetractRimsOfSheets)
+{
+  for (const float height : { 0.01f, 1.f })
+  {
+    Mesh mesh = makeBipyramid(6);
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      const Vector4 p = mesh.position(v);
+      mesh.setPosition(v, Vector4(p[0], p[1], height * p[2]));
+    }
+    EXPECT_EQ(flipEdgesAround(mesh, mesh.ring(0)[0]) > 0, height < 0.5f);
+    EXPECT_EQ(defectOf(mesh), "");
+  }
 }
 
 // Flips never fold: a flat mesh stays flat, all triangles the right way up.
@@ -420,7 +448,7 @@ TEST(Growth, FlipsNeverFold)
     const int before = Connectivity(mesh).irregularity();
     for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
     {
-      flips += improveValencesAround(mesh, v);
+      flips += flipEdgesAround(mesh, v);
       for (const Triangle& triangle : trianglesOf(mesh))
       {
         // Up to the rounding of single precision.
@@ -453,7 +481,7 @@ TEST(Growth, FlipsKeepRidges)
         mesh.setPosition(v, p[1] < -1e-3f ? Vector4(p[0], 0.f, p[1]) : p);
       }
     }
-    EXPECT_GT(improveValencesAround(mesh, 0), 0u);
+    EXPECT_GT(flipEdgesAround(mesh, 0), 0u);
     EXPECT_EQ(mesh.ring(0).contains(rim[0]), folded);
     EXPECT_EQ(defectOf(mesh), "");
   }

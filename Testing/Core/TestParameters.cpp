@@ -24,7 +24,7 @@ TEST(Parameters, ThesisPreset)
   EXPECT_EQ(noise.outlierLimit, 0.);
   EXPECT_EQ(noise.earlyPatience, 1.);
   EXPECT_EQ(noise.batchSize, 1);
-  EXPECT_FALSE(noise.valenceFlips);
+  EXPECT_FALSE(noise.edgeFlips);
 
   const Parameters basic = Parameters::of(Preset::Thesis, Variant::Basic);
   EXPECT_EQ(basic.variant, Variant::Basic);
@@ -40,7 +40,7 @@ TEST(Parameters, DefaultPreset)
   EXPECT_EQ(parameters.variant, Variant::Basic);
   EXPECT_EQ(parameters.smoothingRate, Parameters().smoothingRate);
   EXPECT_EQ(parameters.batchSize, Parameters().batchSize);
-  EXPECT_TRUE(parameters.valenceFlips);
+  EXPECT_TRUE(parameters.edgeFlips);
 }
 
 // Growth needs C_ec > exp(-C_ec) C_vs, (6.18): a warning where that does not hold, and only there.

@@ -34,7 +34,7 @@ int TestNeuralMeshProperties(int, char*[])
   CHECK(filter->GetCounterHalfLife() == 6.0 && filter->GetSmoothingRate() == 0.05);
   CHECK(filter->GetSmoothingIterations() == 1 && filter->GetSamplesPerAddition() == 50);
   CHECK(filter->GetAdditionsPerRemoval() == 125 && filter->GetRemovalPatience() == 10.0);
-  CHECK(filter->GetValenceFlips() == 0 && filter->GetOutlierLimit() == 0.0);
+  CHECK(filter->GetEdgeFlips() == 0 && filter->GetOutlierLimit() == 0.0);
   CHECK(filter->GetEarlyPatience() == 1.0 && filter->GetBatchSize() == 1);
   CHECK(filter->GetRemovalLimit() == 0.0);
   filter->SetVariantToBasic();
@@ -57,7 +57,7 @@ int TestNeuralMeshProperties(int, char*[])
     { "NumberOfVertices", "Seed", "Variant", "Preset", "WinnerRate", "SmoothingRate",
       "SmoothingIterations", "CounterDecay", "CounterHalfLife", "NoiseTolerance", "NoiseWindow",
       "OutlierLimit", "OutlierLimitVertices", "SamplesPerAddition", "EarlyPatience",
-      "EarlyVertices", "AdditionsPerRemoval", "RemovalPatience", "RemovalLimit", "ValenceFlips",
+      "EarlyVertices", "AdditionsPerRemoval", "RemovalPatience", "RemovalLimit", "EdgeFlips",
       "BatchSize", "MaximumIterations", "TargetSampleDistance", "TargetCloudDistance", "TimeLimit",
       "StallPatience", "OutputPointsPrecision", "StopReason" })
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ValenceFlips.h"
+#include "EdgeFlips.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,10 @@ namespace
 {
 /// Cosine of the angle between two normals from which on a flip may not bend the surface more.
 constexpr float CosineOfBend = 0.5f;
+/// Cosine of the angle between two normals below which an edge is a rim of two sheets.
+constexpr float CosineOfRim = -0.5f;
+/// Triangles lower than a thousandth of their edge have no normal to speak of.
+constexpr float SquaredHeightOfSliver = 1e-6f;
 constexpr int MaximumPasses = 4;
 
 /// By how much a flip of a-b to c-d lowers the sum of squared excesses of valence.
@@ -38,14 +42,33 @@ bool keepsShape(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, V
     cosine(new1, new2) >= std::min(CosineOfBend, cosine(old1, old2));
 }
 
+/// Whether a-b is the rim at which two sheets lie back to back, and c-d is shorter. Such sheets span
+/// gaps between parts of the surface that the mesh has learnt as one: no sample comes there, so
+/// nothing moves them. Flip by flip their rim retracts.
+bool isRimOfSheets(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
+{
+  const Vector4 pa = mesh.position(a), pb = mesh.position(b);
+  const Vector4 pc = mesh.position(c), pd = mesh.position(d);
+  const Vector4 normal1 = cross(pb - pa, pc - pa), normal2 = cross(pa - pb, pd - pb);
+  const float length = squaredNorm(pb - pa);
+  const float sliver = SquaredHeightOfSliver * length * length;
+  return squaredNorm(pd - pc) < length && squaredNorm(normal1) > sliver &&
+    squaredNorm(normal2) > sliver && cosine(normal1, normal2) < CosineOfRim;
+}
+
+bool improves(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
+{
+  return (valenceGain(mesh, a, b, c, d) > 0 && keepsShape(mesh, a, b, c, d)) ||
+    isRimOfSheets(mesh, a, b, c, d);
+}
+
 bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b)
 {
   const Ring& ring = mesh.ring(a);
   const unsigned slot = ring.find(b);
   const VertexIndex c = ring.next(slot);
   const VertexIndex d = ring.previous(slot);
-  if (c == NoVertex || d == NoVertex || valenceGain(mesh, a, b, c, d) <= 0 || !mesh.canFlip(a, b) ||
-    !keepsShape(mesh, a, b, c, d))
+  if (c == NoVertex || d == NoVertex || !improves(mesh, a, b, c, d) || !mesh.canFlip(a, b))
   {
     return false;
   }
@@ -54,7 +77,7 @@ bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b)
 }
 }
 
-unsigned improveValencesAround(Mesh& mesh, VertexIndex v)
+unsigned flipEdgesAround(Mesh& mesh, VertexIndex v)
 {
   unsigned flips = 0;
   bool improved = true;
