@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "LargePageAllocator.h"
 #include "Ring.h"
 #include "WideReal.h"
 
@@ -152,7 +153,7 @@ private:
     }
   }
 
-  std::vector<Entry> entries_;
-  std::vector<std::uint32_t> places_;
+  LargeVector<Entry> entries_;
+  LargeVector<std::uint32_t> places_;
 };
 }

@@ -309,8 +309,8 @@ void Mesh::renumber(std::span<const VertexIndex> order)
   {
     newIndex[order[i]] = VertexIndex(i);
   }
-  std::vector<Ring> rings(order.size());
-  std::vector<Vector4> positions(order.size());
+  LargeVector<Ring> rings(order.size());
+  LargeVector<Vector4> positions(order.size());
   for (std::size_t i = 0; i < order.size(); ++i)
   {
     rings[i] = this->rings_[order[i]];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "LargePageAllocator.h"
 #include "Ring.h"
 #include "Vector4.h"
 
@@ -108,8 +109,8 @@ private:
   VertexIndex newVertex(Vector4 position);
   void eraseVertex(VertexIndex v);
 
-  std::vector<Ring> rings_;
-  std::vector<Vector4> positions_;
+  LargeVector<Ring> rings_;
+  LargeVector<Vector4> positions_;
   std::vector<VertexIndex> erased_;
   std::vector<VertexIndex> reusable_;
   std::size_t vertexCount_ = 0;

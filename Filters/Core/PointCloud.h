@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "LargePageAllocator.h"
 #include "Vector4.h"
 
 #include <Eigen/Geometry>
@@ -47,7 +48,7 @@ public:
   double unit() const { return this->size_; }
 
 private:
-  std::vector<Vector4> points_;
+  LargeVector<Vector4> points_;
   std::size_t droppedCount_ = 0;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double size_ = 1.;

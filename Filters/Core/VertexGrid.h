@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "LargePageAllocator.h"
 #include "Ring.h"
 #include "Vector4.h"
 
@@ -115,10 +116,10 @@ private:
   std::array<int, 3> cells_{};
   std::array<int, 3> blockCounts_{};
 
-  std::vector<std::uint32_t> blockNumbers_;
-  std::vector<Block> blocks_;
+  LargeVector<std::uint32_t> blockNumbers_;
+  LargeVector<Block> blocks_;
   std::vector<std::uint32_t> freeBlocks_;
-  std::vector<Line> lines_;
+  LargeVector<Line> lines_;
   std::vector<std::uint32_t> freeLines_;
 };
 
