@@ -276,9 +276,9 @@ public:
 
   ///@{
   /**
-   * The largest number of samples that are drawn at once; there is never more than one for sixteen
+   * The largest number of samples that are drawn at once; there is never more than one for eight
    * vertices. The winners of a batch are searched before it is learnt, which is faster by far.
-   * Another size gives another mesh of the same quality. Default 16384 (thesis 1, one by one),
+   * Another size gives another mesh of the same quality. Default 65536 (thesis 1, one by one),
    * range 1 to 1048576.
    */
   vtkSetClampMacro(BatchSize, int, 1, 1048576);

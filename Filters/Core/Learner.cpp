@@ -17,7 +17,7 @@ namespace neuralmesh
 namespace
 {
 /// A batch is so small a part of the mesh that hardly any vertex wins twice in it.
-constexpr std::size_t VerticesPerSampleOfBatch = 16;
+constexpr std::size_t VerticesPerSampleOfBatch = 8;
 /// The window of the statistics spans about four batches: batches are sorted, so the last so many
 /// samples would all lie in one corner of the cloud.
 constexpr std::size_t ObservationsPerBatch = 250;

@@ -49,7 +49,7 @@ struct Parameters
   bool edgeFlips = true;        ///< flips towards regular valences around splits, collapses
 
   // Samples
-  int batchSize = 16384; ///< samples whose winners are searched at once, at most
+  int batchSize = 65536; ///< samples whose winners are searched at once, at most
 
   // Stopping rules; 0 = none, but for the first and the last
   std::uint64_t numberOfVertices = 20000;

@@ -15,7 +15,7 @@ namespace
 using namespace neuralmesh;
 
 /// Closest of the points of a sphere to random others of it; samples one by one in random order
-/// (batches of one) or in batches of a sixteenth of the points, in Morton order.
+/// (batches of one) or in batches of an eighth of the points, in Morton order.
 void closestVertex(benchmark::State& state)
 {
   CloudOptions options;
@@ -33,7 +33,7 @@ void closestVertex(benchmark::State& state)
     grid.insert(v, vertices.points()[v]);
   }
   SampleStream samples(cloud.points(), 1);
-  const auto batch = state.range(1) ? std::size_t(state.range(0)) / 16 : 1;
+  const auto batch = state.range(1) ? std::size_t(state.range(0)) / 8 : 1;
   std::size_t searched = 0;
   for (auto _ : state)
   {
