@@ -22,6 +22,8 @@ constexpr std::size_t VerticesPerSampleOfBatch = 8;
 /// samples would all lie in one corner of the cloud.
 constexpr std::size_t ObservationsPerBatch = 250;
 constexpr std::size_t PrefetchDistance = 8;
+/// Meshes up to this size stay in the cache by themselves, more or less.
+constexpr std::size_t VerticesInCache = 1 << 15;
 
 /// Where outliers are rejected, distances count as at most so many epsilon_t in the statistics:
 /// otherwise outliers raise the very limit beyond which they are rejected.
@@ -157,17 +159,27 @@ void Learner::findWinners(std::span<const Vector4> samples)
 
 void Learner::prefetchAhead(std::size_t sample) const
 {
-  if (sample + PrefetchDistance < this->winners_.size())
+  if (sample + PrefetchDistance >= this->winners_.size())
   {
-    const VertexIndex later = this->winners_[sample + PrefetchDistance];
-    __builtin_prefetch(&this->mesh_.ring(later));
-    const VertexIndex sooner = this->winners_[sample + PrefetchDistance / 2];
-    this->order_->prefetch(sooner);
-    const Ring& ring = this->mesh_.ring(sooner);
-    for (const VertexIndex neighbor : ring)
+    return;
+  }
+  const Vector4* positions = this->mesh_.positions().data();
+  const auto winnerIn = [&](std::size_t samples) { return this->winners_[sample + samples]; };
+  __builtin_prefetch(&this->mesh_.ring(winnerIn(PrefetchDistance)));
+  this->order_->prefetch(winnerIn(PrefetchDistance / 2));
+  for (const VertexIndex neighbor : this->mesh_.ring(winnerIn(PrefetchDistance / 2)))
+  {
+    __builtin_prefetch(&this->mesh_.ring(neighbor));
+    __builtin_prefetch(positions + neighbor);
+  }
+  if (this->mesh_.vertexCount() > VerticesInCache)
+  {
+    // Smoothing looks at the neighbours of the neighbours: two of each stand for those beside them.
+    for (const VertexIndex neighbor : this->mesh_.ring(winnerIn(PrefetchDistance / 4)))
     {
-      __builtin_prefetch(&this->mesh_.ring(neighbor));
-      __builtin_prefetch(this->mesh_.positions().data() + neighbor);
+      const Ring& ring = this->mesh_.ring(neighbor);
+      __builtin_prefetch(positions + ring[0]);
+      __builtin_prefetch(positions + ring[ring.size() / 2]);
     }
   }
 }
