@@ -90,8 +90,8 @@ int main()
   for (std::size_t i = 0; i < ours.size(); ++i)
   {
     const double n = double(ours[i].vertices);
-    std::printf("| %zu | %.0f | %.2f | %.2f | ", ours[i].vertices, ours[i].perSample,
-      ours[i].total, 1e6 * ours[i].total / (n * std::log2(n)));
+    std::printf("| %zu | %.0f | %.2f | %.2f | ", ours[i].vertices, ours[i].perSample, ours[i].total,
+      1e6 * ours[i].total / (n * std::log2(n)));
     if (i < naive.size())
     {
       std::printf("%.2f | %.1f |\n", naive[i].total, naive[i].total / ours[i].total);

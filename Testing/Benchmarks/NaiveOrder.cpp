@@ -13,10 +13,7 @@ void NaiveOrder::win(VertexIndex winner, double gain, double decay)
   this->updates_[winner] = this->logDecay_;
 }
 
-void NaiveOrder::pass(double decay)
-{
-  this->logDecay_ += std::log(decay);
-}
+void NaiveOrder::pass(double decay) { this->logDecay_ += std::log(decay); }
 
 void NaiveOrder::bringUpToDate() const
 {
@@ -78,15 +75,9 @@ void NaiveOrder::split(VertexIndex split, VertexIndex added, double share)
   this->counters_[split] *= share;
 }
 
-void NaiveOrder::demoteTop()
-{
-  this->counters_[this->top()] *= 0.5;
-}
+void NaiveOrder::demoteTop() { this->counters_[this->top()] *= 0.5; }
 
-void NaiveOrder::promoteBottom()
-{
-  this->counters_[this->bottom()] += 1.;
-}
+void NaiveOrder::promoteBottom() { this->counters_[this->bottom()] += 1.; }
 
 void NaiveOrder::renumber(std::span<const VertexIndex> order)
 {

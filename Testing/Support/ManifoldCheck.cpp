@@ -15,7 +15,8 @@ using Index = std::uint32_t;
 class UnionFind
 {
 public:
-  explicit UnionFind(std::size_t count) : parent_(count)
+  explicit UnionFind(std::size_t count)
+    : parent_(count)
   {
     std::iota(this->parent_.begin(), this->parent_.end(), std::size_t(0));
   }
