@@ -14,6 +14,7 @@
 #include "vtkXMLPolyDataWriter.h"
 
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -46,12 +47,35 @@ void WriteWith(vtkPolyData* mesh, const std::string& path)
   }
 }
 
+/**
+ * By way of a string, as VTK 9.2 crashes if the disk is full. Data in the elements, not appended
+ * behind them: with the newer versions of expat, VTK 9.2 reads little appended data.
+ */
+void WriteVTP(vtkPolyData* mesh, const std::string& path)
+{
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetDataModeToBinary();
+  writer->WriteToOutputStringOn();
+  writer->SetInputData(mesh);
+  if (writer->Write() != 1)
+  {
+    throw std::runtime_error(vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+  }
+  std::ofstream file(path, std::ios::binary);
+  file << writer->GetOutputString();
+  file.close();
+  if (!file)
+  {
+    throw std::runtime_error("not all of it could be written; is the disk full?");
+  }
+}
+
 using Write = std::function<void(vtkPolyData*, const std::string&)>;
 
 const std::map<std::string, Write>& Writers()
 {
   static const std::map<std::string, Write> writers{
-    { ".vtp", WriteWith<vtkXMLPolyDataWriter> },
+    { ".vtp", WriteVTP },
     { ".ply", WriteWith<vtkPLYWriter> },
     { ".obj", WriteWith<vtkOBJWriter> },
     { ".stl", WriteWith<vtkSTLWriter> },
@@ -79,7 +103,7 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path)
   try
   {
     Writers().at(extension)(mesh, temporary.string());
-    if (!IsWrittenWhole(mesh, temporary.string()))
+    if (extension != ".vtp" && !IsWrittenWhole(mesh, temporary.string()))
     {
       throw std::runtime_error("not all of it could be written; is the disk full?");
     }

@@ -283,7 +283,7 @@ VertexIndex VertexGrid::closest(Vector4 sample, std::span<const Vector4> positio
     best = this->searchOctant(home, sample, positions.data());
   }
   // In a ball of many cells, most of which are empty, it is quicker to look at blocks.
-  const float farthest = BlockWidth / 2 * this->cellSize_;
+  const float farthest = 0.5f * BlockWidth * this->cellSize_;
   best = squaredDistanceOf(best) < farthest * farthest
     ? this->searchBall(home, sample, positions.data(), best)
     : this->searchBlocks(home, sample, positions.data(), best);
