@@ -39,7 +39,7 @@ vtkStandardNewMacro(vtkNeuralMesh);
   use(AdditionsPerRemoval, additionsPerRemoval)             \
   use(RemovalPatience, removalPatience)                     \
   use(RemovalLimit, removalLimit)                           \
-  use(EdgeFlips, edgeFlips)                           \
+  use(EdgeFlips, edgeFlips)                                 \
   use(BatchSize, batchSize)
 
 // The others that the core knows.

@@ -20,9 +20,9 @@ enum class Preset
   Thesis   ///< the thesis's own values and nothing that it lacks
 };
 
-/// All parameters of a run, with the product's defaults. Equation and section numbers are those of W. Saleem, A flexible
-/// framework for learning-based surface reconstruction, 2004. Ranges stand with the properties of
-/// vtkNeuralMesh, which are named alike.
+/// All parameters of a run, with the product's defaults. Equation and section numbers are those of
+/// W. Saleem, A flexible framework for learning-based surface reconstruction, 2004. Ranges stand
+/// with the properties of vtkNeuralMesh, which are named alike.
 struct Parameters
 {
   Variant variant = Variant::NoiseFiltering;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -177,5 +178,50 @@ inline void tear(Mesh& mesh, unsigned triangles, Random& random)
     const std::vector<Triangle> all = trianglesOf(mesh);
     mesh.removeTriangle(all[random.below(std::uint32_t(all.size()))]);
   }
+}
+
+inline std::set<VertexIndex> neighborsOf(const Mesh& mesh, VertexIndex v)
+{
+  return { mesh.ring(v).begin(), mesh.ring(v).end() };
+}
+
+inline bool isAt(Vector4 a, Vector4 b) { return squaredNorm(a - b) == 0.f; }
+
+// --- Operations on bare triangles ----------------------------------------------------------------
+
+inline std::vector<Triangle> collapsed(
+  std::vector<Triangle> triangles, VertexIndex removed, VertexIndex kept)
+{
+  for (Triangle& triangle : triangles)
+  {
+    std::replace(triangle.begin(), triangle.end(), removed, kept);
+  }
+  std::erase_if(
+    triangles, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  return triangles;
+}
+
+/// The corner after `a` and `b` of the triangle that runs along its edge a-b; NoVertex if none.
+inline VertexIndex beyond(const std::vector<Triangle>& triangles, VertexIndex a, VertexIndex b)
+{
+  for (const Triangle& triangle : triangles)
+  {
+    for (unsigned k = 0; k < 3; ++k)
+    {
+      if (triangle[k] == a && triangle[(k + 1) % 3] == b)
+      {
+        return triangle[(k + 2) % 3];
+      }
+    }
+  }
+  return NoVertex;
+}
+
+inline std::vector<Triangle> without(std::vector<Triangle> triangles, const Triangle& triangle)
+{
+  const Triangle removed = canonical({ triangle }).front();
+  std::erase_if(
+    triangles, [&](const Triangle& other) { return canonical({ other }).front() == removed; });
+  return triangles;
 }
 }
