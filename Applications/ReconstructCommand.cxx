@@ -71,7 +71,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
   }
 }
 
-void Reconstruct(const Options& options)
+int Reconstruct(const Options& options)
 {
   vtkNew<vtkNeuralMesh> filter;
   PrepareFilter(filter, options);
@@ -117,10 +117,11 @@ void Reconstruct(const Options& options)
     std::printf("time       %.2f s (reading %.2f, learning %.2f, writing %.2f)\n",
       reading + learning + writing, reading, learning, writing);
   }
+  return 0;
 }
 }
 
-std::function<void()> AddReconstructCommand(CLI::App& application)
+std::function<int()> AddReconstructCommand(CLI::App& application)
 {
   auto options = std::make_shared<Options>();
   CLI::App* command =
@@ -160,5 +161,5 @@ std::function<void()> AddReconstructCommand(CLI::App& application)
   command->footer("Parameters of learning (see the documentation of vtkNeuralMesh):\n" +
     DescribeLearningParameters() +
     "\nExit status: 0 done, 1 failed (the message is on stderr), 2 wrong use.");
-  return [options] { Reconstruct(*options); };
+  return [options] { return Reconstruct(*options); };
 }

@@ -11,8 +11,8 @@ class App;
 
 /**
  * Adds `reconstruct INPUT OUTPUT` to the command line. What is returned carries it out, after the
- * line was parsed; it throws UsageError or std::runtime_error.
+ * line was parsed, and gives the exit status; it throws UsageError or std::runtime_error.
  */
-std::function<void()> AddReconstructCommand(CLI::App& application);
+std::function<int()> AddReconstructCommand(CLI::App& application);
 
 #endif

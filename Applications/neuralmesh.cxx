@@ -25,8 +25,7 @@ int Run(int argc, char* argv[])
   {
     return application.exit(error) == 0 ? 0 : WrongUse;
   }
-  reconstruct();
-  return 0;
+  return reconstruct();
 }
 }
 
