@@ -27,8 +27,9 @@ public:
   virtual VertexIndex top() const = 0;
   /// The laziest vertex; of equally lazy ones the lowest index.
   virtual VertexIndex bottom() = 0;
-  /// Whether the laziest vertex has less activity than `threshold` times that of one win.
-  virtual bool isBottomBelow(double threshold) = 0;
+  /// Whether the laziest vertex has less activity than `threshold` times that of one win, as
+  /// `expectedCount` vertices have on average.
+  virtual bool isBottomBelow(double threshold, double expectedCount) = 0;
 
   /// `added` came out of a split of `split`, which keeps `share` (0 ... 1) of its activity; the
   /// rest is that of `added`. (6.19)
@@ -39,7 +40,7 @@ public:
   /// The laziest vertex cannot be removed: raises it, so that others get their turn.
   virtual void promoteBottom() = 0;
 
-  /// The activity in units of one win, as far as the number range goes.
+  /// The activity in units of one win, as far as the number range goes; in a list, the place in it.
   virtual double activity(VertexIndex v) const = 0;
 
   /// Memory for `count` indices: up to there no operation allocates.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExactOrder.h"
 
+#include "Renumbering.h"
+
 namespace neuralmesh
 {
 ExactOrder::ExactOrder(std::size_t count)
@@ -39,7 +41,7 @@ VertexIndex ExactOrder::bottom()
   }
 }
 
-bool ExactOrder::isBottomBelow(double threshold)
+bool ExactOrder::isBottomBelow(double threshold, double)
 {
   return this->mostActive_.key(this->bottom()) < this->inverseS_.times(threshold);
 }
@@ -82,11 +84,7 @@ double ExactOrder::activity(VertexIndex v) const
 
 void ExactOrder::renumber(std::span<const VertexIndex> order)
 {
-  std::vector<VertexIndex> newIndex(1 + *std::max_element(order.begin(), order.end()));
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    newIndex[order[i]] = VertexIndex(i);
-  }
+  const std::vector<VertexIndex> newIndex = newIndices(order);
   this->mostActive_.renumber(newIndex);
   this->leastActive_.renumber(newIndex);
 }

@@ -25,7 +25,7 @@ public:
   void pass(double decay) override;
   VertexIndex top() const override { return this->mostActive_.first().vertex; }
   VertexIndex bottom() override;
-  bool isBottomBelow(double threshold) override;
+  bool isBottomBelow(double threshold, double expectedCount) override;
   void split(VertexIndex split, VertexIndex added, double share) override;
   void erase(VertexIndex v) override;
   void demoteTop() override;

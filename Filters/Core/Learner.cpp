@@ -4,6 +4,7 @@
 #include "EdgeFlips.h"
 #include "ExactOrder.h"
 #include "HalfEdgeCollapse.h"
+#include "ListOrder.h"
 #include "Morton.h"
 #include "Smoothing.h"
 #include "VertexSplit.h"
@@ -77,6 +78,7 @@ Mesh firstTetrahedron(const PointCloud& cloud)
 Learner::Learner(const PointCloud& cloud, const Parameters& parameters)
   : Learner(cloud, parameters, firstTetrahedron(cloud), std::make_unique<ExactOrder>(4))
 {
+  this->isListDue_ = parameters.order == Order::List;
 }
 
 Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh,
@@ -293,6 +295,11 @@ void Learner::nodeAddition()
     }
     ++this->counts_.additions;
     this->updateDecay();
+    if (this->isListDue_ &&
+      this->mesh_.vertexCount() >= std::size_t(this->parameters_.listVertices))
+    {
+      this->enterList();
+    }
     return;
   }
 }
@@ -337,6 +344,10 @@ void Learner::removeVertices()
   // alpha_n^(C_ec n), with alpha_n of (9.4).
   const double threshold =
     std::exp2(-this->parameters_.removalPatience / this->parameters_.counterHalfLife);
+  // n_l of 11.3: how many there are on average, by which a list goes.
+  const double expectedCount = this->parameters_.additionsPerRemoval *
+    this->parameters_.samplesPerAddition * std::exp(-this->parameters_.removalPatience) /
+    this->parameters_.removalPatience;
   const double limit = this->parameters_.removalLimit > 0.
     ? std::ceil(this->parameters_.removalLimit * this->parameters_.additionsPerRemoval)
     : std::numeric_limits<double>::infinity();
@@ -348,7 +359,7 @@ void Learner::removeVertices()
       ++this->counts_.illegalOperations;
       this->order_->promoteBottom();
     }
-  } while (++tried < limit && this->order_->isBottomBelow(threshold));
+  } while (++tried < limit && this->order_->isBottomBelow(threshold, expectedCount));
 }
 
 bool Learner::removeVertex(VertexIndex v)
@@ -367,6 +378,20 @@ bool Learner::removeVertex(VertexIndex v)
   }
   ++this->counts_.removals;
   return true;
+}
+
+void Learner::enterList()
+{
+  this->isListDue_ = false;
+  std::vector<VertexIndex> laziestFirst(this->mesh_.vertexCount());
+  for (VertexIndex& v : laziestFirst)
+  {
+    v = this->order_->bottom();
+    this->order_->erase(v);
+  }
+  this->order_ = std::make_unique<ListOrder>(
+    laziestFirst, this->parameters_.jumpFraction, this->parameters_.seed);
+  this->order_->reserve(this->capacity_);
 }
 
 void Learner::updateDecay()
@@ -404,14 +429,13 @@ void Learner::renumber()
   this->mesh_.renumber(order);
   this->order_->renumber(order);
 
-  const std::size_t capacity =
-    64 + std::size_t(GrowthUntilRenumbering * 1.1 * double(order.size()));
+  this->capacity_ = 64 + std::size_t(GrowthUntilRenumbering * 1.1 * double(order.size()));
   this->nextRenumbering_ = 1 + std::size_t(GrowthUntilRenumbering * double(order.size()));
-  this->mesh_.reserve(capacity);
-  this->order_->reserve(capacity);
-  this->hasWon_.reserve(capacity);
+  this->mesh_.reserve(this->capacity_);
+  this->order_->reserve(this->capacity_);
+  this->hasWon_.reserve(this->capacity_);
   this->grid_.reset(
-    this->boxMin_, this->boxMax_, EdgesPerCell * meanEdgeLength(this->mesh_), capacity);
+    this->boxMin_, this->boxMax_, EdgesPerCell * meanEdgeLength(this->mesh_), this->capacity_);
   for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
   {
     this->grid_.insert(v, this->mesh_.position(v));

@@ -35,7 +35,8 @@ public:
   /// the vertices of the mesh.
   Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh,
     std::unique_ptr<ActivityOrder> order);
-  /// Starts from a tetrahedron in the middle of the cloud, with exact counters.
+  /// Starts from a tetrahedron in the middle of the cloud, with exact counters; with the list, these
+  /// are dropped in time.
   Learner(const PointCloud& cloud, const Parameters& parameters);
 
   /// Learns so many samples, batch by batch. Ends early once the mesh has as many vertices as were
@@ -79,6 +80,7 @@ private:
   void removeIdleVertices();
   void removeVertices();
   bool removeVertex(VertexIndex v);
+  void enterList();
 
   void updateDecay();
 
@@ -104,5 +106,7 @@ private:
   std::uint64_t nextAddition_ = 0;
   std::uint64_t nextRemoval_ = 0; ///< iteration (basic) or number of additions (noise filtering)
   std::size_t nextRenumbering_ = 0;
+  std::size_t capacity_ = 0; ///< indices for which there is memory
+  bool isListDue_ = false;   ///< as soon as the mesh is large enough
 };
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh.h"
 
+#include "Renumbering.h"
+
 #include <cassert>
 #include <cmath>
 
@@ -304,11 +306,7 @@ void Mesh::releaseErased()
 void Mesh::renumber(std::span<const VertexIndex> order)
 {
   assert(order.size() == this->vertexCount());
-  std::vector<VertexIndex> newIndex(this->indexEnd(), NoVertex);
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    newIndex[order[i]] = VertexIndex(i);
-  }
+  const std::vector<VertexIndex> newIndex = newIndices(order);
   LargeVector<Ring> rings(order.size());
   LargeVector<Vector4> positions(order.size());
   for (std::size_t i = 0; i < order.size(); ++i)

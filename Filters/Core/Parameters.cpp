@@ -5,14 +5,15 @@
 
 namespace neuralmesh
 {
-Parameters Parameters::of(Preset preset, Variant variant)
+Parameters Parameters::of(Preset preset, Variant variant, Order order)
 {
   Parameters parameters;
   parameters.variant = variant;
+  parameters.order = order;
   if (preset == Preset::Thesis)
   {
-    parameters.smoothingRate = 0.05;
-    parameters.smoothingIterations = variant == Variant::Basic ? 5 : 1;
+    parameters.smoothingRate = order == Order::List ? 0.2 : 0.05;
+    parameters.smoothingIterations = variant == Variant::Basic && order == Order::Exact ? 5 : 1;
     parameters.outlierLimit = 0.;
     parameters.earlyPatience = 1.;
     parameters.additionsPerRemoval = 125;

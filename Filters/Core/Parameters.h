@@ -20,12 +20,20 @@ enum class Preset
   Thesis   ///< the thesis's own values and nothing that it lacks
 };
 
+/// How the activity of the vertices is known.
+enum class Order
+{
+  Exact, ///< counters
+  List   ///< the activity list (chapter 11)
+};
+
 /// All parameters of a run, with the product's defaults. Equation and section numbers are those of
 /// W. Saleem, A flexible framework for learning-based surface reconstruction, 2004. Ranges stand
 /// with the properties of vtkNeuralMesh, which are named alike.
 struct Parameters
 {
   Variant variant = Variant::NoiseFiltering;
+  Order order = Order::Exact;
   std::uint64_t seed = 1;
 
   // Geometry learning
@@ -48,6 +56,10 @@ struct Parameters
   double removalLimit = 0.5;    ///< removals per addition at most, noise filtering; 0 = any
   bool edgeFlips = true;        ///< flips towards regular valences around splits, collapses
 
+  // The activity list
+  double jumpFraction = 1. / 3.; ///< how far a winner jumps, fraction of n
+  int listVertices = 1000;       ///< exact counters until M has so many vertices
+
   // Samples
   int batchSize = 65536; ///< samples whose winners are searched at once, at most
 
@@ -59,8 +71,8 @@ struct Parameters
   double timeLimit = 0.;            ///< seconds
   double stallPatience = 200.;      ///< samples per vertex without growth
 
-  /// The values of the thesis for a variant, or those of the product.
-  static Parameters of(Preset preset, Variant variant);
+  /// The values of the thesis for a variant and an order, or those of the product.
+  static Parameters of(Preset preset, Variant variant, Order order = Order::Exact);
 
   /// What does not go together in these values, or with a cloud of so many points, in words; empty
   /// if all is well.

@@ -55,7 +55,7 @@ VertexIndex NaiveOrder::bottom()
   return best;
 }
 
-bool NaiveOrder::isBottomBelow(double threshold)
+bool NaiveOrder::isBottomBelow(double threshold, double)
 {
   return this->counters_[this->bottom()] < threshold;
 }

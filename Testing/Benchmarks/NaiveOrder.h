@@ -26,7 +26,7 @@ public:
   void pass(double decay) override;
   VertexIndex top() const override;
   VertexIndex bottom() override;
-  bool isBottomBelow(double threshold) override;
+  bool isBottomBelow(double threshold, double expectedCount) override;
   void split(VertexIndex split, VertexIndex added, double share) override;
   void erase(VertexIndex v) override { this->isAlive_[v] = false; }
   void demoteTop() override;

@@ -153,7 +153,7 @@ TEST(ExactOrder, StartsWithZeros)
   ExactOrder order(5);
   EXPECT_EQ(order.top(), 0u);
   EXPECT_EQ(order.bottom(), 0u);
-  EXPECT_TRUE(order.isBottomBelow(1e-300));
+  EXPECT_TRUE(order.isBottomBelow(1e-300, 0.));
   for (VertexIndex v = 0; v < 5; ++v)
   {
     EXPECT_EQ(order.activity(v), 0.);
@@ -179,8 +179,8 @@ TEST(ExactOrder, CountersOfTheThesis)
   EXPECT_EQ(order.top(), 1u);
   order.erase(0);
   EXPECT_EQ(order.bottom(), 2u);
-  EXPECT_TRUE(order.isBottomBelow(0.126));
-  EXPECT_FALSE(order.isBottomBelow(0.124));
+  EXPECT_TRUE(order.isBottomBelow(0.126, 0.));
+  EXPECT_FALSE(order.isBottomBelow(0.124, 0.));
 }
 
 // Vertices idle for so long that a double would have become zero are told apart all the same.
@@ -204,7 +204,7 @@ TEST(ExactOrder, OrderOutlivesUnderflow)
   for (const VertexIndex laziest : { 4, 2, 5, 0, 1 })
   {
     EXPECT_EQ(order.bottom(), laziest);
-    EXPECT_TRUE(order.isBottomBelow(1.));
+    EXPECT_TRUE(order.isBottomBelow(1., 0.));
     order.erase(laziest);
   }
   EXPECT_EQ(order.top(), 3u);
@@ -287,7 +287,7 @@ TEST(ExactOrder, PromotedBottomGivesWay)
   order.pass(0.9);
   ASSERT_EQ(order.bottom(), 1u);
   order.promoteBottom();
-  EXPECT_FALSE(order.isBottomBelow(0.999));
+  EXPECT_FALSE(order.isBottomBelow(0.999, 0.));
   order.promoteBottom();
   EXPECT_EQ(order.bottom(), 0u);
   EXPECT_NEAR(order.activity(1), 2., 1e-12);
@@ -391,7 +391,7 @@ TEST(ExactOrder, AgreesWithPlainCounters)
     const Number limit = Number::of(threshold);
     if (Number::clearlyLess(bottom, limit) || Number::clearlyLess(limit, bottom))
     {
-      ASSERT_EQ(order->isBottomBelow(threshold), bottom < limit) << "operation " << i;
+      ASSERT_EQ(order->isBottomBelow(threshold, 0.), bottom < limit) << "operation " << i;
     }
     const VertexIndex v = anyVertex();
     const Number counter = counters.at(v);

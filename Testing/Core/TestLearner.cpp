@@ -3,12 +3,14 @@
 #include "CloudDistance.h"
 #include "CloudGenerator.h"
 #include "ExactOrder.h"
+#include "ListOrder.h"
 #include "MeshTools.h"
 #include "Reconstruction.h"
 #include "Shapes.h"
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <set>
 
 namespace neuralmesh::testing
@@ -85,20 +87,29 @@ Parameters small()
 Learner goOnWith(Learner& grown, const Parameters& parameters)
 {
   grown.renumber();
-  return { cleanSphere(), parameters, grown.mesh(),
-    std::make_unique<ExactOrder>(grown.mesh().indexEnd()) };
+  const std::size_t count = grown.mesh().indexEnd();
+  std::unique_ptr<ActivityOrder> order = std::make_unique<ExactOrder>(count);
+  if (parameters.order == Order::List)
+  {
+    std::vector<VertexIndex> vertices(count);
+    std::iota(vertices.begin(), vertices.end(), VertexIndex(0));
+    order = std::make_unique<ListOrder>(vertices, parameters.jumpFraction, parameters.seed);
+  }
+  return { cleanSphere(), parameters, grown.mesh(), std::move(order) };
 }
 
 struct Setting
 {
   Preset preset;
   Variant variant;
+  Order order;
 };
 
 std::string settingName(const ::testing::TestParamInfo<Setting>& info)
 {
   return std::string(info.param.preset == Preset::Default ? "Default" : "Thesis") +
-    (info.param.variant == Variant::Basic ? "Basic" : "NoiseFiltering");
+    (info.param.variant == Variant::Basic ? "Basic" : "NoiseFiltering") +
+    (info.param.order == Order::List ? "List" : "");
 }
 
 class LearnerSettings : public ::testing::TestWithParam<Setting>
@@ -106,16 +117,23 @@ class LearnerSettings : public ::testing::TestWithParam<Setting>
 protected:
   static Parameters parameters(std::uint64_t vertices)
   {
-    Parameters result = Parameters::of(GetParam().preset, GetParam().variant);
+    const auto [preset, variant, order] = GetParam();
+    Parameters result = Parameters::of(preset, variant, order);
     result.numberOfVertices = vertices;
+    result.listVertices = 100;
     return result;
   }
 };
 
 INSTANTIATE_TEST_SUITE_P(Learner, LearnerSettings,
-  ::testing::Values(Setting{ Preset::Default, Variant::NoiseFiltering },
-    Setting{ Preset::Default, Variant::Basic }, Setting{ Preset::Thesis, Variant::NoiseFiltering },
-    Setting{ Preset::Thesis, Variant::Basic }),
+  ::testing::Values(Setting{ Preset::Default, Variant::NoiseFiltering, Order::Exact },
+    Setting{ Preset::Default, Variant::Basic, Order::Exact },
+    Setting{ Preset::Thesis, Variant::NoiseFiltering, Order::Exact },
+    Setting{ Preset::Thesis, Variant::Basic, Order::Exact },
+    Setting{ Preset::Default, Variant::NoiseFiltering, Order::List },
+    Setting{ Preset::Default, Variant::Basic, Order::List },
+    Setting{ Preset::Thesis, Variant::NoiseFiltering, Order::List },
+    Setting{ Preset::Thesis, Variant::Basic, Order::List }),
   settingName);
 }
 
@@ -225,6 +243,26 @@ TEST_P(LearnerSettings, RenumberKeepsTheShape)
   EXPECT_EQ(learner.mesh().indexEnd(), 700u);
   EXPECT_EQ(defectOf(learner.mesh()), "");
   EXPECT_EQ(shape(), before);
+}
+
+// With the list, the counters count until the mesh is large enough, and positions from then on.
+TEST(Learner, EntersTheListInTime)
+{
+  Parameters parameters = small();
+  parameters.order = Order::List;
+  parameters.listVertices = 300;
+  Learner learner(cleanSphere(), parameters);
+  const auto highestActivity = [&] { return learner.order().activity(learner.order().top()); };
+  while (learner.mesh().vertexCount() < 290)
+  {
+    learner.learn(50);
+  }
+  EXPECT_GT(highestActivity(), 1.5);
+  while (learner.mesh().vertexCount() < 310)
+  {
+    learner.learn(50);
+  }
+  EXPECT_EQ(highestActivity(), 1.);
 }
 
 // The cloud's units and place do not matter.
@@ -454,7 +492,14 @@ TEST_P(LearnerSettings, MovingAllocatesNothing)
 }
 
 // ... nor where vertices come and go at a steady size.
-TEST(Learner, SteadySizeAllocatesNothing)
+class LearnerOrders : public ::testing::TestWithParam<Order>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Learner, LearnerOrders, ::testing::Values(Order::Exact, Order::List),
+  [](const auto& setting) { return setting.param == Order::List ? "List" : "Exact"; });
+
+TEST_P(LearnerOrders, SteadySizeAllocatesNothing)
 {
   Parameters growing;
   growing.numberOfVertices = 2000;
@@ -462,6 +507,7 @@ TEST(Learner, SteadySizeAllocatesNothing)
   grown.learn(5000000);
 
   Parameters steady;
+  steady.order = GetParam();
   steady.numberOfVertices = 1000000;
   steady.additionsPerRemoval = 1;
   steady.removalPatience = 100.;

@@ -31,6 +31,15 @@ TEST(Parameters, ThesisPreset)
   EXPECT_EQ(basic.counterDecay, 0.95);
   EXPECT_EQ(basic.smoothingRate, 0.05);
   EXPECT_EQ(basic.smoothingIterations, 5);
+
+  const Parameters list = Parameters::of(Preset::Thesis, Variant::NoiseFiltering, Order::List);
+  EXPECT_EQ(list.order, Order::List);
+  EXPECT_EQ(list.smoothingRate, 0.2);
+  EXPECT_EQ(list.listVertices, 1000);
+  EXPECT_DOUBLE_EQ(list.jumpFraction, 1. / 3.);
+  const Parameters basicList = Parameters::of(Preset::Thesis, Variant::Basic, Order::List);
+  EXPECT_EQ(basicList.smoothingRate, 0.2);
+  EXPECT_EQ(basicList.smoothingIterations, 1);
 }
 
 // The default preset is the parameters as they are.
