@@ -16,8 +16,10 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
+#include "vtkTable.h"
 
 #include <algorithm>
+#include <chrono>
 
 vtkStandardNewMacro(vtkNeuralMesh);
 
@@ -40,6 +42,8 @@ vtkStandardNewMacro(vtkNeuralMesh);
   use(RemovalPatience, removalPatience)                     \
   use(RemovalLimit, removalLimit)                           \
   use(EdgeFlips, edgeFlips)                                 \
+  use(JumpFraction, jumpFraction)                           \
+  use(ListVertices, listVertices)                           \
   use(BatchSize, batchSize)
 
 // The others that the core knows.
@@ -47,6 +51,7 @@ vtkStandardNewMacro(vtkNeuralMesh);
   use(NumberOfVertices, numberOfVertices)                   \
   use(Seed, seed)                                           \
   use(Variant, variant)                                     \
+  use(Order, order)                                         \
   use(MaximumIterations, maximumIterations)                 \
   use(TargetSampleDistance, targetSampleDistance)           \
   use(TargetCloudDistance, targetCloudDistance)             \
@@ -56,8 +61,10 @@ vtkStandardNewMacro(vtkNeuralMesh);
 
 namespace
 {
-/// Progress is reported in steps of this size.
+/// Progress is reported in steps of this size, and at least so often: whoever wants to abort does so
+/// when told of progress.
 constexpr double ProgressStep = 0.01;
+constexpr std::chrono::milliseconds ProgressInterval(50);
 
 template <typename ArrayT, typename ValueT>
 void AddFieldValue(vtkPolyData* output, const char* name, ValueT value)
@@ -66,6 +73,40 @@ void AddFieldValue(vtkPolyData* output, const char* name, ValueT value)
   array->SetName(name);
   array->InsertNextValue(value);
   output->GetFieldData()->AddArray(array);
+}
+
+/// A column of the table, with a value of each row.
+template <typename ArrayT, typename Value>
+void AddColumn(vtkTable* table, const char* name,
+  const std::vector<neuralmesh::LearningCurve::Row>& rows, const Value& valueOf)
+{
+  vtkNew<ArrayT> column;
+  column->SetName(name);
+  for (const auto& row : rows)
+  {
+    column->InsertNextValue(static_cast<typename ArrayT::ValueType>(valueOf(row)));
+  }
+  table->AddColumn(column);
+}
+
+void FillLearningCurve(const std::vector<neuralmesh::LearningCurve::Row>& rows, vtkTable* table)
+{
+  using Row = neuralmesh::LearningCurve::Row;
+  const auto addCount = [&](const char* name, const auto& countOf)
+  { AddColumn<vtkIdTypeArray>(table, name, rows, countOf); };
+  const auto addNumber = [&](const char* name, const auto& numberOf)
+  { AddColumn<vtkDoubleArray>(table, name, rows, numberOf); };
+  addCount("Iteration", [](const Row& row) { return row.counts.iterations; });
+  addCount("Vertices", [](const Row& row) { return row.vertices; });
+  addNumber("Seconds", [](const Row& row) { return row.seconds; });
+  addNumber("SampleDistanceMean", [](const Row& row) { return row.sampleDistanceMean; });
+  addNumber("SampleDistanceDeviation", [](const Row& row) { return row.sampleDistanceDeviation; });
+  addNumber("RegularRatio", [](const Row& row) { return row.regularRatio; });
+  addCount("Additions", [](const Row& row) { return row.counts.additions; });
+  addCount("Removals", [](const Row& row) { return row.counts.removals; });
+  addCount("Flips", [](const Row& row) { return row.counts.flips; });
+  addCount("RejectedSamples", [](const Row& row) { return row.counts.rejectedSamples; });
+  addCount("IllegalOperations", [](const Row& row) { return row.counts.illegalOperations; });
 }
 
 vtkNew<vtkPoints> MakePoints(const std::vector<Eigen::Vector3d>& positions, int precision)
@@ -119,6 +160,7 @@ vtkNew<vtkDoubleArray> MakeActivity(const std::vector<double>& activities)
 
 vtkNeuralMesh::vtkNeuralMesh()
 {
+  this->SetNumberOfOutputPorts(2);
   this->StallPatience = neuralmesh::Parameters().stallPatience;
   this->ApplyPreset();
 }
@@ -138,7 +180,8 @@ bool vtkNeuralMesh::ApplyPreset()
 {
   const auto values = neuralmesh::Parameters::of(
     this->Preset == THESIS ? neuralmesh::Preset::Thesis : neuralmesh::Preset::Default,
-    this->Variant == BASIC ? neuralmesh::Variant::Basic : neuralmesh::Variant::NoiseFiltering);
+    this->Variant == BASIC ? neuralmesh::Variant::Basic : neuralmesh::Variant::NoiseFiltering,
+    this->Order == LIST ? neuralmesh::Order::List : neuralmesh::Order::Exact);
   bool changed = false;
 #define SET_PROPERTY(property, parameter)                                                          \
   changed = changed || this->property != static_cast<decltype(this->property)>(values.parameter);  \
@@ -160,10 +203,26 @@ int vtkNeuralMesh::FillInputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
+int vtkNeuralMesh::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
+    return 1;
+  }
+  return this->Superclass::FillOutputPortInformation(port, info);
+}
+
+vtkTable* vtkNeuralMesh::GetLearningCurve()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
+}
+
 int vtkNeuralMesh::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
+  vtkTable* learningCurve = vtkTable::GetData(outputVector, 1);
   this->StopReason = "none";
 
   vtkPointCloudCollector collector;
@@ -175,6 +234,7 @@ int vtkNeuralMesh::RequestData(
   }
   if (collector.GetPoints().empty())
   {
+    FillLearningCurve({}, learningCurve);
     return 1;
   }
   const neuralmesh::PointCloud cloud(collector.GetPoints());
@@ -197,12 +257,16 @@ int vtkNeuralMesh::RequestData(
     vtkWarningMacro(<< warning);
   }
 
+  using Clock = std::chrono::steady_clock;
   double reported = 0.0;
-  const auto progress = [this, &reported](double fraction)
+  Clock::time_point reportTime = Clock::now();
+  const auto progress = [&](double fraction)
   {
-    if (fraction >= reported + ProgressStep)
+    const Clock::time_point now = Clock::now();
+    if (fraction >= reported + ProgressStep || now >= reportTime + ProgressInterval)
     {
       reported = fraction;
+      reportTime = now;
       this->UpdateProgress(fraction);
     }
     // Not CheckAbort(): it would have the executive throw away the mesh learnt so far.
@@ -210,6 +274,8 @@ int vtkNeuralMesh::RequestData(
   };
   const neuralmesh::Reconstruction result = neuralmesh::reconstruct(cloud, parameters, progress);
   this->StopReason = neuralmesh::name(result.stopReason).data();
+  this->AbortExecute = 0;
+  FillLearningCurve(result.curve.rows(), learningCurve);
 
   int precision = this->OutputPointsPrecision;
   if (precision == DEFAULT_PRECISION)

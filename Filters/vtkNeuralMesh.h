@@ -25,13 +25,28 @@
  * vtkPolyData with triangles: an oriented 2-manifold without unused points; closed components are
  * oriented outwards. Point data:
  * - `Normals` (float, 3 components): area-weighted unit normals, the active normals;
- * - `Activity` (double): the signal counter of the vertex, in wins.
+ * - `Activity` (double): the signal counter of the vertex, in wins; with the activity list, the place
+ *   of the vertex in it, above 0 (laziest) up to 1.
  *
  * Field data, one value each: `NumberOfVertices`, `Iterations` (samples drawn), `Seed`,
  * `StopReason` (a string: see GetStopReason()), `DroppedPoints`.
  *
- * The same input and seed give the same bytes, on any number of threads; another seed gives another
- * mesh of the same quality. This holds as long as TimeLimit is not met.
+ * Output port 1 is a vtkTable, the learning curve: a row for every twentieth more samples and one for
+ * the end, with the columns `Iteration`, `Vertices`, `Seconds` (since the start of learning),
+ * `SampleDistanceMean` and `SampleDistanceDeviation` (of the distance from sample to winner over
+ * the last NoiseWindow observations, in units of the input), `RegularRatio` (of vertices with
+ * valence 6, on a boundary 4), and the counts so far: `Additions`, `Removals`, `Flips`,
+ * `RejectedSamples`, `IllegalOperations` (splits and collapses that were due, but not legal).
+ *
+ * The same input and seed give the same mesh to the byte, on any number of threads; another seed
+ * gives another mesh of the same quality. This holds as long as TimeLimit is not met and nobody
+ * aborts. Of times only the learning curve tells.
+ *
+ * @par Abort
+ * SetAbortExecute(1), from an observer of ProgressEvent, say, ends the run within 0.2 s. The mesh
+ * learnt so far, whole and valid, is the output; StopReason is "cancelled". The flag is cleared
+ * when it has been obeyed, so that the next execution starts clean. For that, the filter must be
+ * modified: as far as the pipeline knows, its output is up to date.
  *
  * @par What it does not do
  * The result has the topology of a sphere: handles and boundaries of the shape are covered by
@@ -55,6 +70,8 @@
 
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
+
+class vtkTable;
 
 class VTKFILTERSNEURALMESH_EXPORT vtkNeuralMesh : public vtkPolyDataAlgorithm
 {
@@ -100,6 +117,25 @@ public:
   void SetVariantToNoiseFiltering() { this->SetVariant(NOISE_FILTERING); }
   ///@}
 
+  enum OrderType
+  {
+    EXACT,
+    LIST
+  };
+
+  ///@{
+  /**
+   * How it is known which vertex is the most active and which the laziest. EXACT (default): by
+   * signal counters. LIST: by counters up to ListVertices, then by the activity list (chapter 11), in
+   * which a winner jumps forward. The list is the thesis's way to O(n log n); here exact counters
+   * are as fast and give meshes that are as good or better, see Documentation/ActivityList.md.
+   */
+  vtkSetClampMacro(Order, int, EXACT, LIST);
+  vtkGetMacro(Order, int);
+  void SetOrderToExact() { this->SetOrder(EXACT); }
+  void SetOrderToList() { this->SetOrder(LIST); }
+  ///@}
+
   enum PresetType
   {
     DEFAULT,
@@ -109,9 +145,9 @@ public:
   ///@{
   /**
    * Sets all parameters of learning and growth, from WinnerRate to BatchSize below: to the defaults
-   * named there, or to those of the thesis for the current variant, without anything that the
-   * thesis lacks (valence flips, rejection of outliers, patience at first, batches). So choose the
-   * variant first, then the preset, then single values. Default DEFAULT.
+   * named there, or to those of the thesis for the current variant and order, without anything that
+   * the thesis lacks (valence flips, rejection of outliers, patience at first, batches). So choose
+   * variant and order first, then the preset, then single values. Default DEFAULT.
    */
   void SetPreset(int preset);
   vtkGetMacro(Preset, int);
@@ -131,7 +167,7 @@ public:
   ///@{
   /**
    * alpha_L of (6.4): how far the neighbours of the winner move along their tangential Laplacian,
-   * as a fraction. Default 0.2 (thesis 0.05), range 0 to 1.
+   * as a fraction. Default 0.2 (thesis: 0.2 with the list, else 0.05), range 0 to 1.
    */
   vtkSetClampMacro(SmoothingRate, double, 0.0, 1.0);
   vtkGetMacro(SmoothingRate, double);
@@ -141,7 +177,7 @@ public:
   /**
    * C_L of chapter 6: how often the neighbours of the winner are smoothed for each sample. More
    * gives rounder triangles, takes time and blurs.
-   * Default 1 (thesis: 5 in the basic variant, else 1), range 0 to 100.
+   * Default 1 (thesis: 5 in the basic variant without the list, else 1), range 0 to 100.
    */
   vtkSetClampMacro(SmoothingIterations, int, 0, 100);
   vtkGetMacro(SmoothingIterations, int);
@@ -276,6 +312,24 @@ public:
 
   ///@{
   /**
+   * Jump distance of chapter 11, with the list: how far a winner jumps, as a fraction of the number
+   * of vertices. Default 1/3 (thesis 1/3), range 0 to 1.
+   */
+  vtkSetClampMacro(JumpFraction, double, 0.0, 1.0);
+  vtkGetMacro(JumpFraction, double);
+  ///@}
+
+  ///@{
+  /**
+   * With the list: exact counters count until the mesh has so many vertices.
+   * Default 1000 (thesis 1000), at least 4.
+   */
+  vtkSetClampMacro(ListVertices, int, 4, VTK_INT_MAX);
+  vtkGetMacro(ListVertices, int);
+  ///@}
+
+  ///@{
+  /**
    * The largest number of samples that are drawn at once; there is never more than one for eight
    * vertices. The winners of a batch are searched before it is learnt, which is faster by far.
    * Another size gives another mesh of the same quality. Default 65536 (thesis 1, one by one),
@@ -342,6 +396,11 @@ public:
   ///@}
 
   /**
+   * Output port 1, see above.
+   */
+  vtkTable* GetLearningCurve();
+
+  /**
    * Why the last run ended: "vertices", "iterations", "sample distance", "cloud distance",
    * "time limit", "stalled" or "cancelled"; "none" before the first.
    */
@@ -352,6 +411,7 @@ protected:
   ~vtkNeuralMesh() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -365,6 +425,7 @@ private:
   vtkIdType NumberOfVertices = 20000;
   int Seed = 1;
   int Variant = NOISE_FILTERING;
+  int Order = EXACT;
   int Preset = DEFAULT;
 
   // What a preset sets; the values are those of the core's presets.
@@ -384,6 +445,8 @@ private:
   double RemovalPatience = 0;
   double RemovalLimit = 0;
   vtkTypeBool EdgeFlips = 0;
+  double JumpFraction = 0;
+  int ListVertices = 0;
   int BatchSize = 0;
 
   vtkIdType MaximumIterations = 0;

@@ -12,24 +12,30 @@ namespace
 /// Often enough to end within milliseconds, rarely enough to cost nothing.
 constexpr std::uint64_t SamplesPerCheck = 4096;
 
-StopReason learn(
-  Learner& learner, StoppingRules& rules, std::uint64_t maximumIterations, const Progress& progress)
+/// Learns until a stopping rule is met; returns which.
+StopReason learn(Learner& learner, const PointCloud& cloud, const Parameters& parameters,
+  LearningCurve& curve, const Progress& progress)
 {
+  StoppingRules rules(cloud, parameters);
   for (;;)
   {
-    const StopReason reason = rules.check(learner);
+    StopReason reason = rules.check(learner);
+    if (reason == StopReason::None && !progress(rules.progress(learner)))
+    {
+      reason = StopReason::Cancelled;
+    }
+    if (reason != StopReason::None || curve.samplesUntilRow(learner) == 0)
+    {
+      curve.add(learner, cloud.unit(), rules.seconds());
+    }
     if (reason != StopReason::None)
     {
       return reason;
     }
-    if (!progress(rules.progress(learner)))
+    std::uint64_t samples = std::min(SamplesPerCheck, curve.samplesUntilRow(learner));
+    if (parameters.maximumIterations > 0)
     {
-      return StopReason::Cancelled;
-    }
-    std::uint64_t samples = SamplesPerCheck;
-    if (maximumIterations > 0)
-    {
-      samples = std::min(samples, maximumIterations - learner.counts().iterations);
+      samples = std::min(samples, parameters.maximumIterations - learner.counts().iterations);
     }
     learner.learn(samples);
   }
@@ -57,8 +63,7 @@ Reconstruction reconstruct(
 {
   Reconstruction result;
   Learner learner(cloud, parameters);
-  StoppingRules rules(cloud, parameters);
-  result.stopReason = learn(learner, rules, parameters.maximumIterations, progress);
+  result.stopReason = learn(learner, cloud, parameters, result.curve, progress);
   result.counts = learner.counts();
 
   learner.renumber();

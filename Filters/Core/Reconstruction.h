@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Learner.h"
+#include "LearningCurve.h"
 #include "StoppingRules.h"
 #include "TriangleMesh.h"
 
@@ -20,6 +20,7 @@ struct Reconstruction
   std::vector<Eigen::Vector3d> normals;
   std::vector<double> activities;
   RunCounts counts;
+  LearningCurve curve;
   StopReason stopReason = StopReason::None;
 };
 

@@ -32,13 +32,14 @@ public:
   StopReason check(const Learner& learner);
   /// How much of the run is done, 0 to 1, by the rule that is closest to being met; never falls.
   double progress(const Learner& learner);
+  /// Since the start of the run.
+  double seconds() const;
 
 private:
   using Clock = std::chrono::steady_clock;
 
   /// Samples that growth to so many vertices takes, up to a factor.
   double samplesUntil(std::size_t vertices) const;
-  double seconds() const;
   bool meetsCloudDistance(const Learner& learner);
 
   const PointCloud& cloud_;

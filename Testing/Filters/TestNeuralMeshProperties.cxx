@@ -40,6 +40,10 @@ int TestNeuralMeshProperties(int, char*[])
   filter->SetVariantToBasic();
   filter->SetPresetToThesis();
   CHECK(filter->GetSmoothingIterations() == 5 && filter->GetCounterDecay() == 0.95);
+  filter->SetOrderToList();
+  filter->SetPresetToThesis();
+  CHECK(filter->GetSmoothingIterations() == 1 && filter->GetSmoothingRate() == 0.2);
+  CHECK(filter->GetJumpFraction() == 1.0 / 3.0 && filter->GetListVertices() == 1000);
   filter->SetPresetToDefault();
   vtkNew<vtkNeuralMesh> fresh;
   CHECK(filter->GetSmoothingRate() == fresh->GetSmoothingRate());
@@ -54,12 +58,12 @@ int TestNeuralMeshProperties(int, char*[])
   std::ostringstream text;
   filter->Print(text);
   for (const char* property :
-    { "NumberOfVertices", "Seed", "Variant", "Preset", "WinnerRate", "SmoothingRate",
-      "SmoothingIterations", "CounterDecay", "CounterHalfLife", "NoiseTolerance", "NoiseWindow",
-      "OutlierLimit", "OutlierLimitVertices", "SamplesPerAddition", "EarlyPatience",
-      "EarlyVertices", "AdditionsPerRemoval", "RemovalPatience", "RemovalLimit", "EdgeFlips",
-      "BatchSize", "MaximumIterations", "TargetSampleDistance", "TargetCloudDistance", "TimeLimit",
-      "StallPatience", "OutputPointsPrecision", "StopReason" })
+    { "NumberOfVertices", "Seed", "Variant", "Order", "Preset", "JumpFraction", "ListVertices",
+      "WinnerRate", "SmoothingRate", "SmoothingIterations", "CounterDecay", "CounterHalfLife",
+      "NoiseTolerance", "NoiseWindow", "OutlierLimit", "OutlierLimitVertices", "SamplesPerAddition",
+      "EarlyPatience", "EarlyVertices", "AdditionsPerRemoval", "RemovalPatience", "RemovalLimit",
+      "EdgeFlips", "BatchSize", "MaximumIterations", "TargetSampleDistance", "TargetCloudDistance",
+      "TimeLimit", "StallPatience", "OutputPointsPrecision", "StopReason" })
   {
     CHECK(text.str().find(std::string(property) + ": ") != std::string::npos);
   }

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LearningCurve.h"
+
+#include <algorithm>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr std::uint64_t SamplesUntilFirstRow = 500;
+constexpr std::uint64_t PartUntilNextRow = 20;
+
+double regularRatio(const Mesh& mesh)
+{
+  std::size_t regular = 0;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    regular += mesh.isAlive(v) && mesh.valenceExcess(v) == 0;
+  }
+  return double(regular) / double(mesh.vertexCount());
+}
+}
+
+std::uint64_t LearningCurve::samplesUntilRow(const Learner& learner) const
+{
+  const std::uint64_t last = this->rows_.empty() ? 0 : this->rows_.back().counts.iterations;
+  const std::uint64_t next = last + std::max(SamplesUntilFirstRow, last / PartUntilNextRow);
+  return next - std::min(next, learner.counts().iterations);
+}
+
+void LearningCurve::add(const Learner& learner, double unit, double seconds)
+{
+  if (!this->rows_.empty() && this->rows_.back().counts.iterations == learner.counts().iterations)
+  {
+    return;
+  }
+  this->rows_.push_back({
+    .counts = learner.counts(),
+    .vertices = learner.mesh().vertexCount(),
+    .seconds = seconds,
+    .sampleDistanceMean = unit * learner.sampleDistances().mean(),
+    .sampleDistanceDeviation = unit * learner.sampleDistances().deviation(),
+    .regularRatio = regularRatio(learner.mesh()),
+  });
+}
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CloudGenerator.h"
+#include "Parameters.h"
+#include "PointCloud.h"
+#include "Shapes.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace neuralmesh::testing
+{
+inline const double SphereDiagonal = 2. * std::sqrt(3.);
+constexpr double SphereVolume = 4. / 3. * std::numbers::pi;
+
+inline std::vector<Eigen::Vector3d> sphereCloud(CloudOptions options = {})
+{
+  options.count = options.count == CloudOptions().count ? 40000 : options.count;
+  return generateCloud(makeSphere(), options);
+}
+
+inline const PointCloud& cleanSphere()
+{
+  static const PointCloud cloud(sphereCloud());
+  return cloud;
+}
+
+/// For runs that nobody cancels.
+inline bool goOn(double) { return true; }
+
+inline Parameters small()
+{
+  Parameters parameters;
+  parameters.numberOfVertices = 500;
+  return parameters;
+}
+}
