@@ -43,6 +43,9 @@ public:
   /// asked for.
   void learn(std::uint64_t sampleCount);
 
+  /// Samples in a batch, at the present size of the mesh.
+  std::size_t batchSize() const;
+
   const Mesh& mesh() const { return this->mesh_; }
   const ActivityOrder& order() const { return *this->order_; }
   const RunCounts& counts() const { return this->counts_; }
@@ -60,7 +63,6 @@ public:
 
 private:
   void learnBatch(std::size_t size);
-  std::size_t batchSize() const;
   void findWinners(std::span<const Vector4> samples);
   void prefetchAhead(std::size_t sample) const;
   void prepareNoiseFilter(std::size_t batchSize);

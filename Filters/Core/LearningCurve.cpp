@@ -21,11 +21,11 @@ double regularRatio(const Mesh& mesh)
 }
 }
 
-std::uint64_t LearningCurve::samplesUntilRow(const Learner& learner) const
+bool LearningCurve::isRowDue(const Learner& learner) const
 {
   const std::uint64_t last = this->rows_.empty() ? 0 : this->rows_.back().counts.iterations;
-  const std::uint64_t next = last + std::max(SamplesUntilFirstRow, last / PartUntilNextRow);
-  return next - std::min(next, learner.counts().iterations);
+  return learner.counts().iterations >=
+    last + std::max(SamplesUntilFirstRow, last / PartUntilNextRow);
 }
 
 void LearningCurve::add(const Learner& learner, double unit, double seconds)

@@ -21,9 +21,9 @@ public:
     double regularRatio = 0.; ///< vertices of valence 6, on a boundary 4
   };
 
-  /// Samples that the run may draw until a row is due: each comes a twentieth later than the one
-  /// before, so that all together cost no more than a few passes over the final mesh.
-  std::uint64_t samplesUntilRow(const Learner& learner) const;
+  /// Whether it is time for a row: each comes a twentieth later than the one before, so that all
+  /// together cost no more than a few passes over the final mesh.
+  bool isRowDue(const Learner& learner) const;
   /// Adds a row, unless the last one is of this iteration.
   void add(const Learner& learner, double unit, double seconds);
 

@@ -9,8 +9,9 @@ namespace neuralmesh
 {
 namespace
 {
-/// Often enough to end within milliseconds, rarely enough to cost nothing.
-constexpr std::uint64_t SamplesPerCheck = 4096;
+/// Often enough to end within milliseconds, rarely enough to cost nothing; large batches are not cut
+/// for it.
+constexpr std::uint64_t SamplesPerCheck = 1024;
 
 /// Learns until a stopping rule is met; returns which.
 StopReason learn(Learner& learner, const PointCloud& cloud, const Parameters& parameters,
@@ -24,7 +25,7 @@ StopReason learn(Learner& learner, const PointCloud& cloud, const Parameters& pa
     {
       reason = StopReason::Cancelled;
     }
-    if (reason != StopReason::None || curve.samplesUntilRow(learner) == 0)
+    if (reason != StopReason::None || curve.isRowDue(learner))
     {
       curve.add(learner, cloud.unit(), rules.seconds());
     }
@@ -32,7 +33,7 @@ StopReason learn(Learner& learner, const PointCloud& cloud, const Parameters& pa
     {
       return reason;
     }
-    std::uint64_t samples = std::min(SamplesPerCheck, curve.samplesUntilRow(learner));
+    std::uint64_t samples = std::max<std::uint64_t>(SamplesPerCheck, learner.batchSize());
     if (parameters.maximumIterations > 0)
     {
       samples = std::min(samples, parameters.maximumIterations - learner.counts().iterations);

@@ -37,8 +37,6 @@ struct Row
   double perSample = 0.; ///< nanoseconds
 };
 
-constexpr std::uint64_t SamplesPerStep = 1024;
-
 std::vector<Row> grow(const PointCloud& cloud, const std::vector<std::size_t>& sizes,
   std::unique_ptr<ActivityOrder> order, double mostSeconds)
 {
@@ -52,7 +50,7 @@ std::vector<Row> grow(const PointCloud& cloud, const std::vector<std::size_t>& s
   {
     while (learner.mesh().vertexCount() < size)
     {
-      learner.learn(SamplesPerStep);
+      learner.learn(learner.batchSize());
       if (processorSeconds() - start > mostSeconds)
       {
         return rows;
@@ -62,7 +60,7 @@ std::vector<Row> grow(const PointCloud& cloud, const std::vector<std::size_t>& s
     const std::uint64_t before = learner.counts().iterations;
     while (double(learner.mesh().vertexCount()) < MeasuredGrowth * double(size))
     {
-      learner.learn(SamplesPerStep);
+      learner.learn(learner.batchSize());
     }
     const double samples = double(learner.counts().iterations - before);
     rows.push_back({ size, here - start, 1e9 * (processorSeconds() - here) / samples });
