@@ -14,27 +14,49 @@
 
 namespace
 {
+template <typename ValueT>
+LearningParameter Describe(const char* name, double minimum, double maximum, ValueT defaultValue,
+  void (vtkNeuralMesh::*set)(ValueT))
+{
+  const auto setValue = [set](vtkNeuralMesh* filter, double value)
+  { (filter->*set)(static_cast<ValueT>(value)); };
+  return { name, minimum, maximum, static_cast<double>(defaultValue), std::is_integral_v<ValueT>,
+    setValue };
+}
+
 std::vector<LearningParameter> MakeParameters()
 {
   vtkNew<vtkNeuralMesh> defaults;
 #define PARAMETER_IN(property, minimum, maximum)                                                   \
-  LearningParameter                                                                                \
-  {                                                                                                \
-#property, static_cast < double>(minimum), static_cast < double>(maximum),                     \
-      static_cast < double>(defaults->Get##property()),                                            \
-      std::is_integral_v < decltype(defaults->Get##property())>,                                   \
-      [](vtkNeuralMesh * filter, double value)                                                     \
-    { filter->Set##property(static_cast<decltype(filter->Get##property())>(value)); }              \
-  }
+  Describe(#property, static_cast<double>(minimum), static_cast<double>(maximum),                  \
+    defaults->Get##property(), &vtkNeuralMesh::Set##property)
 #define PARAMETER(property)                                                                        \
   PARAMETER_IN(property, defaults->Get##property##MinValue(), defaults->Get##property##MaxValue())
-  return { PARAMETER(WinnerRate), PARAMETER(SmoothingRate), PARAMETER(SmoothingIterations),
-    PARAMETER(CounterDecay), PARAMETER(CounterHalfLife), PARAMETER(NoiseTolerance),
-    PARAMETER(NoiseWindow), PARAMETER(OutlierLimit), PARAMETER(OutlierLimitVertices),
-    PARAMETER(SamplesPerAddition), PARAMETER(EarlyPatience), PARAMETER(EarlyVertices),
-    PARAMETER(AdditionsPerRemoval), PARAMETER(RemovalPatience), PARAMETER(RemovalLimit),
-    PARAMETER_IN(EdgeFlips, 0, 1), PARAMETER(BatchSize), PARAMETER(MaximumIterations),
-    PARAMETER(TargetSampleDistance), PARAMETER(TargetCloudDistance), PARAMETER(StallPatience) };
+  return {
+    PARAMETER(WinnerRate),
+    PARAMETER(SmoothingRate),
+    PARAMETER(SmoothingIterations),
+    PARAMETER(CounterDecay),
+    PARAMETER(CounterHalfLife),
+    PARAMETER(NoiseTolerance),
+    PARAMETER(NoiseWindow),
+    PARAMETER(OutlierLimit),
+    PARAMETER(OutlierLimitVertices),
+    PARAMETER(SamplesPerAddition),
+    PARAMETER(EarlyPatience),
+    PARAMETER(EarlyVertices),
+    PARAMETER(AdditionsPerRemoval),
+    PARAMETER(RemovalPatience),
+    PARAMETER(RemovalLimit),
+    PARAMETER_IN(EdgeFlips, 0, 1),
+    PARAMETER(JumpFraction),
+    PARAMETER(ListVertices),
+    PARAMETER(BatchSize),
+    PARAMETER(MaximumIterations),
+    PARAMETER(TargetSampleDistance),
+    PARAMETER(TargetCloudDistance),
+    PARAMETER(StallPatience),
+  };
 #undef PARAMETER
 #undef PARAMETER_IN
 }

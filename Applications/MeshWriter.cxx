@@ -3,6 +3,7 @@
 
 #include "ErrorCollector.h"
 #include "FileExtension.h"
+#include "WholeFile.h"
 #include "WrittenMesh.h"
 
 #include "vtkErrorCode.h"
@@ -13,14 +14,10 @@
 #include "vtkSTLWriter.h"
 #include "vtkXMLPolyDataWriter.h"
 
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <stdexcept>
 #include <type_traits>
-
-#include <unistd.h>
 
 namespace
 {
@@ -61,13 +58,7 @@ void WriteVTP(vtkPolyData* mesh, const std::string& path)
   {
     throw std::runtime_error(vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
   }
-  std::ofstream file(path, std::ios::binary);
-  file << writer->GetOutputString();
-  file.close();
-  if (!file)
-  {
-    throw std::runtime_error("not all of it could be written; is the disk full?");
-  }
+  WriteText(writer->GetOutputString(), path);
 }
 
 using Write = std::function<void(vtkPolyData*, const std::string&)>;
@@ -95,24 +86,14 @@ void RequireWritableExtension(const std::string& path)
 void WriteMesh(vtkPolyData* mesh, const std::string& path)
 {
   RequireWritableExtension(path);
-  const std::filesystem::path target(path);
   const std::string extension = FileExtension(path);
-  std::string name = ".";
-  name += target.stem().string() + "." + std::to_string(getpid()) + extension;
-  const std::filesystem::path temporary = target.parent_path() / name;
-  try
-  {
-    Writers().at(extension)(mesh, temporary.string());
-    if (extension != ".vtp" && !IsWrittenWhole(mesh, temporary.string()))
+  WriteWholeFile(path,
+    [&](const std::string& temporary)
     {
-      throw std::runtime_error("not all of it could be written; is the disk full?");
-    }
-    std::filesystem::rename(temporary, target);
-  }
-  catch (const std::exception& error)
-  {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error(path + ": cannot be written: " + error.what());
-  }
+      Writers().at(extension)(mesh, temporary);
+      if (extension != ".vtp" && !IsWrittenWhole(mesh, temporary))
+      {
+        throw std::runtime_error("not all of it could be written; is the disk full?");
+      }
+    });
 }

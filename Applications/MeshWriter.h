@@ -10,9 +10,8 @@ class vtkPolyData;
 void RequireWritableExtension(const std::string& path);
 
 /**
- * Writes a mesh, by the extension: .vtp .ply .obj .stl. The file is written under another name
- * beside its own, and then renamed: nobody ever sees half of it, and if writing fails, what was
- * there before stays. Throws std::runtime_error, with a message that names the file, on failure.
+ * Writes a mesh, by the extension: .vtp .ply .obj .stl. Whole or not at all, as WriteWholeFile().
+ * Throws std::runtime_error, with a message that names the file, on failure.
  */
 void WriteMesh(vtkPolyData* mesh, const std::string& path);
 

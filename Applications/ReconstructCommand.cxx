@@ -2,10 +2,13 @@
 #include "ReconstructCommand.h"
 
 #include "ErrorCollector.h"
+#include "Interruption.h"
 #include "LearningParameters.h"
 #include "MeshWriter.h"
 #include "PointReader.h"
 #include "ProgressBar.h"
+#include "RunEstimate.h"
+#include "TableWriter.h"
 
 #include "vtkNeuralMesh.h"
 
@@ -14,16 +17,22 @@
 #include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkTable.h"
 
 #include <CLI/CLI.hpp>
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <string_view>
 
 namespace
 {
+/// What shells give for a process that Ctrl-C has ended.
+constexpr int InterruptedStatus = 128 + SIGINT;
+
 struct Options
 {
   std::string Input;
@@ -31,9 +40,12 @@ struct Options
   long long Vertices = 20000;
   int Seed = 1;
   int Variant = vtkNeuralMesh::NOISE_FILTERING;
+  int Order = vtkNeuralMesh::EXACT;
   int Preset = vtkNeuralMesh::DEFAULT;
   std::vector<std::string> Assignments;
   double TimeLimit = 0.0;
+  std::string Statistics;
+  bool DryRun = false;
   bool Quiet = false;
 };
 
@@ -63,6 +75,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
   filter->SetNumberOfVertices(options.Vertices);
   filter->SetSeed(options.Seed);
   filter->SetVariant(options.Variant);
+  filter->SetOrder(options.Order);
   filter->SetPreset(options.Preset);
   filter->SetTimeLimit(options.TimeLimit);
   for (const std::string& assignment : options.Assignments)
@@ -71,16 +84,36 @@ void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
   }
 }
 
-int Reconstruct(const Options& options)
+/** Throws if the filter could not do anything with the points of `input`. */
+void RequireResult(vtkNeuralMesh* filter, const ErrorCollector& errors, const std::string& input)
 {
-  vtkNew<vtkNeuralMesh> filter;
-  PrepareFilter(filter, options);
-  RequireWritableExtension(options.Output);
+  if (errors.HasError())
+  {
+    throw std::runtime_error(input + ": " + errors.GetMessage());
+  }
+  if (filter->GetOutput()->GetNumberOfPoints() == 0)
+  {
+    throw std::runtime_error(input + ": there are no points in it");
+  }
+}
 
-  Stopwatch stopwatch;
-  const auto points = ReadPoints(options.Input);
-  const double reading = stopwatch.Lap();
+int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const Options& options)
+{
+  vtkNew<ErrorCollector> errors;
+  errors->Observe(filter);
+  const RunEstimate estimate = EstimateRun(filter, points);
+  RequireResult(filter, *errors, options.Input);
+  std::printf("points     %lld\n", static_cast<long long>(points->GetNumberOfPoints()));
+  std::printf("vertices   %lld\n", options.Vertices);
+  std::printf("samples    about %.3g million\n", 1e-6 * estimate.Samples);
+  std::printf("memory     about %.0f MB\n", 1e-6 * estimate.Bytes);
+  std::printf(
+    "time       about %.2g s of learning, on this machine as it is now\n", estimate.Seconds);
+  return 0;
+}
 
+void Learn(vtkNeuralMesh* filter, vtkPointSet* points, const Options& options)
+{
   vtkNew<ErrorCollector> errors;
   errors->Observe(filter);
   vtkNew<ProgressBar> bar;
@@ -92,18 +125,38 @@ int Reconstruct(const Options& options)
   filter->SetInputData(points);
   filter->Update();
   bar->Clear();
-  if (errors->HasError())
+  RequireResult(filter, *errors, options.Input);
+}
+
+int Reconstruct(const Options& options)
+{
+  vtkNew<vtkNeuralMesh> filter;
+  PrepareFilter(filter, options);
+  RequireWritableExtension(options.Output);
+  if (!options.Statistics.empty())
   {
-    throw std::runtime_error(options.Input + ": " + errors->GetMessage());
+    RequireTableExtension(options.Statistics);
   }
-  vtkPolyData* mesh = filter->GetOutput();
-  if (mesh->GetNumberOfPoints() == 0)
+
+  Stopwatch stopwatch;
+  const auto points = ReadPoints(options.Input);
+  const double reading = stopwatch.Lap();
+  if (options.DryRun)
   {
-    throw std::runtime_error(options.Input + ": there are no points in it");
+    return PrintEstimate(filter, points, options);
   }
+
+  vtkNew<Interruption> interruption;
+  filter->AddObserver(vtkCommand::ProgressEvent, interruption);
+  Learn(filter, points, options);
   const double learning = stopwatch.Lap();
 
+  vtkPolyData* mesh = filter->GetOutput();
   WriteMesh(mesh, options.Output);
+  if (!options.Statistics.empty())
+  {
+    WriteTable(filter->GetLearningCurve(), options.Statistics);
+  }
   const double writing = stopwatch.Lap();
 
   if (!options.Quiet)
@@ -117,7 +170,8 @@ int Reconstruct(const Options& options)
     std::printf("time       %.2f s (reading %.2f, learning %.2f, writing %.2f)\n",
       reading + learning + writing, reading, learning, writing);
   }
-  return 0;
+  const bool isCancelled = std::string_view(filter->GetStopReason()) == "cancelled";
+  return isCancelled ? InterruptedStatus : 0;
 }
 }
 
@@ -149,6 +203,12 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     ->add_option("--preset", options->Preset,
       "default: what measures best; thesis: the values of the thesis, nothing that it lacks")
     ->transform(CLI::CheckedTransformer(presets).description("default|thesis"));
+  const std::map<std::string, int> orders{ { "exact", vtkNeuralMesh::EXACT },
+    { "list", vtkNeuralMesh::LIST } };
+  command
+    ->add_option("--order", options->Order,
+      "How the activity of vertices is known; exact (default): counters; list: the activity list")
+    ->transform(CLI::CheckedTransformer(orders).description("exact|list"));
   command->add_option("--set", options->Assignments, "Set a parameter of learning; see below")
     ->type_name("NAME=VALUE")
     ->take_all()
@@ -157,9 +217,14 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     ->add_option("--time-limit", options->TimeLimit,
       "Seconds to learn at most; the mesh learnt so far is written (0: no limit)")
     ->check(CLI::Range(0.0, 1e9));
+  command->add_option(
+    "--statistics", options->Statistics, "Write how the run went, step by step, to this .csv file");
+  command->add_flag("--dry-run", options->DryRun,
+    "Write nothing; print how much memory and time the run will take, roughly");
   command->add_flag("--quiet", options->Quiet, "Print nothing but errors and warnings");
   command->footer("Parameters of learning (see the documentation of vtkNeuralMesh):\n" +
     DescribeLearningParameters() +
-    "\nExit status: 0 done, 1 failed (the message is on stderr), 2 wrong use.");
+    "\nExit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 130 cut short by "
+    "Ctrl-C (the mesh learnt so far is written).");
   return [options] { return Reconstruct(*options); };
 }

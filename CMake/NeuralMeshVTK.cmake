@@ -6,6 +6,7 @@ set(NEURALMESH_VTK_COMPONENTS
   CommonMisc
   CommonSystem
   FiltersSources
+  IOCore
   IOGeometry
   IOLegacy
   IOPLY

@@ -61,10 +61,12 @@ test_parameters()
   expect 0 "$neuralmesh" reconstruct cloud.xyz default.ply --vertices 400
   expect 0 "$neuralmesh" reconstruct cloud.xyz basic.ply --vertices 400 --method basic
   expect 0 "$neuralmesh" reconstruct cloud.xyz thesis.ply --vertices 400 --preset thesis
+  expect 0 "$neuralmesh" reconstruct cloud.xyz list.ply --vertices 400 --order list \
+    --set ListVertices=100
   expect 0 "$neuralmesh" reconstruct cloud.xyz set.ply --vertices 400 \
     --set WinnerRate=0.2 --set EdgeFlips=0
   local other
-  for other in basic thesis set; do
+  for other in basic thesis list set; do
     ! cmp -s default.ply "$other.ply" || fail "$other changed nothing"
   done
   expect 0 "$neuralmesh" reconstruct cloud.xyz few.ply --set MaximumIterations=5000
@@ -145,6 +147,48 @@ test_time_limit()
   expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 100000000 --time-limit 0.5
   grep -q 'ended by: time limit' out || fail "it was not ended by the time limit"
   [ -s mesh.ply ] || fail "there is no mesh"
+}
+
+# Promise: Ctrl-C ends the learning; the mesh learnt so far is written whole, the statistics, too; the
+# exit status is 130.
+test_ctrl_c()
+{
+  expect 130 timeout --preserve-status --signal INT 1 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
+    --vertices 100000000 --statistics curve.csv
+  grep -q 'ended by: cancelled' out || fail "the summary does not say why it ended"
+  local vertices
+  vertices=$(sed -n 's/^vertices *//p' out)
+  [ "$vertices" -gt 4 ] || fail "nothing was learnt"
+  head -c 600 mesh.ply | tr '\r' '\n' | grep -aq "^element vertex $vertices\$" || fail "another mesh"
+  expect 0 "$neuralmesh" reconstruct mesh.ply again.ply --vertices 10
+  grep -Eq "^points +$vertices " out || fail "the mesh is not whole"
+  tail -n 1 curve.csv | grep -q ",$vertices," || fail "the statistics do not end with the mesh"
+  [ "$(find . -name '.*.ply' | wc -l)" -eq 0 ] || fail "a temporary file was left"
+}
+
+# Promise: the statistics are a table with a line of names, and end with the result.
+test_statistics()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 500 --statistics curve.csv
+  head -n 1 curve.csv | grep -q '^"Iteration","Vertices","Seconds"' || fail "no line of names"
+  [ "$(wc -l < curve.csv)" -gt 20 ] || fail "there are few lines"
+  tail -n 1 curve.csv | grep -Eq '^[0-9]+,500,[0-9.e-]+,' || fail "the last line is not the result"
+  expect 1 "$neuralmesh" reconstruct cloud.xyz other.ply --statistics curve.txt
+  grep -q 'curve.txt' err || fail "the message does not name the file"
+  [ ! -e other.ply ] || fail "a mesh was written"
+}
+
+# Promise: a dry run says what it will take, and writes nothing.
+test_dry_run()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 100000 --dry-run
+  local what
+  for what in 'vertices +100000$' 'samples +about [0-9.]+ million$' 'memory +about [0-9]+ MB$' \
+    'time +about [0-9.]+ s '; do
+    grep -Eq "^$what" out || fail "no line '$what'"
+  done
+  [ "$(sed -n 's/^memory *about \([0-9]*\) MB/\1/p' out)" -gt 50 ] || fail "too little memory"
+  [ ! -e mesh.ply ] || fail "a mesh was written"
 }
 
 # Promise: if writing fails, what was there stays, and nothing else is left behind.

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RunEstimate.h"
+
+#include "vtkNeuralMesh.h"
+
+#include "vtkPointSet.h"
+#include "vtkTable.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+/// Vertices that are learnt so as to see how fast it goes.
+constexpr vtkIdType TriedVertices = 5000;
+
+/// The program without data, and what is held at the peak beyond the input itself.
+constexpr double BytesOfProgram = 52e6;
+constexpr double BytesPerPoint = 98.0;
+constexpr double BytesPerVertex = 400.0;
+
+/// Up to about so many vertices the mesh is in the cache. Each doubling beyond adds this part of the
+/// time of a sample, averaged over the run; see the table of growth in the README.
+constexpr double VerticesInCache = 32768.0;
+constexpr double SlowdownPerDoubling = 0.35;
+
+double ValueAt(vtkTable* curve, vtkIdType row, const char* column)
+{
+  return curve->GetValueByName(row, column).ToDouble();
+}
+}
+
+RunEstimate EstimateRun(vtkNeuralMesh* filter, vtkPointSet* points)
+{
+  const double vertices = static_cast<double>(filter->GetNumberOfVertices());
+  filter->SetNumberOfVertices(std::min(filter->GetNumberOfVertices(), TriedVertices));
+  filter->SetInputData(points);
+  filter->Update();
+  vtkTable* curve = filter->GetLearningCurve();
+
+  RunEstimate estimate{};
+  estimate.Bytes = BytesOfProgram + 1024.0 * static_cast<double>(points->GetActualMemorySize()) +
+    BytesPerPoint * static_cast<double>(points->GetNumberOfPoints()) + BytesPerVertex * vertices;
+  const vtkIdType last = curve->GetNumberOfRows() - 1;
+  if (last < 1)
+  {
+    return estimate;
+  }
+  // As the second half of the small mesh went, so will the rest.
+  vtkIdType middle = last;
+  while (middle > 0 && ValueAt(curve, middle, "Vertices") > 0.5 * ValueAt(curve, last, "Vertices"))
+  {
+    --middle;
+  }
+  const auto rise = [&](const char* column)
+  { return ValueAt(curve, last, column) - ValueAt(curve, middle, column); };
+  const double left = std::max(0.0, vertices - ValueAt(curve, last, "Vertices"));
+  const double samplesLeft = left * rise("Iteration") / std::max(1.0, rise("Vertices"));
+  const double slowdown =
+    1.0 + SlowdownPerDoubling * std::max(0.0, std::log2(vertices / VerticesInCache));
+  const double secondsLeft = samplesLeft * slowdown * rise("Seconds") / rise("Iteration");
+  estimate.Samples = ValueAt(curve, last, "Iteration") + samplesLeft;
+  estimate.Seconds = ValueAt(curve, last, "Seconds") + secondsLeft;
+  return estimate;
+}

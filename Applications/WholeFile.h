@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef WholeFile_h
+#define WholeFile_h
+
+#include <functional>
+#include <string>
+
+/**
+ * Has `write` write a file under another name beside `path`, with the extension in small letters,
+ * and renames it: nobody ever sees half of it, and if writing fails, what was there before stays. Throws
+ * std::runtime_error, with a message that names the file, where `write` throws or the renaming fails.
+ */
+void WriteWholeFile(
+  const std::string& path, const std::function<void(const std::string& temporary)>& write);
+
+/** Writes `text` to a file. Throws std::runtime_error if not all of it could be written. */
+void WriteText(const std::string& text, const std::string& path);
+
+#endif
