@@ -15,47 +15,48 @@
 namespace
 {
 template <typename ValueT>
-LearningParameter Describe(const char* name, double minimum, double maximum, ValueT defaultValue,
-  void (vtkNeuralMesh::*set)(ValueT))
+LearningParameter Describe(const char* name, const char* description, double minimum,
+  double maximum, ValueT defaultValue, void (vtkNeuralMesh::*set)(ValueT))
 {
   const auto setValue = [set](vtkNeuralMesh* filter, double value)
   { (filter->*set)(static_cast<ValueT>(value)); };
-  return { name, minimum, maximum, static_cast<double>(defaultValue), std::is_integral_v<ValueT>,
-    setValue };
+  return { name, description, minimum, maximum, static_cast<double>(defaultValue),
+    std::is_integral_v<ValueT>, setValue };
 }
 
 std::vector<LearningParameter> MakeParameters()
 {
   vtkNew<vtkNeuralMesh> defaults;
-#define PARAMETER_IN(property, minimum, maximum)                                                   \
-  Describe(#property, static_cast<double>(minimum), static_cast<double>(maximum),                  \
+#define PARAMETER_IN(property, minimum, maximum, description)                                      \
+  Describe(#property, description, static_cast<double>(minimum), static_cast<double>(maximum),     \
     defaults->Get##property(), &vtkNeuralMesh::Set##property)
-#define PARAMETER(property)                                                                        \
-  PARAMETER_IN(property, defaults->Get##property##MinValue(), defaults->Get##property##MaxValue())
+#define PARAMETER(property, description)                                                           \
+  PARAMETER_IN(property, defaults->Get##property##MinValue(), defaults->Get##property##MaxValue(), \
+    description)
   return {
-    PARAMETER(WinnerRate),
-    PARAMETER(SmoothingRate),
-    PARAMETER(SmoothingIterations),
-    PARAMETER(CounterDecay),
-    PARAMETER(CounterHalfLife),
-    PARAMETER(NoiseTolerance),
-    PARAMETER(NoiseWindow),
-    PARAMETER(OutlierLimit),
-    PARAMETER(OutlierLimitVertices),
-    PARAMETER(SamplesPerAddition),
-    PARAMETER(EarlyPatience),
-    PARAMETER(EarlyVertices),
-    PARAMETER(AdditionsPerRemoval),
-    PARAMETER(RemovalPatience),
-    PARAMETER(RemovalLimit),
-    PARAMETER_IN(EdgeFlips, 0, 1),
-    PARAMETER(JumpFraction),
-    PARAMETER(ListVertices),
-    PARAMETER(BatchSize),
-    PARAMETER(MaximumIterations),
-    PARAMETER(TargetSampleDistance),
-    PARAMETER(TargetCloudDistance),
-    PARAMETER(StallPatience),
+    PARAMETER(WinnerRate, "how far the winner moves to the sample"),
+    PARAMETER(SmoothingRate, "how far its neighbours are smoothed"),
+    PARAMETER(SmoothingIterations, "how often they are smoothed for a sample"),
+    PARAMETER(CounterDecay, "what a sample leaves of all counters (basic)"),
+    PARAMETER(CounterHalfLife, "samples per vertex that halve a counter (noise)"),
+    PARAMETER(NoiseTolerance, "deviations from which on samples pull less (noise)"),
+    PARAMETER(NoiseWindow, "distances behind mean and deviation"),
+    PARAMETER(OutlierLimit, "how far beyond that samples are ignored; 0: never"),
+    PARAMETER(OutlierLimitVertices, "... from so many vertices on"),
+    PARAMETER(SamplesPerAddition, "samples between two new vertices"),
+    PARAMETER(EarlyPatience, "how many times more of them at first"),
+    PARAMETER(EarlyVertices, "... until there are so many vertices"),
+    PARAMETER(AdditionsPerRemoval, "new vertices between two removals (noise)"),
+    PARAMETER(RemovalPatience, "samples per vertex without a win until removal"),
+    PARAMETER(RemovalLimit, "removals for a new vertex at most; 0: any (noise)"),
+    PARAMETER_IN(EdgeFlips, 0, 1, "flips towards valence 6, 1 or 0"),
+    PARAMETER(JumpFraction, "how far a winner jumps, part of n (list)"),
+    PARAMETER(ListVertices, "counters until there are so many vertices (list)"),
+    PARAMETER(BatchSize, "samples drawn at once at most"),
+    PARAMETER(MaximumIterations, "end after so many samples; 0: never"),
+    PARAMETER(TargetSampleDistance, "end at this mean distance to winners, part of diagonal"),
+    PARAMETER(TargetCloudDistance, "end at this mean distance to the mesh, part of diagonal"),
+    PARAMETER(StallPatience, "end after so many samples per vertex without growth"),
   };
 #undef PARAMETER
 #undef PARAMETER_IN
@@ -64,7 +65,7 @@ std::vector<LearningParameter> MakeParameters()
 std::string Number(double value)
 {
   std::ostringstream text;
-  text << std::setprecision(10) << value;
+  text << std::setprecision(value == std::floor(value) && value < 1e7 ? 7 : 4) << value;
   return text.str();
 }
 }
@@ -109,11 +110,14 @@ void SetLearningParameter(vtkNeuralMesh* filter, const std::string& assignment)
 std::string DescribeLearningParameters()
 {
   std::ostringstream table;
+  table << "  " << std::left << std::setw(21) << "name" << std::setw(7) << "default"
+        << " " << std::setw(17) << "range"
+        << "what it is\n";
   for (const LearningParameter& parameter : GetLearningParameters())
   {
-    table << "  " << std::left << std::setw(22) << parameter.Name << " default " << std::setw(8)
-          << Number(parameter.Default) << " range " << Number(parameter.Minimum) << " to "
-          << Number(parameter.Maximum) << "\n";
+    const std::string range = Number(parameter.Minimum) + " to " + Number(parameter.Maximum);
+    table << "  " << std::left << std::setw(21) << parameter.Name << std::setw(7)
+          << Number(parameter.Default) << std::setw(18) << range << parameter.Description << "\n";
   }
   return table.str();
 }

@@ -16,6 +16,7 @@ class vtkNeuralMesh;
 struct LearningParameter
 {
   std::string Name;
+  std::string Description; ///< a few words
   double Minimum;
   double Maximum;
   double Default;

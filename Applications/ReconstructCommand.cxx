@@ -84,6 +84,29 @@ void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
   }
 }
 
+void AddChoice(CLI::App* command, const std::string& name, int& choice,
+  const std::map<std::string, int>& choices, const std::string& description)
+{
+  std::string names;
+  for (const auto& [word, value] : choices)
+  {
+    names += (names.empty() ? "" : "|") + word;
+  }
+  const auto toNumber = [choices, names](std::string& word) -> std::string
+  {
+    const auto place = choices.find(word);
+    if (place == choices.end())
+    {
+      return word + " is none of " + names;
+    }
+    word = std::to_string(place->second);
+    return {};
+  };
+  command->add_option(name, choice, description)
+    ->transform(CLI::Validator(toNumber, ""))
+    ->type_name(names);
+}
+
 /** Throws if the filter could not do anything with the points of `input`. */
 void RequireResult(vtkNeuralMesh* filter, const ErrorCollector& errors, const std::string& input)
 {
@@ -183,48 +206,49 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   command
     ->add_option("INPUT", options->Input,
       "Points: .ply .vtp .vtk .vtu .obj .stl, or text: .xyz .pts .txt .csv")
-    ->required();
-  command->add_option("OUTPUT", options->Output, "Mesh: .vtp .ply .obj .stl")->required();
-  command->add_option("--vertices", options->Vertices, "Number of vertices, 4 to 1000000000")
-    ->check(CLI::Range(4LL, 1000000000LL))
-    ->capture_default_str();
-  command->add_option("--seed", options->Seed, "Seed of the random numbers, from 0 on")
-    ->check(CLI::Range(0, VTK_INT_MAX))
-    ->capture_default_str();
-  const std::map<std::string, int> variants{ { "basic", vtkNeuralMesh::BASIC },
-    { "noise", vtkNeuralMesh::NOISE_FILTERING } };
+    ->required()
+    ->type_name("");
+  command->add_option("OUTPUT", options->Output, "Mesh: .vtp .ply .obj .stl")
+    ->required()
+    ->type_name("");
   command
-    ->add_option("--method", options->Variant,
-      "basic: every sample pulls alike; noise (default): samples far off pull less")
-    ->transform(CLI::CheckedTransformer(variants).description("basic|noise"));
-  const std::map<std::string, int> presets{ { "default", vtkNeuralMesh::DEFAULT },
-    { "thesis", vtkNeuralMesh::THESIS } };
+    ->add_option(
+      "--vertices", options->Vertices, "Vertices of the mesh, 4 to 1000000000 (default 20000)")
+    ->check(CLI::Range(4LL, 1000000000LL).description(""))
+    ->type_name("N");
   command
-    ->add_option("--preset", options->Preset,
-      "default: what measures best; thesis: the values of the thesis, nothing that it lacks")
-    ->transform(CLI::CheckedTransformer(presets).description("default|thesis"));
-  const std::map<std::string, int> orders{ { "exact", vtkNeuralMesh::EXACT },
-    { "list", vtkNeuralMesh::LIST } };
-  command
-    ->add_option("--order", options->Order,
-      "How the activity of vertices is known; exact (default): counters; list: the activity list")
-    ->transform(CLI::CheckedTransformer(orders).description("exact|list"));
-  command->add_option("--set", options->Assignments, "Set a parameter of learning; see below")
+    ->add_option("--seed", options->Seed,
+      "Seed of the random numbers, from 0 on (default 1): the same seed, the same mesh")
+    ->check(CLI::Range(0, VTK_INT_MAX).description(""))
+    ->type_name("N");
+  AddChoice(command, "--method", options->Variant,
+    { { "basic", vtkNeuralMesh::BASIC }, { "noise", vtkNeuralMesh::NOISE_FILTERING } },
+    "basic: every sample pulls alike; noise (default): samples that are far off pull less");
+  AddChoice(command, "--preset", options->Preset,
+    { { "default", vtkNeuralMesh::DEFAULT }, { "thesis", vtkNeuralMesh::THESIS } },
+    "default: what measures best; thesis: Saleem's values of 2004, and nothing that he lacks");
+  AddChoice(command, "--order", options->Order,
+    { { "exact", vtkNeuralMesh::EXACT }, { "list", vtkNeuralMesh::LIST } },
+    "How it is known where to grow; exact (default): counters; list: the activity list");
+  command->add_option("--set", options->Assignments, "Set a parameter of learning, see below")
     ->type_name("NAME=VALUE")
     ->take_all()
     ->allow_extra_args(false);
   command
     ->add_option("--time-limit", options->TimeLimit,
-      "Seconds to learn at most; the mesh learnt so far is written (0: no limit)")
-    ->check(CLI::Range(0.0, 1e9));
-  command->add_option(
-    "--statistics", options->Statistics, "Write how the run went, step by step, to this .csv file");
+      "Learn for so many seconds at most, and write the mesh learnt so far")
+    ->check(CLI::Range(0.0, 1e9).description(""))
+    ->type_name("SECONDS");
+  command
+    ->add_option("--statistics", options->Statistics,
+      "Write how the run went, step by step, to this .csv file")
+    ->type_name("FILE");
   command->add_flag("--dry-run", options->DryRun,
     "Write nothing; print how much memory and time the run will take, roughly");
   command->add_flag("--quiet", options->Quiet, "Print nothing but errors and warnings");
-  command->footer("Parameters of learning (see the documentation of vtkNeuralMesh):\n" +
-    DescribeLearningParameters() +
-    "\nExit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 130 cut short by "
-    "Ctrl-C (the mesh learnt so far is written).");
+  command->footer("Parameters of learning, for --set:\n" + DescribeLearningParameters() +
+    "\nFor example: neuralmesh reconstruct scan.ply mesh.vtp --vertices 20000\n"
+    "Ctrl-C ends the learning, and the mesh learnt so far is written.\n"
+    "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 130 after Ctrl-C.");
   return [options] { return Reconstruct(*options); };
 }

@@ -7,8 +7,9 @@
 
 /**
  * Has `write` write a file under another name beside `path`, with the extension in small letters,
- * and renames it: nobody ever sees half of it, and if writing fails, what was there before stays. Throws
- * std::runtime_error, with a message that names the file, where `write` throws or the renaming fails.
+ * and renames it: nobody ever sees half of it, and if writing fails, what was there before stays.
+ * Throws std::runtime_error, with a message that names the file, where `write` throws or the
+ * renaming fails.
  */
 void WriteWholeFile(
   const std::string& path, const std::function<void(const std::string& temporary)>& write);
