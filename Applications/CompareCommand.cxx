@@ -26,7 +26,7 @@ struct Options
 {
   std::string Reference;
   std::string Result;
-  long long Samples = 300000;
+  long long Samples = 200000;
   int Seed = 1;
   bool JSON = false;
 };

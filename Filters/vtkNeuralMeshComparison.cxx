@@ -24,14 +24,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <set>
+#include <stdexcept>
+#include <vector>
 
 vtkStandardNewMacro(vtkNeuralMeshComparison);
 
 namespace
 {
 /// Angles settle with fewer samples than the tail of the distances.
-constexpr std::size_t MostAngleSamples = 50000;
+constexpr std::size_t MostAngleSamples = 20000;
+/// Where the maximum is looked for: in so many triangles, with so many steps that get smaller.
+constexpr std::size_t ClimbedTriangles = 128;
+constexpr int ClimbSteps = 64;
+constexpr int StepsOfOneSize = 8;
 
 /// One of the two surfaces: its mesh in coordinates of the filter, and the samples on it.
 class Surface
@@ -74,14 +82,9 @@ public:
 
   bool HasArea() const { return !this->Mesh.triangles.empty(); }
 
-  void Draw(std::size_t count, neuralmesh::Random random)
+  void Draw(std::size_t count, neuralmesh::Random& random)
   {
-    const neuralmesh::SurfaceSampler sampler(this->Mesh);
-    this->Samples.reserve(count);
-    while (this->Samples.size() < count)
-    {
-      this->Samples.push_back(sampler.draw(random));
-    }
+    this->Samples = neuralmesh::SurfaceSampler(this->Mesh).drawFromShares(count, random);
   }
 
   /// The triangles, and as points the vertices, then the samples.
@@ -206,40 +209,106 @@ double Percentile99(std::vector<double> distances)
   return *place;
 }
 
-/// Over the samples and the vertices of triangles.
-double Maximum(const Distances& distances, const Surface& surface)
+/// Finds the nearest point of a surface, and its triangle.
+class NearestPoint
+{
+public:
+  explicit NearestPoint(vtkPolyData* surface)
+  {
+    this->Locator->SetDataSet(surface);
+    this->Locator->BuildLocator();
+  }
+
+  struct Found
+  {
+    double Distance;
+    std::size_t Triangle;
+  };
+
+  Found Find(const Eigen::Vector3d& point)
+  {
+    double nearest[3], squaredDistance = 0.0;
+    vtkIdType triangle = 0;
+    int subId = 0;
+    this->Locator->FindClosestPoint(
+      point.data(), nearest, this->Cell, triangle, subId, squaredDistance);
+    return { std::sqrt(squaredDistance), static_cast<std::size_t>(triangle) };
+  }
+
+private:
+  vtkNew<vtkStaticCellLocator> Locator;
+  vtkNew<vtkGenericCell> Cell;
+};
+
+/// The triangles of the samples with the largest distances, with those samples, `most` of them.
+std::vector<neuralmesh::SurfaceSampler::Sample> FarthestSamples(
+  const std::vector<double>& distances, const Surface& surface, std::size_t most)
+{
+  std::vector<std::size_t> order(distances.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b)
+    { return distances[a] != distances[b] ? distances[a] > distances[b] : a < b; });
+  std::vector<neuralmesh::SurfaceSampler::Sample> farthest;
+  std::set<std::size_t> triangles;
+  for (std::size_t i = 0; i < order.size() && farthest.size() < most; ++i)
+  {
+    const auto& sample = surface.GetSamples()[order[i]];
+    if (triangles.insert(sample.triangle).second)
+    {
+      farthest.push_back(sample);
+    }
+  }
+  return farthest;
+}
+
+/// Over the samples, the vertices of triangles, and what is found from the farthest samples upwards.
+double Maximum(
+  const Distances& distances, const Surface& from, NearestPoint& to, neuralmesh::Random& random)
 {
   double maximum = *std::max_element(distances.OfSamples.begin(), distances.OfSamples.end());
-  for (const auto& triangle : surface.GetMesh().triangles)
+  for (const auto& triangle : from.GetMesh().triangles)
   {
     for (const std::uint32_t corner : triangle)
     {
       maximum = std::max(maximum, distances.OfVertices[corner]);
     }
   }
+  const neuralmesh::SurfaceSampler sampler(from.GetMesh());
+  for (auto& [point, triangle] : FarthestSamples(distances.OfSamples, from, ClimbedTriangles))
+  {
+    double distance = to.Find(point).Distance;
+    for (int step = 0; step < ClimbSteps; ++step)
+    {
+      const double size = std::ldexp(1.0, -step / StepsOfOneSize);
+      const Eigen::Vector3d next =
+        (1.0 - size) * point + size * sampler.drawFromTriangle(triangle, random);
+      const double nextDistance = to.Find(next).Distance;
+      if (nextDistance > distance)
+      {
+        distance = nextDistance;
+        point = next;
+      }
+    }
+    maximum = std::max(maximum, distance);
+  }
   return maximum;
 }
 
-/// Mean angle between the normals of `from` at its samples and those of `to` at the nearest points.
-double MeanNormalAngle(const Surface& from, const Surface& to, vtkPolyData* toData)
+/// Mean angle in degrees between the normals of `from` at samples and of `to` at the points nearest.
+double MeanNormalAngle(const Surface& from, const Surface& to, NearestPoint& nearestPoint)
 {
-  vtkNew<vtkStaticCellLocator> locator;
-  locator->SetDataSet(toData);
-  locator->BuildLocator();
-  vtkNew<vtkGenericCell> cell;
-  const std::size_t count = std::min(MostAngleSamples, from.GetSamples().size());
+  const auto& samples = from.GetSamples();
+  const std::size_t stride = (samples.size() + MostAngleSamples - 1) / MostAngleSamples;
   double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i)
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < samples.size(); i += stride)
   {
-    const auto& sample = from.GetSamples()[i];
-    double nearest[3], squaredDistance = 0.0;
-    vtkIdType triangle = 0;
-    int subId = 0;
-    locator->FindClosestPoint(sample.point.data(), nearest, cell, triangle, subId, squaredDistance);
-    const Eigen::Vector3d a = from.GetNormal(from.GetMesh().triangles[sample.triangle]);
-    const Eigen::Vector3d b =
-      to.GetNormal(to.GetMesh().triangles[static_cast<std::size_t>(triangle)]);
+    const std::size_t nearest = nearestPoint.Find(samples[i].point).Triangle;
+    const Eigen::Vector3d a = from.GetNormal(from.GetMesh().triangles[samples[i].triangle]);
+    const Eigen::Vector3d b = to.GetNormal(to.GetMesh().triangles[nearest]);
     sum += std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
+    ++count;
   }
   return vtkMath::DegreesFromRadians(sum / static_cast<double>(count));
 }
@@ -365,10 +434,10 @@ int vtkNeuralMeshComparison::RequestData(
   }
   Surface& reference = surfaces->Reference;
   Surface& result = surfaces->Result;
-  const auto seed = static_cast<std::uint64_t>(this->Seed);
   const auto count = static_cast<std::size_t>(this->NumberOfSamples);
-  reference.Draw(count, neuralmesh::Random(seed, REFERENCE_TO_RESULT));
-  result.Draw(count, neuralmesh::Random(seed, RESULT_TO_REFERENCE));
+  neuralmesh::Random random(static_cast<std::uint64_t>(this->Seed));
+  reference.Draw(count, random);
+  result.Draw(count, random);
   const auto referenceData = reference.MakePolyData();
   const auto resultData = result.MakePolyData();
   if (!this->Advance(0.05))
@@ -386,23 +455,24 @@ int vtkNeuralMeshComparison::RequestData(
   {
     return 1;
   }
-  const double referenceAngle = MeanNormalAngle(reference, result, resultData);
+  const double unit = surfaces->Unit;
+  const auto figures =
+    [&](const Distances& distances, const Surface& from, const Surface& to, vtkPolyData* toData)
+  {
+    NearestPoint nearest(toData);
+    const std::vector<double>& samples = distances.OfSamples;
+    return Figures{ unit * Mean(samples), unit * RootMeanSquare(samples),
+      unit * Percentile99(samples), unit * Maximum(distances, from, nearest, random),
+      MeanNormalAngle(from, to, nearest) };
+  };
+  const Figures referenceToResult = figures(fromReference, reference, result, resultData);
   if (!this->Advance(0.9))
   {
     return 1;
   }
-  const double resultAngle = MeanNormalAngle(result, reference, referenceData);
-
-  const double unit = surfaces->Unit;
-  const auto figures = [unit](const Distances& distances, const Surface& surface, double angle)
-  {
-    const std::vector<double>& samples = distances.OfSamples;
-    return Figures{ unit * Mean(samples), unit * RootMeanSquare(samples),
-      unit * Percentile99(samples), unit * Maximum(distances, surface), angle };
-  };
+  this->FiguresOfDirections = { referenceToResult,
+    figures(fromResult, result, reference, referenceData) };
   this->ReferenceDiagonal = unit;
-  this->FiguresOfDirections = { figures(fromReference, reference, referenceAngle),
-    figures(fromResult, result, resultAngle) };
 
   referenceOutput->ShallowCopy(referenceInput);
   AddDistances(referenceOutput, fromReference.OfVertices, unit);

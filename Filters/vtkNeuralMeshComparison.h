@@ -68,7 +68,7 @@ public:
   ///@{
   /**
    * How many points are drawn on each surface. The error of the mean falls with the root of the
-   * number; the time is in proportion. Default 300000, range 1000 to 100000000.
+   * number; the time is in proportion. Default 200000, range 1000 to 100000000.
    */
   vtkSetClampMacro(NumberOfSamples, vtkIdType, 1000, 100000000);
   vtkGetMacro(NumberOfSamples, vtkIdType);
@@ -103,7 +103,7 @@ public:
   /**
    * The mean angle, in degrees from 0 to 90, between the normals of the triangles at a sample and
    * at the nearest point of the other surface, whichever way the triangles are oriented. Over the
-   * first 50000 samples; the mean of both directions is the usual figure. NaN as above.
+   * first 20000 samples; the mean of both directions is the usual figure. NaN as above.
    */
   double GetNormalAngle(int direction);
 
@@ -148,7 +148,7 @@ private:
   Figures GetFigures(int direction) const;
   void FillTable(vtkTable* table) const;
 
-  vtkIdType NumberOfSamples = 300000;
+  vtkIdType NumberOfSamples = 200000;
   int Seed = 1;
   std::array<Figures, 2> FiguresOfDirections;
   double ReferenceDiagonal = std::numeric_limits<double>::quiet_NaN();

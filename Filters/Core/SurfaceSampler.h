@@ -23,10 +23,20 @@ public:
 
   bool hasArea() const { return !this->areaUpTo_.empty() && this->areaUpTo_.back() > 0.; }
 
-  /// One point. Only if there is an area.
-  Sample draw(Random& random) const;
+  /// One point. This and what follows only if there is an area.
+  Sample draw(Random& random) const { return this->drawAt(random.uniform(), random); }
+
+  /// One point in each of `count` equal shares of the area, in the order of the triangles. Means
+  /// over these vary less than over points drawn one by one.
+  std::vector<Sample> drawFromShares(std::size_t count, Random& random) const;
+
+  /// A point of one triangle.
+  Eigen::Vector3d drawFromTriangle(std::size_t triangle, Random& random) const;
 
 private:
+  /// A point of the triangle where the sum of the areas reaches a fraction of the whole.
+  Sample drawAt(double fraction, Random& random) const;
+
   const TriangleMesh& surface_;
   std::vector<double> areaUpTo_;
 };
