@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CompareCommand.h"
+#include "InfoCommand.h"
 #include "LearningParameters.h"
 #include "ReconstructCommand.h"
 
 #include <CLI/CLI.hpp>
 
+#include <functional>
 #include <iostream>
+#include <map>
 
 namespace
 {
@@ -16,7 +20,13 @@ int Run(int argc, char* argv[])
   CLI::App application("Triangle meshes from point clouds, by learning", "neuralmesh");
   application.set_version_flag("--version", NEURALMESH_VERSION);
   application.require_subcommand(1);
-  const auto reconstruct = AddReconstructCommand(application);
+  std::map<CLI::App*, std::function<int()>> commands;
+  for (const auto& add : { AddReconstructCommand, AddCompareCommand, AddInfoCommand })
+  {
+    // The newest subcommand is the last one.
+    const auto run = add(application);
+    commands[application.get_subcommands({}).back()] = run;
+  }
   try
   {
     application.parse(argc, argv);
@@ -25,7 +35,7 @@ int Run(int argc, char* argv[])
   {
     return application.exit(error) == 0 ? 0 : WrongUse;
   }
-  return reconstruct();
+  return commands.at(application.get_subcommands().front())();
 }
 }
 

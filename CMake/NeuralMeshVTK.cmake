@@ -5,6 +5,8 @@ set(NEURALMESH_VTK_COMPONENTS
   CommonExecutionModel
   CommonMisc
   CommonSystem
+  FiltersCore
+  FiltersModeling
   FiltersSources
   IOCore
   IOGeometry

@@ -19,7 +19,7 @@ forbid 'vtk|pq|paraview' Filters/Core/*.h Filters/Core/*.cpp
 forbid 'vtkPV|vtkSM|vtkSI|pq|CLI/|ErrorCollector|LearningParameters|MeshWriter|PointReader' \
   Filters/*.h Filters/*.cxx
 # The header of a public class is installed; the core is not.
-for header in Filters/vtkNeuralMesh.h; do
+for header in Filters/vtkNeuralMesh.h Filters/vtkNeuralMeshComparison.h; do
   if grep -nE '^ *# *include +"[^v]' "$header"; then
     failed=1
   fi

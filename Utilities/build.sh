@@ -1,7 +1,8 @@
 # Sourced by demo.sh and test.sh: installs what is missing and builds. Debian 12, root or sudo.
 
 # The build with ParaView's VTK.
-build_packages=(g++ cmake ninja-build paraview-dev python3-paraview libopenmpi-dev libcli11-dev)
+build_packages=(g++ cmake ninja-build paraview-dev python3-paraview libopenmpi-dev libcli11-dev
+  nlohmann-json3-dev)
 
 # Installs those of the given Debian packages that are missing.
 install_packages()

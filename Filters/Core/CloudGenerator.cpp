@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CloudGenerator.h"
 
-#include "Random.h"
+#include "SurfaceSampler.h"
 
 #include <Eigen/Geometry>
 
@@ -19,43 +19,6 @@ enum Stream : std::uint64_t
   HoleStream,
   NoiseStream,
   OutlierStream
-};
-
-/// Points evenly over the area.
-class SurfaceSampler
-{
-public:
-  explicit SurfaceSampler(const TriangleMesh& surface)
-    : surface_(surface)
-  {
-    this->areaUpTo_.reserve(surface.triangles.size());
-    double area = 0.;
-    for (const auto& [a, b, c] : surface.triangles)
-    {
-      const Eigen::Vector3d& corner = surface.points[a];
-      area += (surface.points[b] - corner).cross(surface.points[c] - corner).norm();
-      this->areaUpTo_.push_back(area);
-    }
-  }
-
-  bool hasArea() const { return !this->areaUpTo_.empty() && this->areaUpTo_.back() > 0.; }
-
-  Eigen::Vector3d draw(Random& random) const
-  {
-    const auto place = std::upper_bound(
-      this->areaUpTo_.begin(), this->areaUpTo_.end(), random.uniform() * this->areaUpTo_.back());
-    const auto triangle =
-      std::min(std::size_t(place - this->areaUpTo_.begin()), this->areaUpTo_.size() - 1);
-    const auto& [a, b, c] = this->surface_.triangles[triangle];
-    const double r = std::sqrt(random.uniform());
-    const double s = random.uniform();
-    return (1. - r) * this->surface_.points[a] + r * (1. - s) * this->surface_.points[b] +
-      r * s * this->surface_.points[c];
-  }
-
-private:
-  const TriangleMesh& surface_;
-  std::vector<double> areaUpTo_;
 };
 
 /// Standard normal, by the method of Box and Muller.
@@ -98,7 +61,7 @@ std::vector<Eigen::Vector3d> generateCloud(const TriangleMesh& surface, const Cl
   cloud.reserve(options.count);
   while (cloud.size() < options.count)
   {
-    const Eigen::Vector3d point = sampler.draw(surfaceRandom);
+    const Eigen::Vector3d point = sampler.draw(surfaceRandom).point;
     const double along = extent > 0. ? (point[axis] - box.min()[axis]) / extent : 0.;
     if (options.gradient <= 1. || surfaceRandom.uniform() < std::pow(options.gradient, -along))
     {

@@ -1,21 +1,6 @@
 #!/usr/bin/env bash
 # test_command.sh COMMAND CASE: what `neuralmesh reconstruct` promises to those who type it.
-set -euo pipefail
-neuralmesh=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-
-fail() { echo "FAILED: $*"; exit 1; }
-
-# expect STATUS COMMAND...: runs it, output to `out` and `err`, and compares the exit status.
-expect()
-{
-  local expected=$1 status=0
-  shift
-  "$@" > out 2> err || status=$?
-  [ "$status" -eq "$expected" ] || { cat out err; fail "status $status, not $expected: $*"; }
-}
+source "$(dirname "$0")/command_testing.sh"
 
 # 3000 points of a unit sphere, on a spiral.
 make_cloud()

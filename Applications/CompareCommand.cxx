@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CompareCommand.h"
+
+#include "ErrorCollector.h"
+#include "MeshReader.h"
+
+#include "vtkNeuralMeshComparison.h"
+
+#include "vtkExecutive.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+namespace
+{
+using Comparison = vtkNeuralMeshComparison;
+
+struct Options
+{
+  std::string Reference;
+  std::string Result;
+  long long Samples = 200000;
+  int Seed = 1;
+  bool JSON = false;
+};
+
+double HausdorffDistance(Comparison* comparison)
+{
+  return std::max(comparison->GetMaximum(Comparison::REFERENCE_TO_RESULT),
+    comparison->GetMaximum(Comparison::RESULT_TO_REFERENCE));
+}
+
+double NormalAngle(Comparison* comparison)
+{
+  return (comparison->GetNormalAngle(Comparison::REFERENCE_TO_RESULT) +
+           comparison->GetNormalAngle(Comparison::RESULT_TO_REFERENCE)) /
+    2.0;
+}
+
+nlohmann::ordered_json DirectionAsJSON(Comparison* comparison, int direction)
+{
+  const double percent = 100.0 / comparison->GetReferenceDiagonal();
+  return { { "mean", comparison->GetMean(direction) }, { "rms", comparison->GetRMS(direction) },
+    { "percentile_99", comparison->GetPercentile99(direction) },
+    { "maximum", comparison->GetMaximum(direction) },
+    { "mean_percent", percent * comparison->GetMean(direction) },
+    { "rms_percent", percent * comparison->GetRMS(direction) },
+    { "percentile_99_percent", percent * comparison->GetPercentile99(direction) },
+    { "maximum_percent", percent * comparison->GetMaximum(direction) },
+    { "normal_angle", comparison->GetNormalAngle(direction) } };
+}
+
+void PrintJSON(Comparison* comparison, const Options& options)
+{
+  const nlohmann::ordered_json object{ { "reference", options.Reference },
+    { "result", options.Result }, { "samples", comparison->GetNumberOfSamples() },
+    { "seed", comparison->GetSeed() }, { "reference_diagonal", comparison->GetReferenceDiagonal() },
+    { "reference_to_result", DirectionAsJSON(comparison, Comparison::REFERENCE_TO_RESULT) },
+    { "result_to_reference", DirectionAsJSON(comparison, Comparison::RESULT_TO_REFERENCE) },
+    { "hausdorff", HausdorffDistance(comparison) },
+    { "hausdorff_percent",
+      100.0 * HausdorffDistance(comparison) / comparison->GetReferenceDiagonal() },
+    { "normal_angle", NormalAngle(comparison) } };
+  constexpr auto anyBytes = nlohmann::ordered_json::error_handler_t::replace;
+  std::cout << object.dump(-1, ' ', false, anyBytes) << std::endl;
+}
+
+void PrintRow(const char* title, Comparison* comparison, int direction)
+{
+  const double percent = 100.0 / comparison->GetReferenceDiagonal();
+  const double figures[] = { comparison->GetMean(direction), comparison->GetRMS(direction),
+    comparison->GetPercentile99(direction), comparison->GetMaximum(direction) };
+  std::printf("%-22s", title);
+  for (const double figure : figures)
+  {
+    std::printf("  %11.5g", figure);
+  }
+  std::printf("  %8.2f deg\n%-22s", comparison->GetNormalAngle(direction), "");
+  for (const double figure : figures)
+  {
+    std::printf("  %9.4f %%", percent * figure);
+  }
+  std::printf("\n");
+}
+
+void PrintTable(Comparison* comparison, const Options& options)
+{
+  std::printf("reference  %s\nresult     %s\n", options.Reference.c_str(), options.Result.c_str());
+  std::printf("diagonal   %.6g, of the reference\n\n", comparison->GetReferenceDiagonal());
+  std::printf("%-22s  %11s  %11s  %11s  %11s  %12s\n", "distance", "mean", "RMS", "99 %", "maximum",
+    "normals");
+  PrintRow("reference to result", comparison, Comparison::REFERENCE_TO_RESULT);
+  PrintRow("result to reference", comparison, Comparison::RESULT_TO_REFERENCE);
+  const double hausdorff = HausdorffDistance(comparison);
+  std::printf("\nHausdorff distance %.5g (%.4f %%), mean angle of the normals %.2f deg\n",
+    hausdorff, 100.0 * hausdorff / comparison->GetReferenceDiagonal(), NormalAngle(comparison));
+}
+
+int Compare(const Options& options)
+{
+  const auto reference = ReadMesh(options.Reference);
+  const auto result = ReadMesh(options.Result);
+  vtkNew<Comparison> comparison;
+  vtkNew<ErrorCollector> errors;
+  errors->Observe(comparison);
+  errors->Observe(comparison->GetExecutive());
+  comparison->SetInputData(result);
+  comparison->SetReferenceData(reference);
+  comparison->SetNumberOfSamples(options.Samples);
+  comparison->SetSeed(options.Seed);
+  comparison->Update();
+  if (errors->HasError())
+  {
+    throw std::runtime_error(
+      options.Reference + " and " + options.Result + ": " + errors->GetMessage());
+  }
+  if (options.JSON)
+  {
+    PrintJSON(comparison, options);
+  }
+  else
+  {
+    PrintTable(comparison, options);
+  }
+  return 0;
+}
+}
+
+std::function<int()> AddCompareCommand(CLI::App& application)
+{
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+    application.add_subcommand("compare", "Tell how far a mesh is from a reference");
+  command->add_option("REFERENCE", options->Reference, "The true surface: .ply .vtp .vtk .obj .stl")
+    ->required();
+  command->add_option("RESULT", options->Result, "The mesh to judge, in the same coordinates")
+    ->required();
+  vtkNew<Comparison> limits;
+  command
+    ->add_option("--samples", options->Samples,
+      "Points drawn on each surface, " + std::to_string(limits->GetNumberOfSamplesMinValue()) +
+        " to " + std::to_string(limits->GetNumberOfSamplesMaxValue()))
+    ->check(CLI::Range(static_cast<long long>(limits->GetNumberOfSamplesMinValue()),
+      static_cast<long long>(limits->GetNumberOfSamplesMaxValue())))
+    ->capture_default_str();
+  command->add_option("--seed", options->Seed, "Seed of the random numbers, from 0 on")
+    ->check(CLI::Range(0, VTK_INT_MAX))
+    ->capture_default_str();
+  command->add_flag("--json", options->JSON, "Print a JSON object in place of the table");
+  command->footer(
+    "Points are drawn evenly over the area of both surfaces. Of each, the distance to the nearest\n"
+    "point of the other surface is taken: from the result to the reference it is large where the\n"
+    "result has something that is not there, from the reference to the result where it misses\n"
+    "something. Printed are mean, root mean square, the distance that 99 % do not exceed, and the\n"
+    "maximum (which looks at the vertices, too), in units of the files and in percent of the\n"
+    "diagonal of the reference's bounding box; and the mean angle, 0 to 90 degrees, between the\n"
+    "normals at a point and at its nearest point. Nothing is aligned.\n"
+    "\nExit status: 0 done, 1 failed (the message is on stderr), 2 wrong use.");
+  return [options] { return Compare(*options); };
+}

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceReport.h"
+
+#include "DisjointSets.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+using Index = std::uint32_t;
+
+constexpr double FoldAngle = 150. * std::numbers::pi / 180.;
+
+/// An edge as one triangle sees it. Corner 3 t + k is the k-th of triangle t.
+struct Side
+{
+  Index low;
+  Index high;
+  std::size_t cornerAtLow;
+  std::size_t cornerAtHigh;
+  bool upwards; ///< whether the triangle runs from low to high
+
+  std::size_t triangle() const { return this->cornerAtLow / 3; }
+  bool isSameEdge(const Side& other) const
+  {
+    return this->low == other.low && this->high == other.high;
+  }
+};
+
+bool usesPointTwice(const std::array<Index, 3>& triangle)
+{
+  const auto& [a, b, c] = triangle;
+  return a == b || b == c || c == a;
+}
+
+Eigen::Vector3d twiceAreaNormal(const TriangleMesh& mesh, std::size_t t)
+{
+  const auto& [a, b, c] = mesh.triangles[t];
+  return (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
+}
+
+/// Twice the inradius over the circumradius.
+double quality(double twiceArea, double a, double b, double c)
+{
+  return 4. * twiceArea * twiceArea / ((a + b + c) * a * b * c);
+}
+
+class Reporter
+{
+public:
+  explicit Reporter(const TriangleMesh& mesh)
+    : mesh_(mesh)
+    , fans_(3 * mesh.triangles.size())
+    , pieces_(mesh.triangles.size())
+    , faces_(2 * mesh.triangles.size())
+    , valences_(mesh.points.size(), 0)
+    , isOnBoundary_(mesh.points.size(), false)
+  {
+  }
+
+  SurfaceReport report()
+  {
+    this->reportPoints();
+    this->reportGeometry();
+    this->visitEdges();
+    this->reportVertices();
+    this->reportComponents();
+    return this->report_;
+  }
+
+private:
+  void reportPoints()
+  {
+    this->report_.triangles = this->mesh_.triangles.size();
+    this->report_.nonFinitePoints = std::size_t(std::count_if(this->mesh_.points.begin(),
+      this->mesh_.points.end(), [](const Eigen::Vector3d& point) { return !point.allFinite(); }));
+  }
+
+  void reportGeometry()
+  {
+    Eigen::AlignedBox3d box;
+    double volume = 0., qualities = 0.;
+    std::optional<Eigen::Vector3d> origin; // near the mesh, for the precision of the volume
+    for (std::size_t t = 0; t < this->mesh_.triangles.size(); ++t)
+    {
+      const auto& [ia, ib, ic] = this->mesh_.triangles[t];
+      const Eigen::Vector3d &a = this->mesh_.points[ia], &b = this->mesh_.points[ib],
+                            &c = this->mesh_.points[ic];
+      const Eigen::Vector3d normal = twiceAreaNormal(this->mesh_, t);
+      const double twiceArea = normal.norm();
+      if (!(twiceArea > 0.))
+      {
+        this->report_.degenerateTriangles += twiceArea == 0.;
+        continue;
+      }
+      origin = origin.value_or(a);
+      box.extend(a).extend(b).extend(c);
+      this->report_.area += twiceArea / 2.;
+      volume += normal.dot(a - *origin) / 6.;
+      qualities += quality(twiceArea, (a - b).norm(), (b - c).norm(), (c - a).norm());
+    }
+    this->volume_ = volume;
+    this->report_.meanQuality =
+      qualities / double(std::max<std::size_t>(1, this->report_.triangles));
+    this->report_.diagonal = box.isEmpty() ? 0. : box.diagonal().norm();
+  }
+
+  void visitEdges()
+  {
+    std::vector<Side> sides;
+    sides.reserve(3 * this->mesh_.triangles.size());
+    for (std::size_t t = 0; t < this->mesh_.triangles.size(); ++t)
+    {
+      const auto& triangle = this->mesh_.triangles[t];
+      for (std::size_t k = 0; k < 3 && !usesPointTwice(triangle); ++k)
+      {
+        const std::size_t next = (k + 1) % 3;
+        const bool upwards = triangle[k] < triangle[next];
+        const std::size_t low = upwards ? k : next, high = upwards ? next : k;
+        sides.push_back({ triangle[low], triangle[high], 3 * t + low, 3 * t + high, upwards });
+      }
+    }
+    std::sort(sides.begin(), sides.end(),
+      [](const Side& a, const Side& b)
+      { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+    for (auto first = sides.begin(); first != sides.end();)
+    {
+      const auto last = std::find_if(
+        first, sides.end(), [&](const Side& side) { return !side.isSameEdge(*first); });
+      this->visitEdge({ first, last });
+      first = last;
+    }
+  }
+
+  void visitEdge(std::span<const Side> sides)
+  {
+    const Side& first = sides.front();
+    ++this->edges_;
+    ++this->valences_[first.low];
+    ++this->valences_[first.high];
+    for (const Side& side : sides)
+    {
+      this->fans_.join(first.cornerAtLow, side.cornerAtLow);
+      this->fans_.join(first.cornerAtHigh, side.cornerAtHigh);
+      this->pieces_.join(first.triangle(), side.triangle());
+    }
+    if (sides.size() == 1)
+    {
+      this->boundary_.push_back(first);
+      this->isOnBoundary_[first.low] = true;
+      this->isOnBoundary_[first.high] = true;
+    }
+    else if (sides.size() == 2)
+    {
+      this->visitInnerEdge(first, sides.back());
+    }
+    else
+    {
+      ++this->report_.nonManifoldEdges;
+    }
+  }
+
+  void visitInnerEdge(const Side& one, const Side& other)
+  {
+    const bool consistent = one.upwards != other.upwards;
+    this->report_.inconsistentEdges += !consistent;
+    // The front of one triangle goes over into the front of the other, or into its back.
+    const std::size_t turn = consistent ? 0 : 1;
+    this->faces_.join(2 * one.triangle(), 2 * other.triangle() + turn);
+    this->faces_.join(2 * one.triangle() + 1, 2 * other.triangle() + 1 - turn);
+
+    const Eigen::Vector3d a = twiceAreaNormal(this->mesh_, one.triangle());
+    const Eigen::Vector3d b =
+      (consistent ? 1. : -1.) * twiceAreaNormal(this->mesh_, other.triangle());
+    this->report_.foldedEdges += std::atan2(a.cross(b).norm(), a.dot(b)) > FoldAngle;
+  }
+
+  void reportVertices()
+  {
+    std::size_t regular = 0;
+    for (std::size_t v = 0; v < this->valences_.size(); ++v)
+    {
+      const std::size_t valence = this->valences_[v];
+      if (valence > 0)
+      {
+        ++this->report_.vertices;
+        ++this->report_.valences[valence];
+        regular += valence == (this->isOnBoundary_[v] ? 4 : 6);
+      }
+    }
+    this->report_.unusedPoints = this->mesh_.points.size() - this->report_.vertices;
+    this->report_.regularRatio =
+      double(regular) / double(std::max<std::size_t>(1, this->report_.vertices));
+    this->reportFans();
+  }
+
+  void reportFans()
+  {
+    std::vector<unsigned char> fansAt(this->mesh_.points.size(), 0);
+    for (std::size_t corner = 0; corner < 3 * this->mesh_.triangles.size(); ++corner)
+    {
+      const auto& triangle = this->mesh_.triangles[corner / 3];
+      unsigned char& fans = fansAt[triangle[corner % 3]];
+      if (!usesPointTwice(triangle) && this->fans_.root(corner) == corner && fans < 2)
+      {
+        this->report_.nonManifoldVertices += ++fans == 2;
+      }
+    }
+  }
+
+  void reportComponents()
+  {
+    bool orientable = true;
+    std::size_t triangles = 0;
+    for (std::size_t t = 0; t < this->mesh_.triangles.size(); ++t)
+    {
+      if (!usesPointTwice(this->mesh_.triangles[t]))
+      {
+        ++triangles;
+        this->report_.components += this->pieces_.root(t) == t;
+        orientable = orientable && !this->faces_.areJoined(2 * t, 2 * t + 1);
+      }
+    }
+    this->reportBoundary();
+    const SurfaceReport& report = this->report_;
+    if (triangles > 0 && report.isEdgeManifold() && report.isVertexManifold() && orientable)
+    {
+      const long characteristic = long(report.vertices) - long(this->edges_) + long(triangles);
+      this->report_.genus =
+        long(report.components) - (characteristic + long(report.boundaryLoops)) / 2;
+    }
+    if (triangles > 0 && report.isClosed() && report.isOriented())
+    {
+      this->report_.volume = this->volume_;
+    }
+  }
+
+  /// Boundary edges follow each other where they end in the same fan.
+  void reportBoundary()
+  {
+    this->report_.boundaryEdges = this->boundary_.size();
+    DisjointSets loops(this->fans_);
+    for (const Side& side : this->boundary_)
+    {
+      loops.join(side.cornerAtLow, side.cornerAtHigh);
+    }
+    std::vector<std::size_t> roots;
+    roots.reserve(this->boundary_.size());
+    for (const Side& side : this->boundary_)
+    {
+      roots.push_back(loops.root(side.cornerAtLow));
+    }
+    std::sort(roots.begin(), roots.end());
+    this->report_.boundaryLoops =
+      std::size_t(std::distance(roots.begin(), std::unique(roots.begin(), roots.end())));
+  }
+
+  const TriangleMesh& mesh_;
+  DisjointSets fans_;   ///< corners that are connected by edges at their vertex
+  DisjointSets pieces_; ///< triangles
+  DisjointSets faces_;  ///< fronts (even) and backs (odd) of triangles
+  std::vector<std::size_t> valences_;
+  std::vector<bool> isOnBoundary_;
+  std::vector<Side> boundary_;
+  std::size_t edges_ = 0;
+  double volume_ = 0.;
+  SurfaceReport report_;
+};
+}
+
+SurfaceReport reportSurface(const TriangleMesh& mesh) { return Reporter(mesh).report(); }
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkNeuralMeshComparison
+ * @brief   how far a mesh is from a reference, over the surfaces and both ways
+ *
+ * vtkNeuralMeshComparison draws points evenly over the area of two surfaces, takes the distance of
+ * each to the nearest point of the other surface, and gives mean, root mean square, 99 % and
+ * maximum of them, for each direction. From the result to the reference these tell of what the
+ * result has and the reference has not, from the reference to the result of what the result misses.
+ * vtkHausdorffDistancePointSetFilter by itself looks at vertices alone: its figures depend on how
+ * the vertices are spread, and what a large triangle cuts off it does not see. This filter feeds it
+ * with the samples, too, and has it measure from points to cells.
+ *
+ * @par Input
+ * Port 0: the result; port 1: the reference; vtkPolyData both. Polygons and strips are triangulated.
+ * Triangles without area, and those with a corner that is not finite, are left out. Coordinates may
+ * be large against the extent (UTM, say), and of any unit: the filter computes in coordinates of
+ * its own.
+ * Two inputs without cells and points give empty outputs. It is an error if otherwise one of them
+ * has no triangle with an area, or a cell refers to a point that is not there.
+ *
+ * @par Output
+ * Port 0: the result, port 1: the reference, each with the point data `Distance` (double), the
+ * distance of each point to the nearest point of the other surface, in units of the input; NaN for
+ * points that are not finite. Port 2: a vtkTable of the figures with a row for each direction, the
+ * columns being
+ * - `Direction`: "reference to result", "result to reference";
+ * - `Mean`, `RMS`, `Percentile99`, `Maximum` in units of the input;
+ * - `MeanPercent`, `RMSPercent`, `Percentile99Percent`, `MaximumPercent`, in percent of the diagonal
+ *   of the bounding box of the reference;
+ * - `NormalAngle`, in degrees.
+ *
+ * The same inputs and seed give the same figures.
+ *
+ * @par What it does not do
+ * The surfaces are compared as they lie: nothing is aligned. The maximum, from so many points and all
+ * vertices, is a lower bound, in practice a close one.
+ *
+ * @sa vtkHausdorffDistancePointSetFilter vtkDistancePolyDataFilter vtkNeuralMesh
+ */
+
+#ifndef vtkNeuralMeshComparison_h
+#define vtkNeuralMeshComparison_h
+
+#include "vtkFiltersNeuralMeshModule.h" // For export macro
+#include "vtkPolyDataAlgorithm.h"
+
+#include <array>  // For ivars
+#include <limits> // For ivars
+
+class vtkTable;
+
+class VTKFILTERSNEURALMESH_EXPORT vtkNeuralMeshComparison : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkNeuralMeshComparison* New();
+  vtkTypeMacro(vtkNeuralMeshComparison, vtkPolyDataAlgorithm)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The reference, input port 1.
+   */
+  void SetReferenceConnection(vtkAlgorithmOutput* port);
+  void SetReferenceData(vtkPolyData* reference);
+  ///@}
+
+  ///@{
+  /**
+   * How many points are drawn on each surface. The error of the mean falls with the root of the
+   * number; the time is in proportion. Default 200000, range 1000 to 100000000.
+   */
+  vtkSetClampMacro(NumberOfSamples, vtkIdType, 1000, 100000000);
+  vtkGetMacro(NumberOfSamples, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Seed of the random numbers: which points are drawn. Default 1, at least 0.
+   */
+  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+  enum DirectionType
+  {
+    REFERENCE_TO_RESULT,
+    RESULT_TO_REFERENCE
+  };
+
+  ///@{
+  /**
+   * The figures of the last run, by direction, in units of the input: mean, root mean square, the
+   * distance that 99 % of the samples do not exceed, and the maximum over samples and vertices. NaN
+   * if there was no run, or it failed, or `direction` is no DirectionType.
+   */
+  double GetMean(int direction);
+  double GetRMS(int direction);
+  double GetPercentile99(int direction);
+  double GetMaximum(int direction);
+  ///@}
+
+  /**
+   * The mean angle, in degrees from 0 to 90, between the normals of the triangles at a sample and
+   * at the nearest point of the other surface, whichever way the triangles are oriented. Over the
+   * first 20000 samples; the mean of both directions is the usual figure. NaN as above.
+   */
+  double GetNormalAngle(int direction);
+
+  /**
+   * Diagonal of the bounding box of the triangles of the reference, in units of the input, to which
+   * percentages refer. NaN as above.
+   */
+  double GetReferenceDiagonal();
+
+  ///@{
+  /**
+   * The outputs of port 1 and 2; that of port 0 is GetOutput().
+   */
+  vtkPolyData* GetReferenceOutput();
+  vtkTable* GetTableOutput();
+  ///@}
+
+protected:
+  vtkNeuralMeshComparison();
+  ~vtkNeuralMeshComparison() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkNeuralMeshComparison(const vtkNeuralMeshComparison&) = delete;
+  void operator=(const vtkNeuralMeshComparison&) = delete;
+
+  struct Figures
+  {
+    double Mean = std::numeric_limits<double>::quiet_NaN();
+    double RMS = std::numeric_limits<double>::quiet_NaN();
+    double Percentile99 = std::numeric_limits<double>::quiet_NaN();
+    double Maximum = std::numeric_limits<double>::quiet_NaN();
+    double NormalAngle = std::numeric_limits<double>::quiet_NaN();
+  };
+
+  /** Reports how much is done. Returns whether to go on. */
+  bool Advance(double progress);
+  Figures GetFigures(int direction) const;
+  void FillTable(vtkTable* table) const;
+
+  vtkIdType NumberOfSamples = 200000;
+  int Seed = 1;
+  std::array<Figures, 2> FiguresOfDirections;
+  double ReferenceDiagonal = std::numeric_limits<double>::quiet_NaN();
+};
+
+#endif

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Promises: distances and angles are those of known surfaces, both ways, over the surfaces and not
+// at the vertices alone; wrong inputs are errors; a seed gives the same figures; neither offset nor
+// scale matters; an abort is obeyed.
+#include "FilterTesting.h"
+
+#include "vtkNeuralMeshComparison.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkExecutive.h"
+#include "vtkPointData.h"
+#include "vtkSphereSource.h"
+#include "vtkTable.h"
+
+#include <limits>
+
+namespace
+{
+constexpr int ToResult = vtkNeuralMeshComparison::REFERENCE_TO_RESULT;
+constexpr int ToReference = vtkNeuralMeshComparison::RESULT_TO_REFERENCE;
+
+bool IsNear(double value, double expected, double tolerance)
+{
+  return std::abs(value - expected) <= tolerance;
+}
+
+/** A rectangle in the plane z, as one quadrangle, in double precision. */
+vtkNew<vtkPolyData> Rectangle(
+  double width, double height, double z, std::array<double, 3> corner = { 0, 0, 0 })
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const auto& [x, y] :
+    { std::pair(0.0, 0.0), { width, 0.0 }, { width, height }, { 0.0, height } })
+  {
+    points->InsertNextPoint(corner[0] + x, corner[1] + y, corner[2] + z);
+  }
+  vtkNew<vtkPolyData> rectangle;
+  rectangle->SetPoints(points);
+  rectangle->AllocateExact(1, 4);
+  const std::array<vtkIdType, 4> ids{ 0, 1, 2, 3 };
+  rectangle->InsertNextCell(VTK_QUAD, 4, ids.data());
+  return rectangle;
+}
+
+void Prepare(vtkNeuralMeshComparison* filter, vtkPolyData* reference, vtkPolyData* result)
+{
+  filter->SetReferenceData(reference);
+  filter->SetInputData(result);
+  filter->SetNumberOfSamples(20000);
+}
+
+double Distance(vtkPolyData* mesh, vtkIdType point)
+{
+  auto* array = vtkDoubleArray::SafeDownCast(mesh->GetPointData()->GetArray("Distance"));
+  return array ? array->GetValue(point) : -1.0;
+}
+
+int CheckSpheres()
+{
+  vtkNew<vtkSphereSource> inner, outer;
+  for (vtkSphereSource* sphere : { inner.Get(), outer.Get() })
+  {
+    sphere->SetThetaResolution(100);
+    sphere->SetPhiResolution(100);
+  }
+  inner->SetRadius(1.0);
+  outer->SetRadius(1.1);
+  vtkNew<vtkNeuralMeshComparison> filter;
+  filter->SetReferenceConnection(inner->GetOutputPort());
+  filter->SetInputConnection(outer->GetOutputPort());
+  filter->SetNumberOfSamples(10000);
+  filter->Update();
+  for (const int direction : { ToResult, ToReference })
+  {
+    CHECK(IsNear(filter->GetMean(direction), 0.1, 1e-3));
+    CHECK(IsNear(filter->GetRMS(direction), 0.1, 1e-3));
+    CHECK(IsNear(filter->GetPercentile99(direction), 0.1, 1e-3));
+    CHECK(IsNear(filter->GetMaximum(direction), 0.1, 2e-3));
+    CHECK(filter->GetNormalAngle(direction) < 1.0);
+    vtkPolyData* mesh = direction == ToResult ? filter->GetReferenceOutput() : filter->GetOutput();
+    vtkPolyData* input = direction == ToResult ? inner->GetOutput() : outer->GetOutput();
+    CHECK(mesh->GetNumberOfPoints() == input->GetNumberOfPoints());
+    CHECK(mesh->GetNumberOfPolys() == input->GetNumberOfPolys());
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      CHECK(IsNear(Distance(mesh, i), 0.1, 2e-3));
+    }
+  }
+  CHECK(IsNear(filter->GetReferenceDiagonal(), 2.0 * std::sqrt(3.0), 0.01));
+  return EXIT_SUCCESS;
+}
+
+int CheckShiftedAndTilted()
+{
+  const auto reference = Rectangle(1, 1, 0);
+  const auto shifted = Rectangle(1, 1, 0.25);
+  vtkNew<vtkNeuralMeshComparison> filter;
+  Prepare(filter, reference, shifted);
+  filter->Update();
+  for (const int direction : { ToResult, ToReference })
+  {
+    for (const double figure : { filter->GetMean(direction), filter->GetRMS(direction),
+           filter->GetPercentile99(direction), filter->GetMaximum(direction) })
+    {
+      CHECK(IsNear(figure, 0.25, 1e-9));
+    }
+    CHECK(IsNear(filter->GetNormalAngle(direction), 0.0, 1e-6));
+  }
+  CHECK(IsNear(Distance(filter->GetOutput(), 2), 0.25, 1e-9));
+
+  // Tilted by 30 degrees, and upside down: only the angle between the planes counts.
+  const auto tilted = Rectangle(1, 1, 0);
+  tilted->GetPoints()->SetPoint(2, 1, std::sqrt(0.75), 0.5);
+  tilted->GetPoints()->SetPoint(3, 0, std::sqrt(0.75), 0.5);
+  tilted->GetPoints()->Modified();
+  tilted->ReverseCell(0);
+  Prepare(filter, reference, tilted);
+  filter->Update();
+  CHECK(IsNear(filter->GetNormalAngle(ToResult), 30.0, 1e-6));
+  CHECK(IsNear(filter->GetNormalAngle(ToReference), 30.0, 1e-6));
+  CHECK(IsNear(filter->GetMean(ToReference), 0.25, 1e-2));
+  CHECK(IsNear(filter->GetMaximum(ToReference), 0.5, 1e-9));
+  return EXIT_SUCCESS;
+}
+
+int CheckAsymmetric()
+{
+  // The result covers half of the reference. Vertices alone would give a mean of 0.5.
+  const auto reference = Rectangle(2, 1, 0);
+  const auto result = Rectangle(1, 1, 0);
+  vtkNew<vtkNeuralMeshComparison> filter;
+  Prepare(filter, reference, result);
+  filter->Update();
+  CHECK(IsNear(filter->GetMean(ToResult), 0.25, 1e-2));
+  CHECK(IsNear(filter->GetRMS(ToResult), std::sqrt(1.0 / 6.0), 1e-2));
+  CHECK(IsNear(filter->GetPercentile99(ToResult), 0.98, 1e-2));
+  CHECK(IsNear(filter->GetMaximum(ToResult), 1.0, 1e-9));
+  CHECK(IsNear(filter->GetMaximum(ToReference), 0.0, 1e-9));
+  CHECK(IsNear(Distance(filter->GetReferenceOutput(), 1), 1.0, 1e-9));
+  CHECK(IsNear(Distance(filter->GetReferenceOutput(), 0), 0.0, 1e-9));
+
+  vtkTable* table = filter->GetTableOutput();
+  CHECK(table->GetNumberOfRows() == 2);
+  CHECK(table->GetNumberOfColumns() == 10);
+  CHECK(table->GetValueByName(0, "Direction").ToString() == "reference to result");
+  CHECK(table->GetValueByName(1, "Direction").ToString() == "result to reference");
+  CHECK(table->GetValueByName(0, "Mean").ToDouble() == filter->GetMean(ToResult));
+  CHECK(table->GetValueByName(0, "NormalAngle").ToDouble() == filter->GetNormalAngle(ToResult));
+  CHECK(
+    IsNear(table->GetValueByName(0, "MaximumPercent").ToDouble(), 100.0 / std::sqrt(5.0), 1e-6));
+  CHECK(IsNear(filter->GetReferenceDiagonal(), std::sqrt(5.0), 1e-12));
+  return EXIT_SUCCESS;
+}
+
+int CheckMaximumInsideTriangles()
+{
+  // A roof over a flat reference, its ridge between vertices of large triangles: no sample needs to
+  // be near the farthest point, which is found all the same.
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const auto& point : { std::array<double, 3>{ 0, 0, 0 }, { 4, 0, 0 }, { 4, 4, 0 },
+         { 0, 4, 0 }, { 10, 0, 0 }, { 14, 0, 0 }, { 14, 4, 0 }, { 10, 4, 0 } })
+  {
+    points->InsertNextPoint(point.data());
+  }
+  vtkNew<vtkPolyData> twoPatches;
+  twoPatches->SetPoints(points);
+  twoPatches->AllocateExact(2, 8);
+  const std::array<vtkIdType, 8> ids{ 0, 1, 2, 3, 4, 5, 6, 7 };
+  twoPatches->InsertNextCell(VTK_QUAD, 4, ids.data());
+  twoPatches->InsertNextCell(VTK_QUAD, 4, ids.data() + 4);
+  const auto bridge = Rectangle(14, 4, 0);
+  vtkNew<vtkNeuralMeshComparison> filter;
+  Prepare(filter, twoPatches, bridge);
+  filter->SetNumberOfSamples(1000);
+  filter->Update();
+  // In the middle of the gap of 6, at 3 from either patch.
+  CHECK(IsNear(filter->GetMaximum(ToReference), 3.0, 1e-3));
+  CHECK(filter->GetMaximum(ToReference) <= 3.0 + 1e-9);
+  return EXIT_SUCCESS;
+}
+
+int CheckSeed()
+{
+  vtkNew<vtkSphereSource> sphere;
+  const auto reference = Rectangle(1, 1, 0);
+  std::vector<double> means;
+  for (const int seed : { 1, 1, 2 })
+  {
+    vtkNew<vtkNeuralMeshComparison> filter;
+    sphere->Update();
+    Prepare(filter, reference, sphere->GetOutput());
+    filter->SetSeed(seed);
+    filter->Update();
+    means.push_back(filter->GetMean(ToReference));
+  }
+  CHECK(means[0] == means[1]);
+  CHECK(means[0] != means[2]);
+  CHECK(IsNear(means[0], means[2], 1e-2));
+  return EXIT_SUCCESS;
+}
+
+int CheckOffsetAndScale()
+{
+  for (const auto& [offset, scale] : { std::pair(1e7, 1.0), { 0.0, 1e-30 }, { 0.0, 1e30 } })
+  {
+    const std::array<double, 3> corner{ offset, -offset, offset };
+    const auto reference = Rectangle(scale, scale, 0, corner);
+    const auto result = Rectangle(scale, scale, 0.001 * scale, corner);
+    vtkNew<vtkNeuralMeshComparison> filter;
+    Prepare(filter, reference, result);
+    filter->Update();
+    CHECK(IsNear(filter->GetMean(ToReference) / scale, 0.001, 1e-8));
+    CHECK(IsNear(filter->GetMaximum(ToResult) / scale, 0.001, 1e-8));
+    CHECK(IsNear(Distance(filter->GetOutput(), 1) / scale, 0.001, 1e-8));
+  }
+  return EXIT_SUCCESS;
+}
+
+int CheckUncleanInput()
+{
+  // A point that is not finite, an unused one, and triangles without area disturb nothing.
+  const auto reference = Rectangle(1, 1, 0);
+  const auto result = Rectangle(1, 1, 0.5);
+  result->GetPoints()->InsertNextPoint(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  result->GetPoints()->InsertNextPoint(0, 0, 7);
+  for (const auto& ids : { std::array<vtkIdType, 3>{ 0, 1, 4 }, { 0, 0, 5 } })
+  {
+    result->InsertNextCell(VTK_TRIANGLE, 3, ids.data());
+  }
+  vtkNew<vtkNeuralMeshComparison> filter;
+  vtkNew<FilterTesting::MessageCounter> messages;
+  messages->Observe(filter);
+  Prepare(filter, reference, result);
+  filter->Update();
+  CHECK(messages->Errors == 0);
+  CHECK(IsNear(filter->GetMaximum(ToReference), 0.5, 1e-9));
+  CHECK(IsNear(filter->GetMaximum(ToResult), 0.5, 1e-9));
+  CHECK(std::isnan(Distance(filter->GetOutput(), 4)));
+  CHECK(IsNear(Distance(filter->GetOutput(), 5), 7.0, 1e-9));
+  return EXIT_SUCCESS;
+}
+
+int CheckErrors()
+{
+  const auto good = Rectangle(1, 1, 0);
+  const auto pointsAlone = FilterTesting::SphereCloud(10);
+  const auto flat = Rectangle(1, 0, 0);
+  const auto broken = Rectangle(1, 1, 0);
+  const std::array<vtkIdType, 3> beyond{ 0, 1, 99 };
+  broken->InsertNextCell(VTK_TRIANGLE, 3, beyond.data());
+  vtkNew<vtkPolyData> empty;
+  for (vtkPolyData* bad : { pointsAlone.Get(), flat.Get(), broken.Get(), empty.Get() })
+  {
+    for (const bool asReference : { true, false })
+    {
+      vtkNew<vtkNeuralMeshComparison> filter;
+      vtkNew<FilterTesting::MessageCounter> messages;
+      messages->Observe(filter);
+      messages->Observe(filter->GetExecutive());
+      Prepare(filter, asReference ? bad : good.Get(), asReference ? good.Get() : bad);
+      filter->Update();
+      CHECK(messages->Errors > 0);
+      CHECK(filter->GetTableOutput()->GetNumberOfRows() == 0);
+      CHECK(std::isnan(filter->GetMean(ToResult)));
+    }
+  }
+  vtkNew<vtkNeuralMeshComparison> filter;
+  vtkNew<FilterTesting::MessageCounter> messages;
+  messages->Observe(filter);
+  messages->Observe(filter->GetExecutive());
+  Prepare(filter, empty, empty);
+  filter->Update();
+  CHECK(messages->Errors == 0 && messages->Warnings == 0);
+  CHECK(filter->GetOutput()->GetNumberOfPoints() == 0);
+  CHECK(std::isnan(filter->GetMean(ToResult)) && std::isnan(filter->GetReferenceDiagonal()));
+
+  filter->SetNumberOfSamples(1);
+  CHECK(filter->GetNumberOfSamples() == filter->GetNumberOfSamplesMinValue());
+  filter->SetSeed(-1);
+  CHECK(filter->GetSeed() == 0);
+  CHECK(std::isnan(filter->GetMaximum(2)));
+  return EXIT_SUCCESS;
+}
+
+/** Aborts the run at the first progress. */
+class Aborter : public vtkCommand
+{
+public:
+  static Aborter* New() { return new Aborter; }
+  void Execute(vtkObject* caller, unsigned long, void* callData) override
+  {
+    const double progress = *static_cast<double*>(callData);
+    this->Rising = this->Rising && progress >= this->Last;
+    this->Last = progress;
+    if (progress > 0.0 && this->Armed)
+    {
+      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+    }
+  }
+  bool Armed = true;
+  bool Rising = true;
+  double Last = 0.0;
+};
+
+int CheckAbortAndProgress()
+{
+  const auto mesh = Rectangle(1, 1, 0);
+  vtkNew<vtkNeuralMeshComparison> filter;
+  vtkNew<Aborter> aborter;
+  filter->AddObserver(vtkCommand::ProgressEvent, aborter);
+  Prepare(filter, mesh, mesh);
+  filter->Update();
+  CHECK(std::isnan(filter->GetMean(ToResult)));
+  CHECK(filter->GetOutput()->GetNumberOfPoints() == 0);
+
+  // The next run starts clean.
+  aborter->Armed = false;
+  aborter->Last = 0.0;
+  filter->SetAbortExecute(0);
+  filter->Modified();
+  filter->Update();
+  CHECK(IsNear(filter->GetMean(ToResult), 0.0, 1e-12));
+  CHECK(filter->GetOutput()->GetNumberOfPoints() == 4);
+  CHECK(aborter->Rising && aborter->Last == 1.0);
+  return EXIT_SUCCESS;
+}
+}
+
+int TestNeuralMeshComparison(int, char*[])
+{
+  CHECK(CheckSpheres() == EXIT_SUCCESS);
+  CHECK(CheckShiftedAndTilted() == EXIT_SUCCESS);
+  CHECK(CheckAsymmetric() == EXIT_SUCCESS);
+  CHECK(CheckMaximumInsideTriangles() == EXIT_SUCCESS);
+  CHECK(CheckSeed() == EXIT_SUCCESS);
+  CHECK(CheckOffsetAndScale() == EXIT_SUCCESS);
+  CHECK(CheckUncleanInput() == EXIT_SUCCESS);
+  CHECK(CheckErrors() == EXIT_SUCCESS);
+  CHECK(CheckAbortAndProgress() == EXIT_SUCCESS);
+  return EXIT_SUCCESS;
+}
