@@ -38,7 +38,7 @@ namespace
 constexpr std::size_t MostAngleSamples = 20000;
 /// Where the maximum is looked for: in so many triangles, with so many steps that get smaller.
 constexpr std::size_t ClimbedTriangles = 128;
-constexpr int ClimbSteps = 64;
+constexpr int ClimbSteps = 96;
 constexpr int StepsOfOneSize = 8;
 
 /// One of the two surfaces: its mesh in coordinates of the filter, and the samples on it.

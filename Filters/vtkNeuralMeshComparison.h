@@ -12,7 +12,7 @@
  * with the samples, too, and has it measure from points to cells.
  *
  * @par Input
- * Port 0: the result; port 1: the reference; vtkPolyData both. Polygons and strips are triangulated.
+ * Port 0: the result; port 1: the reference; vtkPolyData both. Polygons are taken as fans of triangles, strips taken apart.
  * Triangles without area, and those with a corner that is not finite, are left out. Coordinates may
  * be large against the extent (UTM, say), and of any unit: the filter computes in coordinates of
  * its own.

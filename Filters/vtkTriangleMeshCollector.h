@@ -13,77 +13,78 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
-#include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkTriangleFilter.h"
 
+#include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 class vtkTriangleMeshCollector
 {
 public:
   /**
-   * All points and triangles of `data`, in double precision and with the same point ids; polygons
-   * and strips are triangulated, lines and vertices left out. Throws std::runtime_error if a cell
+   * All points and triangles of `data`, in double precision and with the same point ids. Polygons
+   * become fans of triangles, whatever their shape, so that no face gets lost; strips are taken
+   * apart; lines and vertices are left out. Throws std::runtime_error if a cell
    * refers to a point that is not there, or if there are too many points for 32 bits.
    */
   static neuralmesh::TriangleMesh Collect(vtkPolyData* data)
   {
-    RequireValidIds(data, data->GetPolys());
-    RequireValidIds(data, data->GetStrips());
-    vtkSmartPointer<vtkPolyData> triangles = data;
-    if (data->GetNumberOfStrips() > 0 || data->GetPolys()->IsHomogeneous() != 3)
+    if (data->GetNumberOfPoints() > static_cast<vtkIdType>(UINT32_MAX))
     {
-      vtkNew<vtkTriangleFilter> filter;
-      filter->PassVertsOff();
-      filter->PassLinesOff();
-      filter->SetInputData(data);
-      filter->Update();
-      triangles = filter->GetOutput();
+      throw std::runtime_error("there are more than 4294967295 points");
     }
-
     neuralmesh::TriangleMesh mesh;
     mesh.points.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
     {
       data->GetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
     }
-    mesh.triangles.reserve(static_cast<std::size_t>(triangles->GetNumberOfPolys()));
-    const auto cell = vtk::TakeSmartPointer(triangles->GetPolys()->NewIterator());
-    for (cell->GoToFirstCell(); !cell->IsDoneWithTraversal(); cell->GoToNextCell())
-    {
-      vtkIdType size = 0;
-      const vtkIdType* ids = nullptr;
-      cell->GetCurrentCell(size, ids);
-      mesh.triangles.push_back({ static_cast<std::uint32_t>(ids[0]),
-        static_cast<std::uint32_t>(ids[1]), static_cast<std::uint32_t>(ids[2]) });
-    }
+    ForEachCell(data->GetPolys(), mesh.points.size(),
+      [&mesh](const std::vector<std::uint32_t>& corners)
+      {
+        for (std::size_t i = 2; i < corners.size(); ++i)
+        {
+          mesh.triangles.push_back({ corners[0], corners[i - 1], corners[i] });
+        }
+      });
+    ForEachCell(data->GetStrips(), mesh.points.size(),
+      [&mesh](const std::vector<std::uint32_t>& corners)
+      {
+        for (std::size_t i = 2; i < corners.size(); ++i)
+        {
+          // Every second triangle of a strip runs the other way round.
+          const std::size_t odd = i % 2;
+          mesh.triangles.push_back({ corners[i - 2 + odd], corners[i - 1 - odd], corners[i] });
+        }
+      });
     return mesh;
   }
 
 private:
-  static void RequireValidIds(vtkPolyData* data, vtkCellArray* cells)
+  template <typename Visit>
+  static void ForEachCell(vtkCellArray* cells, std::size_t points, const Visit& visit)
   {
-    const vtkIdType points = data->GetNumberOfPoints();
-    if (points > static_cast<vtkIdType>(UINT32_MAX))
-    {
-      throw std::runtime_error("there are more than 4294967295 points");
-    }
+    std::vector<std::uint32_t> corners;
     const auto cell = vtk::TakeSmartPointer(cells->NewIterator());
     for (cell->GoToFirstCell(); !cell->IsDoneWithTraversal(); cell->GoToNextCell())
     {
       vtkIdType size = 0;
       const vtkIdType* ids = nullptr;
       cell->GetCurrentCell(size, ids);
+      corners.clear();
       for (vtkIdType i = 0; i < size; ++i)
       {
-        if (ids[i] < 0 || ids[i] >= points)
+        if (ids[i] < 0 || static_cast<std::size_t>(ids[i]) >= points)
         {
           throw std::runtime_error("a cell refers to point " + std::to_string(ids[i]) +
             ", but there are only " + std::to_string(points));
         }
+        corners.push_back(static_cast<std::uint32_t>(ids[i]));
       }
+      visit(corners);
     }
   }
 };

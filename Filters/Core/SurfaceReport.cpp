@@ -17,7 +17,7 @@ namespace
 {
 using Index = std::uint32_t;
 
-constexpr double FoldAngle = 150. * std::numbers::pi / 180.;
+const double FoldCosine = std::cos(150. * std::numbers::pi / 180.);
 
 /// An edge as one triangle sees it. Corner 3 t + k is the k-th of triangle t.
 struct Side
@@ -180,7 +180,7 @@ private:
     const Eigen::Vector3d a = twiceAreaNormal(this->mesh_, one.triangle());
     const Eigen::Vector3d b =
       (consistent ? 1. : -1.) * twiceAreaNormal(this->mesh_, other.triangle());
-    this->report_.foldedEdges += std::atan2(a.cross(b).norm(), a.dot(b)) > FoldAngle;
+    this->report_.foldedEdges += a.dot(b) < FoldCosine * a.norm() * b.norm();
   }
 
   void reportVertices()

@@ -266,7 +266,7 @@ TEST(SurfaceReport, UncleanMeshes)
   mesh.points.emplace_back(0., 3., 0.);       // used by a triangle without area
   mesh.triangles.push_back({ first, first, 0 });
   mesh.triangles.push_back({ 0, 1, first + 2 });
-  mesh.triangles.push_back({ 3, 6, first + 3 });
+  mesh.triangles.push_back({ 6, 3, first + 3 });
   const SurfaceReport report = reportSurface(mesh);
   EXPECT_EQ(report.triangles, 11u);
   EXPECT_EQ(report.vertices, 11u);

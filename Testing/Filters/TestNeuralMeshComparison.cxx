@@ -242,6 +242,24 @@ int CheckUncleanInput()
   return EXIT_SUCCESS;
 }
 
+int CheckStrips()
+{
+  // The same rectangle as a strip.
+  const auto reference = Rectangle(2, 1, 0);
+  vtkNew<vtkPolyData> strip;
+  strip->SetPoints(reference->GetPoints());
+  const std::array<vtkIdType, 4> ids{ 0, 1, 3, 2 };
+  strip->AllocateExact(0, 0, 0, 0, 0, 0, 1, 4);
+  strip->InsertNextCell(VTK_TRIANGLE_STRIP, 4, ids.data());
+  vtkNew<vtkNeuralMeshComparison> filter;
+  Prepare(filter, reference, strip);
+  filter->Update();
+  CHECK(filter->GetMaximum(ToResult) < 1e-9);
+  CHECK(filter->GetMaximum(ToReference) < 1e-9);
+  CHECK(filter->GetOutput()->GetNumberOfStrips() == 1);
+  return EXIT_SUCCESS;
+}
+
 int CheckErrors()
 {
   const auto good = Rectangle(1, 1, 0);
@@ -337,6 +355,7 @@ int TestNeuralMeshComparison(int, char*[])
   CHECK(CheckSeed() == EXIT_SUCCESS);
   CHECK(CheckOffsetAndScale() == EXIT_SUCCESS);
   CHECK(CheckUncleanInput() == EXIT_SUCCESS);
+  CHECK(CheckStrips() == EXIT_SUCCESS);
   CHECK(CheckErrors() == EXIT_SUCCESS);
   CHECK(CheckAbortAndProgress() == EXIT_SUCCESS);
   return EXIT_SUCCESS;
