@@ -92,7 +92,8 @@ public:
   {
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
-    points->Allocate(static_cast<vtkIdType>(this->Mesh.points.size() + this->Samples.size()));
+    const std::size_t count = this->Mesh.points.size() + this->Samples.size();
+    points->Allocate(static_cast<vtkIdType>(count));
     for (const Eigen::Vector3d& point : this->Mesh.points)
     {
       points->InsertNextPoint(point.data());
