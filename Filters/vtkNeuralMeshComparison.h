@@ -14,8 +14,8 @@
  * @par Input
  * Port 0: the result; port 1: the reference; vtkPolyData both. Polygons are taken as fans of
  * triangles, strips taken apart. Triangles without area, and those with a corner that is not
- * finite, are left out. Coordinates may be large against the extent (UTM, say), and of any unit: the
- * filter computes in coordinates of its own.
+ * finite, are left out. Coordinates may be large against the extent (UTM, say), and of any unit:
+ * the filter computes in coordinates of its own.
  * Two inputs without cells and points give empty outputs. It is an error if otherwise one of them
  * has no triangle with an area, or a cell refers to a point that is not there.
  *
