@@ -159,9 +159,9 @@ std::function<int()> AddCompareCommand(CLI::App& application)
     "point of the other surface is taken: from the result to the reference it is large where the\n"
     "result has something that is not there, from the reference to the result where it misses\n"
     "something. Printed are mean, root mean square, the distance that 99 % do not exceed, and the\n"
-    "maximum (which looks at the vertices, too), in units of the files and in percent of the\n"
-    "diagonal of the reference's bounding box; and the mean angle, 0 to 90 degrees, between the\n"
-    "normals at a point and at its nearest point. Nothing is aligned.\n"
+    "maximum, in units of the files and in percent of the diagonal of the reference's bounding\n"
+    "box; and the mean angle, 0 to 90 degrees, between the normals at a point and at its nearest\n"
+    "point. Nothing is aligned.\n"
     "\nExit status: 0 done, 1 failed (the message is on stderr), 2 wrong use.");
   return [options] { return Compare(*options); };
 }

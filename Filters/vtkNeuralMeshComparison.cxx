@@ -92,7 +92,8 @@ public:
   {
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
-    points->Allocate(static_cast<vtkIdType>(this->Mesh.points.size() + this->Samples.size()));
+    const std::size_t count = this->Mesh.points.size() + this->Samples.size();
+    points->Allocate(static_cast<vtkIdType>(count));
     for (const Eigen::Vector3d& point : this->Mesh.points)
     {
       points->InsertNextPoint(point.data());
@@ -134,8 +135,8 @@ private:
   std::vector<neuralmesh::SurfaceSampler::Sample> Samples;
 };
 
-/// The two surfaces, moved and scaled so that the bounding box of the reference has its centre in the
-/// origin and a diagonal of 1.
+/// The two surfaces, moved and scaled so that the bounding box of the reference has its centre in
+/// the origin and a diagonal of 1.
 struct SurfacePair
 {
   SurfacePair(vtkPolyData* reference, vtkPolyData* result)
@@ -262,7 +263,8 @@ std::vector<neuralmesh::SurfaceSampler::Sample> FarthestSamples(
   return farthest;
 }
 
-/// Over the samples, the vertices of triangles, and what is found from the farthest samples upwards.
+/// Over the samples, the vertices of triangles, and what is found by climbing on from the farthest
+/// samples: the peaks are narrow.
 double Maximum(
   const Distances& distances, const Surface& from, NearestPoint& to, neuralmesh::Random& random)
 {
@@ -295,7 +297,8 @@ double Maximum(
   return maximum;
 }
 
-/// Mean angle in degrees between the normals of `from` at samples and of `to` at the points nearest.
+/// Mean angle, in degrees, between the normals of `from` at samples and those of `to` at the
+/// nearest points.
 double MeanNormalAngle(const Surface& from, const Surface& to, NearestPoint& nearestPoint)
 {
   const auto& samples = from.GetSamples();

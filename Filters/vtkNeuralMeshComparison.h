@@ -12,29 +12,30 @@
  * with the samples, too, and has it measure from points to cells.
  *
  * @par Input
- * Port 0: the result; port 1: the reference; vtkPolyData both. Polygons are taken as fans of triangles, strips taken apart.
- * Triangles without area, and those with a corner that is not finite, are left out. Coordinates may
- * be large against the extent (UTM, say), and of any unit: the filter computes in coordinates of
- * its own.
+ * Port 0: the result; port 1: the reference; vtkPolyData both. Polygons are taken as fans of
+ * triangles, strips taken apart. Triangles without area, and those with a corner that is not
+ * finite, are left out. Coordinates may be large against the extent (UTM, say), and of any unit:
+ * the filter computes in coordinates of its own.
  * Two inputs without cells and points give empty outputs. It is an error if otherwise one of them
  * has no triangle with an area, or a cell refers to a point that is not there.
  *
  * @par Output
  * Port 0: the result, port 1: the reference, each with the point data `Distance` (double), the
- * distance of each point to the nearest point of the other surface, in units of the input; NaN for
- * points that are not finite. Port 2: a vtkTable of the figures with a row for each direction, the
- * columns being
+ * distance of each point to the nearest point of the other surface, in units of the input, as the
+ * active scalars; NaN for points that are not finite. Port 2: a vtkTable of the figures with a row
+ * for each direction, the columns being
  * - `Direction`: "reference to result", "result to reference";
  * - `Mean`, `RMS`, `Percentile99`, `Maximum` in units of the input;
- * - `MeanPercent`, `RMSPercent`, `Percentile99Percent`, `MaximumPercent`, in percent of the diagonal
- *   of the bounding box of the reference;
+ * - `MeanPercent`, `RMSPercent`, `Percentile99Percent`, `MaximumPercent`, in percent of the
+ *   diagonal of the bounding box of the reference;
  * - `NormalAngle`, in degrees.
  *
  * The same inputs and seed give the same figures.
  *
  * @par What it does not do
- * The surfaces are compared as they lie: nothing is aligned. The maximum, from so many points and all
- * vertices, is a lower bound, in practice a close one.
+ * The surfaces are compared as they lie: nothing is aligned. The maximum is a lower bound, in
+ * practice a close one. An abort takes effect between the steps (samples, distances, angles) and
+ * leaves the outputs empty.
  *
  * @sa vtkHausdorffDistancePointSetFilter vtkDistancePolyDataFilter vtkNeuralMesh
  */
@@ -91,8 +92,9 @@ public:
   ///@{
   /**
    * The figures of the last run, by direction, in units of the input: mean, root mean square, the
-   * distance that 99 % of the samples do not exceed, and the maximum over samples and vertices. NaN
-   * if there was no run, or it failed, or `direction` is no DirectionType.
+   * distance that 99 % of the samples do not exceed, and the maximum over samples and vertices, and
+   * over what is found by climbing on from the farthest samples. NaN if there was no run, or it
+   * failed, or `direction` is no DirectionType.
    */
   double GetMean(int direction);
   double GetRMS(int direction);
@@ -102,8 +104,8 @@ public:
 
   /**
    * The mean angle, in degrees from 0 to 90, between the normals of the triangles at a sample and
-   * at the nearest point of the other surface, whichever way the triangles are oriented. Over the
-   * first 20000 samples; the mean of both directions is the usual figure. NaN as above.
+   * at the nearest point of the other surface, whichever way the triangles are oriented. Over
+   * 20000 of the samples; the mean of both directions is the usual figure. NaN as above.
    */
   double GetNormalAngle(int direction);
 
