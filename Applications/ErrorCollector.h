@@ -5,10 +5,12 @@
 #include "vtkCommand.h"
 
 #include <string>
+#include <vector>
 
 /**
  * Observes the errors and warnings of a VTK object, which are then not printed. Errors are kept,
  * the first one as the message; warnings go to stderr, as a line each.
+ * Observe vtkOutputWindow, too, for what helpers inside a reader report: all of that is an error.
  */
 class ErrorCollector : public vtkCommand
 {
@@ -24,8 +26,14 @@ public:
   bool HasError() const { return !this->Message.empty(); }
   const std::string& GetMessage() const { return this->Message; }
 
+  /** Keeps warnings back from now on, until they are asked for. */
+  void DeferWarnings() { this->Deferring = true; }
+  void ShowDeferredWarnings();
+
 private:
   std::string Message;
+  bool Deferring = false;
+  std::vector<std::string> DeferredWarnings;
 };
 
 #endif
