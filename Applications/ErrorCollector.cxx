@@ -3,6 +3,8 @@
 
 #include "OneLine.h"
 
+#include "vtkAlgorithm.h"
+#include "vtkExecutive.h"
 #include "vtkObject.h"
 #include "vtkOutputWindow.h"
 
@@ -48,9 +50,14 @@ void ErrorCollector::Execute(vtkObject* caller, unsigned long event, void* callD
       Show(text);
     }
   }
-  else if (this->Message.empty())
+  else
   {
-    this->Message = text.empty() ? "unknown error" : text;
+    this->Error = true;
+    // An executive says only that its algorithm has failed.
+    if (this->Message.empty() && !vtkExecutive::SafeDownCast(caller))
+    {
+      this->Message = text;
+    }
   }
 }
 
@@ -64,4 +71,8 @@ void ErrorCollector::Observe(vtkObject* object)
 {
   object->AddObserver(vtkCommand::ErrorEvent, this);
   object->AddObserver(vtkCommand::WarningEvent, this);
+  if (auto* algorithm = vtkAlgorithm::SafeDownCast(object))
+  {
+    this->Observe(algorithm->GetExecutive());
+  }
 }

@@ -7,7 +7,6 @@
 #include "ReadingGuard.h"
 #include "SoundCells.h"
 
-#include "vtkExecutive.h"
 #include "vtkGenericDataObjectReader.h"
 #include "vtkNew.h"
 #include "vtkOBJReader.h"
@@ -32,7 +31,6 @@ namespace
 void Update(vtkAlgorithm* reader, const std::string& path, ErrorCollector* errors)
 {
   errors->Observe(reader);
-  errors->Observe(reader->GetExecutive());
   errors->Observe(vtkOutputWindow::GetInstance());
   bool done = true;
   try
@@ -47,8 +45,9 @@ void Update(vtkAlgorithm* reader, const std::string& path, ErrorCollector* error
   vtkOutputWindow::GetInstance()->RemoveObserver(errors);
   if (!done || errors->HasError())
   {
+    const std::string& message = errors->GetMessage();
     throw std::runtime_error(
-      done ? path + ": " + errors->GetMessage() : ReadingGuard::Message(path));
+      done && !message.empty() ? path + ": " + message : ReadingGuard::Message(path));
   }
 }
 
