@@ -36,8 +36,9 @@ std::array<char, 1 << 16> HandlerStack;
 
 extern "C" void EndWithMessage(int)
 {
-  const ssize_t written = write(Saved.Stderr, Saved.Message.data(), Saved.Message.size());
-  _exit(written >= 0 ? 1 : 1);
+  [[maybe_unused]] const ssize_t written =
+    write(Saved.Stderr, Saved.Message.data(), Saved.Message.size());
+  _exit(1);
 }
 
 void CatchSignals()
