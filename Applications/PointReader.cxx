@@ -67,7 +67,8 @@ vtkSmartPointer<vtkPointSet> ReadWith(const std::string& path)
   }
   if (!HasSoundCells(points))
   {
-    throw std::runtime_error(path + ": damaged: there are cells with points that do not exist");
+    throw std::runtime_error(
+      path + ": damaged: there are cells without corners, or with points that do not exist");
   }
   return points;
 }

@@ -10,7 +10,8 @@
 
 namespace
 {
-bool AreSound(vtkCellArray* cells, vtkIdType numberOfPoints)
+/** Whether all cells have so many corners or more, which are among the points. */
+bool AreSound(vtkCellArray* cells, int fewestCorners, vtkIdType numberOfPoints)
 {
   if (!cells || cells->GetNumberOfCells() == 0)
   {
@@ -18,8 +19,9 @@ bool AreSound(vtkCellArray* cells, vtkIdType numberOfPoints)
   }
   const auto offsets = vtk::DataArrayValueRange<1>(cells->GetOffsetsArray());
   const auto points = vtk::DataArrayValueRange<1>(cells->GetConnectivityArray());
+  const auto isTooSmall = [=](double begin, double end) { return end - begin < fewestCorners; };
   return *offsets.begin() == 0 && *(offsets.end() - 1) == points.size() &&
-    std::is_sorted(offsets.begin(), offsets.end()) &&
+    std::adjacent_find(offsets.begin(), offsets.end(), isTooSmall) == offsets.end() &&
     std::all_of(points.begin(), points.end(),
       [=](double point) { return point >= 0 && point < static_cast<double>(numberOfPoints); });
 }
@@ -30,9 +32,9 @@ bool HasSoundCells(vtkPointSet* data)
   const vtkIdType count = data->GetNumberOfPoints();
   if (auto* mesh = vtkPolyData::SafeDownCast(data))
   {
-    return AreSound(mesh->GetVerts(), count) && AreSound(mesh->GetLines(), count) &&
-      AreSound(mesh->GetPolys(), count) && AreSound(mesh->GetStrips(), count);
+    return AreSound(mesh->GetVerts(), 1, count) && AreSound(mesh->GetLines(), 2, count) &&
+      AreSound(mesh->GetPolys(), 3, count) && AreSound(mesh->GetStrips(), 3, count);
   }
   auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
-  return !grid || AreSound(grid->GetCells(), count);
+  return !grid || AreSound(grid->GetCells(), 0, count);
 }

@@ -5,8 +5,8 @@
 class vtkPointSet;
 
 /**
- * Whether all cells refer to points that exist. VTK's readers do not look after that, and its
- * filters rely on it.
+ * Whether all cells have the corners that their kind needs, which are among the points. VTK's
+ * readers do not look after that, and its filters rely on it.
  */
 bool HasSoundCells(vtkPointSet* data);
 

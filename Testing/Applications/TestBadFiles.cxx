@@ -282,7 +282,7 @@ TEST_F(BadFiles, WouldTakeForEver)
   EXPECT_EXIT(ReadAsCommand(path), Failed, OneLine);
 }
 
-// Promise: cells with points that do not exist are an error.
+// Promise: cells with points that do not exist are an error, and polygons of two corners.
 TEST_F(BadFiles, CellsWithoutPoints)
 {
   const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
@@ -292,6 +292,7 @@ TEST_F(BadFiles, CellsWithoutPoints)
   const std::string vtk =
     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n";
   for (const auto& [name, bytes] : { std::pair{ "damaged.ply", ply + points + "3 0 1 3000000\n" },
+         { "damaged.ply", ply + points + "2 0 1\n" },
          { "damaged.vtk", vtk + points + "POLYGONS 1 4\n3 0 1 -2\n" } })
   {
     SCOPED_TRACE(name);
