@@ -4,27 +4,29 @@
 #include "FilterTesting.h"
 
 #include "vtkNeuralMesh.h"
+#include "vtkNeuralMeshComparison.h"
 
 #include <limits>
 #include <sstream>
+#include <type_traits>
 
 namespace
 {
-template <typename T>
+template <typename FilterT, typename T>
 struct Property
 {
   const char* Name;
-  void (vtkNeuralMesh::*Set)(T);
-  T (vtkNeuralMesh::*Get)();
+  void (FilterT::*Set)(T);
+  T (FilterT::*Get)();
   T Minimum;
   T Maximum;
 };
 
 /** Sets `value`, and checks what comes of it and what is said. */
-template <typename T>
-int CheckSetting(const Property<T>& property, T value, T expected)
+template <typename FilterT, typename T>
+int CheckSetting(const Property<FilterT, T>& property, T value, T expected)
 {
-  vtkNew<vtkNeuralMesh> filter;
+  vtkNew<FilterT> filter;
   vtkNew<FilterTesting::MessageCounter> messages;
   messages->Observe(filter);
   (filter->*property.Set)(value);
@@ -39,8 +41,8 @@ int CheckSetting(const Property<T>& property, T value, T expected)
   return EXIT_SUCCESS;
 }
 
-template <typename T>
-int CheckProperty(const Property<T>& property)
+template <typename FilterT, typename T>
+int CheckProperty(const Property<FilterT, T>& property)
 {
   std::cout << property.Name << std::endl;
   using Limits = std::numeric_limits<T>;
@@ -52,7 +54,7 @@ int CheckProperty(const Property<T>& property)
   {
     CHECK(CheckSetting(property, Limits::infinity(), property.Maximum) == EXIT_SUCCESS);
     CHECK(CheckSetting(property, -Limits::infinity(), property.Minimum) == EXIT_SUCCESS);
-    const T before = (vtkNew<vtkNeuralMesh>()->*property.Get)();
+    const T before = (vtkNew<FilterT>()->*property.Get)();
     CHECK(CheckSetting(property, Limits::quiet_NaN(), before) == EXIT_SUCCESS);
   }
   return EXIT_SUCCESS;
@@ -74,36 +76,45 @@ int CheckPreset()
 
 int TestNeuralMeshClamping(int, char*[])
 {
-  vtkNew<vtkNeuralMesh> filter;
-#define CHECK_PROPERTY(name)                                                                       \
-  CHECK(CheckProperty(Property<decltype(filter->Get##name())>{ #name, &vtkNeuralMesh::Set##name,   \
-          &vtkNeuralMesh::Get##name, filter->Get##name##MinValue(),                                \
-          filter->Get##name##MaxValue() }) == EXIT_SUCCESS)
-  CHECK_PROPERTY(NumberOfVertices);
-  CHECK_PROPERTY(Seed);
-  CHECK_PROPERTY(Variant);
-  CHECK_PROPERTY(WinnerRate);
-  CHECK_PROPERTY(SmoothingRate);
-  CHECK_PROPERTY(SmoothingIterations);
-  CHECK_PROPERTY(CounterDecay);
-  CHECK_PROPERTY(CounterHalfLife);
-  CHECK_PROPERTY(NoiseTolerance);
-  CHECK_PROPERTY(NoiseWindow);
-  CHECK_PROPERTY(OutlierLimit);
-  CHECK_PROPERTY(OutlierLimitVertices);
-  CHECK_PROPERTY(SamplesPerAddition);
-  CHECK_PROPERTY(EarlyPatience);
-  CHECK_PROPERTY(EarlyVertices);
-  CHECK_PROPERTY(AdditionsPerRemoval);
-  CHECK_PROPERTY(RemovalPatience);
-  CHECK_PROPERTY(RemovalLimit);
-  CHECK_PROPERTY(BatchSize);
-  CHECK_PROPERTY(MaximumIterations);
-  CHECK_PROPERTY(TargetSampleDistance);
-  CHECK_PROPERTY(TargetCloudDistance);
-  CHECK_PROPERTY(TimeLimit);
-  CHECK_PROPERTY(StallPatience);
-  CHECK_PROPERTY(OutputPointsPrecision);
+  vtkNew<vtkNeuralMesh> mesh;
+  vtkNew<vtkNeuralMeshComparison> comparison;
+#define CHECK_PROPERTY(filter, name)                                                               \
+  {                                                                                                \
+    using FilterT = std::remove_pointer_t<decltype(filter.Get())>;                                 \
+    const Property<FilterT, decltype(filter->Get##name())> property{ #name, &FilterT::Set##name,   \
+      &FilterT::Get##name, filter->Get##name##MinValue(), filter->Get##name##MaxValue() };         \
+    CHECK(CheckProperty(property) == EXIT_SUCCESS);                                                \
+  }
+  CHECK_PROPERTY(mesh, NumberOfVertices)
+  CHECK_PROPERTY(mesh, Seed)
+  CHECK_PROPERTY(mesh, Variant)
+  CHECK_PROPERTY(mesh, Order)
+  CHECK_PROPERTY(mesh, WinnerRate)
+  CHECK_PROPERTY(mesh, SmoothingRate)
+  CHECK_PROPERTY(mesh, SmoothingIterations)
+  CHECK_PROPERTY(mesh, CounterDecay)
+  CHECK_PROPERTY(mesh, CounterHalfLife)
+  CHECK_PROPERTY(mesh, NoiseTolerance)
+  CHECK_PROPERTY(mesh, NoiseWindow)
+  CHECK_PROPERTY(mesh, OutlierLimit)
+  CHECK_PROPERTY(mesh, OutlierLimitVertices)
+  CHECK_PROPERTY(mesh, SamplesPerAddition)
+  CHECK_PROPERTY(mesh, EarlyPatience)
+  CHECK_PROPERTY(mesh, EarlyVertices)
+  CHECK_PROPERTY(mesh, AdditionsPerRemoval)
+  CHECK_PROPERTY(mesh, RemovalPatience)
+  CHECK_PROPERTY(mesh, RemovalLimit)
+  CHECK_PROPERTY(mesh, BatchSize)
+  CHECK_PROPERTY(mesh, JumpFraction)
+  CHECK_PROPERTY(mesh, ListVertices)
+  CHECK_PROPERTY(mesh, MaximumIterations)
+  CHECK_PROPERTY(mesh, TargetSampleDistance)
+  CHECK_PROPERTY(mesh, TargetCloudDistance)
+  CHECK_PROPERTY(mesh, TimeLimit)
+  CHECK_PROPERTY(mesh, StallPatience)
+  CHECK_PROPERTY(mesh, OutputPointsPrecision)
+  CHECK_PROPERTY(comparison, NumberOfSamples)
+  CHECK_PROPERTY(comparison, Seed)
 #undef CHECK_PROPERTY
   return CheckPreset();
 }
