@@ -79,13 +79,15 @@ vtkSmartPointer<vtkPointSet> ReadSTL(const std::string& path)
   constexpr std::size_t titleSize = 80, headerSize = 84, triangleSize = 50;
   std::string header(headerSize, ' ');
   std::ifstream(path, std::ios::binary).read(header.data(), headerSize);
-  const bool isText = header.starts_with("solid") && header.find('\0') == std::string::npos;
+  const bool isText = header.find('\0') == std::string::npos;
   std::uintmax_t triangles = 0;
   for (std::size_t i = headerSize; i-- > titleSize;)
   {
     triangles = 256 * triangles + static_cast<unsigned char>(header[i]);
   }
-  if (!isText && std::filesystem::file_size(path) < headerSize + triangleSize * triangles)
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!isText && !error && size < headerSize + triangleSize * triangles)
   {
     throw std::runtime_error(path + ": damaged: it ends before its last triangle");
   }
