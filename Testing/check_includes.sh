@@ -16,7 +16,7 @@ forbid()
 }
 
 forbid 'vtk|pq|paraview' Filters/Core/*.h Filters/Core/*.cpp
-forbid 'vtkPV|vtkSM|vtkSI|pq|CLI/|ErrorCollector|LearningParameters|MeshWriter|PointReader|ReadingGuard' \
+forbid 'vtkPV|vtkSM|vtkSI|pq|CLI/|ErrorCollector|LearningParameters|MeshWriter|PointReader' \
   Filters/*.h Filters/*.cxx
 # The header of a public class is installed; the core is not.
 for header in Filters/vtkNeuralMesh.h Filters/vtkNeuralMeshComparison.h; do
