@@ -1,44 +1,78 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ErrorCollector.h"
 
-#include "vtkObject.h"
+#include "OneLine.h"
 
+#include "vtkAlgorithm.h"
+#include "vtkExecutive.h"
+#include "vtkObject.h"
+#include "vtkOutputWindow.h"
+
+#include <algorithm>
 #include <iostream>
 
 namespace
 {
-/** The text behind VTK's "ERROR: In file, line n\nvtkClass (address): ". */
+/** The text behind VTK's "ERROR: In file, line n\nvtkClass (address): ", as one line. */
 std::string PlainText(const char* vtkMessage)
 {
   std::string text = vtkMessage ? vtkMessage : "";
-  const std::size_t prefix = text.find("): ");
-  if (prefix != std::string::npos)
+  const std::size_t firstLine = text.find('\n');
+  if (firstLine != std::string::npos && text.find(": In ") < firstLine)
   {
-    text.erase(0, prefix + 3);
+    text.erase(0, firstLine + 1);
   }
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
+  const std::size_t object = text.find("): ");
+  if (text.starts_with("vtk") && object != std::string::npos)
   {
-    text.pop_back();
+    text.erase(0, object + 3);
   }
-  return text;
+  return OneLine(text);
+}
+
+void Show(const std::string& warning)
+{
+  std::cerr << "neuralmesh: warning: " << warning << std::endl;
 }
 }
 
-void ErrorCollector::Execute(vtkObject*, unsigned long event, void* callData)
+void ErrorCollector::Execute(vtkObject* caller, unsigned long event, void* callData)
 {
   const std::string text = PlainText(static_cast<const char*>(callData));
-  if (event == vtkCommand::WarningEvent)
+  if (event == vtkCommand::WarningEvent && !vtkOutputWindow::SafeDownCast(caller))
   {
-    std::cerr << "neuralmesh: warning: " << text << std::endl;
+    if (this->Deferring)
+    {
+      this->DeferredWarnings.push_back(text);
+    }
+    else
+    {
+      Show(text);
+    }
   }
-  else if (this->Message.empty())
+  else
   {
-    this->Message = text.empty() ? "unknown error" : text;
+    this->Error = true;
+    // An executive says only that its algorithm has failed.
+    if (this->Message.empty() && !vtkExecutive::SafeDownCast(caller))
+    {
+      this->Message = text;
+    }
   }
+}
+
+void ErrorCollector::ShowDeferredWarnings()
+{
+  std::for_each(this->DeferredWarnings.begin(), this->DeferredWarnings.end(), Show);
+  this->DeferredWarnings.clear();
 }
 
 void ErrorCollector::Observe(vtkObject* object)
 {
   object->AddObserver(vtkCommand::ErrorEvent, this);
   object->AddObserver(vtkCommand::WarningEvent, this);
+  if (auto* algorithm = vtkAlgorithm::SafeDownCast(object))
+  {
+    this->Observe(algorithm->GetExecutive());
+  }
 }

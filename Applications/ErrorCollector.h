@@ -5,10 +5,13 @@
 #include "vtkCommand.h"
 
 #include <string>
+#include <vector>
 
 /**
- * Observes the errors and warnings of a VTK object, which are then not printed. Errors are kept,
- * the first one as the message; warnings go to stderr, as a line each.
+ * Observes the errors and warnings of a VTK object, and of its executive if it is an algorithm,
+ * which are then not printed. Errors are kept, the first one as the message; warnings go to stderr,
+ * as a line each.
+ * Observe vtkOutputWindow, too, for what helpers inside a reader report: all of that is an error.
  */
 class ErrorCollector : public vtkCommand
 {
@@ -21,11 +24,19 @@ public:
   /** From now on, the errors and warnings of `object`. */
   void Observe(vtkObject* object);
 
-  bool HasError() const { return !this->Message.empty(); }
+  bool HasError() const { return this->Error; }
+  /** Empty if all that is known is that there was an error. */
   const std::string& GetMessage() const { return this->Message; }
 
+  /** Keeps warnings back from now on, until they are asked for. */
+  void DeferWarnings() { this->Deferring = true; }
+  void ShowDeferredWarnings();
+
 private:
+  bool Error = false;
   std::string Message;
+  bool Deferring = false;
+  std::vector<std::string> DeferredWarnings;
 };
 
 #endif

@@ -4,11 +4,13 @@
 #include "ErrorCollector.h"
 #include "FileExtension.h"
 #include "PointTextReader.h"
+#include "ReadingGuard.h"
+#include "SoundCells.h"
 
-#include "vtkExecutive.h"
 #include "vtkGenericDataObjectReader.h"
 #include "vtkNew.h"
 #include "vtkOBJReader.h"
+#include "vtkOutputWindow.h"
 #include "vtkPLYReader.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
@@ -16,6 +18,7 @@
 #include "vtkXMLPolyDataReader.h"
 #include "vtkXMLUnstructuredGridReader.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -24,25 +27,71 @@
 
 namespace
 {
+/** Runs a reader, whatever the file does to it. */
+void Update(vtkAlgorithm* reader, const std::string& path, ErrorCollector* errors)
+{
+  errors->Observe(reader);
+  errors->Observe(vtkOutputWindow::GetInstance());
+  bool done = true;
+  try
+  {
+    const ReadingGuard guard(path);
+    reader->Update();
+  }
+  catch (const std::exception&) // bad_alloc, length_error, ...
+  {
+    done = false;
+  }
+  vtkOutputWindow::GetInstance()->RemoveObserver(errors);
+  if (!done || errors->HasError())
+  {
+    const std::string& message = errors->GetMessage();
+    throw std::runtime_error(
+      done && !message.empty() ? path + ": " + message : ReadingGuard::Message(path));
+  }
+}
+
 template <typename ReaderT>
 vtkSmartPointer<vtkPointSet> ReadWith(const std::string& path)
 {
   vtkNew<ErrorCollector> errors;
   vtkNew<ReaderT> reader;
-  errors->Observe(reader);
-  errors->Observe(reader->GetExecutive());
+  errors->DeferWarnings();
   reader->SetFileName(path.c_str());
-  reader->Update();
-  if (errors->HasError())
-  {
-    throw std::runtime_error(path + ": " + errors->GetMessage());
-  }
+  Update(reader, path, errors);
+  errors->ShowDeferredWarnings();
   auto* points = vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (!points)
   {
     throw std::runtime_error(path + ": this holds no point set");
   }
+  if (!HasSoundCells(points))
+  {
+    throw std::runtime_error(
+      path + ": damaged: there are cells without corners, or with points that do not exist");
+  }
   return points;
+}
+
+/** VTK takes a binary .stl that ends too soon for a shorter one. */
+vtkSmartPointer<vtkPointSet> ReadSTL(const std::string& path)
+{
+  constexpr std::size_t titleSize = 80, headerSize = 84, triangleSize = 50;
+  std::string header(headerSize, ' ');
+  std::ifstream(path, std::ios::binary).read(header.data(), headerSize);
+  const bool isText = header.find('\0') == std::string::npos;
+  std::uintmax_t triangles = 0;
+  for (std::size_t i = headerSize; i-- > titleSize;)
+  {
+    triangles = 256 * triangles + static_cast<unsigned char>(header[i]);
+  }
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!isText && !error && size < headerSize + triangleSize * triangles)
+  {
+    throw std::runtime_error(path + ": damaged: it ends before its last triangle");
+  }
+  return ReadWith<vtkSTLReader>(path);
 }
 
 using Read = std::function<vtkSmartPointer<vtkPointSet>(const std::string&)>;
@@ -55,7 +104,7 @@ const std::map<std::string, Read>& Readers()
     { ".vtk", ReadWith<vtkGenericDataObjectReader> },
     { ".vtu", ReadWith<vtkXMLUnstructuredGridReader> },
     { ".obj", ReadWith<vtkOBJReader> },
-    { ".stl", ReadWith<vtkSTLReader> },
+    { ".stl", ReadSTL },
     { ".xyz", ReadPointText },
     { ".pts", ReadPointText },
     { ".txt", ReadPointText },
@@ -75,6 +124,10 @@ void RequireReadableFile(const std::string& path)
   if (std::filesystem::is_directory(status))
   {
     throw std::runtime_error(path + ": this is a folder");
+  }
+  if (!std::filesystem::is_regular_file(status))
+  {
+    throw std::runtime_error(path + ": this is no regular file");
   }
   if (!std::ifstream(path))
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointTextReader.h"
 
+#include "OneLine.h"
+
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -85,7 +87,7 @@ vtkSmartPointer<vtkPolyData> ReadPointText(const std::string& path)
     {
       std::string message = path;
       message.append(", line ").append(std::to_string(lineNumber));
-      message.append(": this is not a point: ").append(text);
+      message.append(": this is not a point: ").append(OneLine(text));
       throw std::runtime_error(message);
     }
   }

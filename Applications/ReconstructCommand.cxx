@@ -9,6 +9,7 @@
 #include "ProgressBar.h"
 #include "RunEstimate.h"
 #include "TableWriter.h"
+#include "WholeFile.h"
 
 #include "vtkNeuralMesh.h"
 
@@ -156,9 +157,11 @@ int Reconstruct(const Options& options)
   vtkNew<vtkNeuralMesh> filter;
   PrepareFilter(filter, options);
   RequireWritableExtension(options.Output);
+  RequireWritablePlace(options.Output);
   if (!options.Statistics.empty())
   {
     RequireTableExtension(options.Statistics);
+    RequireWritablePlace(options.Statistics);
   }
 
   Stopwatch stopwatch;

@@ -6,6 +6,12 @@
 #include <string>
 
 /**
+ * Throws std::runtime_error, with a message that names the file, where it can be told beforehand that
+ * WriteWholeFile() would fail: there is no such folder, it takes no files, or `path` is a folder.
+ */
+void RequireWritablePlace(const std::string& path);
+
+/**
  * Has `write` write a file under another name beside `path`, with the extension in small letters,
  * and renames it: nobody ever sees half of it, and if writing fails, what was there before stays.
  * Throws std::runtime_error, with a message that names the file, where `write` throws or the

@@ -170,6 +170,11 @@ vtkNeuralMesh::~vtkNeuralMesh() = default;
 void vtkNeuralMesh::SetPreset(int preset)
 {
   this->Preset = std::clamp<int>(preset, DEFAULT, THESIS);
+  if (preset != this->Preset)
+  {
+    vtkWarningMacro(<< "Preset must be DEFAULT or THESIS: not " << preset << " but " << this->Preset
+                    << " is used.");
+  }
   if (this->ApplyPreset())
   {
     this->Modified();

@@ -48,6 +48,8 @@
  * when it has been obeyed, so that the next execution starts clean. For that, the filter must be
  * modified: as far as the pipeline knows, its output is up to date.
  *
+ * A property out of its range is clamped, with a warning; NaN leaves it as it is.
+ *
  * @par What it does not do
  * The result has the topology of a sphere: handles and boundaries of the shape are covered by
  * triangles. The mesh approximates: vertices lie near the points, not on them. Interpolation of
@@ -69,6 +71,7 @@
 #define vtkNeuralMesh_h
 
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
+#include "vtkNeuralMeshSetClampMacro.h"
 #include "vtkPolyDataAlgorithm.h"
 
 class vtkTable;
@@ -86,7 +89,7 @@ public:
    * first. More than there are points makes sense seldom and gives a warning.
    * Default 20000, at least 4, at most 1000000000.
    */
-  vtkSetClampMacro(NumberOfVertices, vtkIdType, 4, 1000000000);
+  vtkNeuralMeshSetClampMacro(NumberOfVertices, vtkIdType, 4, 1000000000);
   vtkGetMacro(NumberOfVertices, vtkIdType);
   ///@}
 
@@ -94,7 +97,7 @@ public:
   /**
    * Seed of the random numbers: which samples are drawn in which order. Default 1, at least 0.
    */
-  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
+  vtkNeuralMeshSetClampMacro(Seed, int, 0, VTK_INT_MAX);
   vtkGetMacro(Seed, int);
   ///@}
 
@@ -111,7 +114,7 @@ public:
    * far from the mesh pull less than their distance would have it, and vertices are removed a few
    * at a time.
    */
-  vtkSetClampMacro(Variant, int, BASIC, NOISE_FILTERING);
+  vtkNeuralMeshSetClampMacro(Variant, int, BASIC, NOISE_FILTERING);
   vtkGetMacro(Variant, int);
   void SetVariantToBasic() { this->SetVariant(BASIC); }
   void SetVariantToNoiseFiltering() { this->SetVariant(NOISE_FILTERING); }
@@ -130,7 +133,7 @@ public:
    * which a winner jumps forward. The list is the thesis's way to O(n log n); here exact counters
    * are as fast and give meshes that are as good or better, see Documentation/ActivityList.md.
    */
-  vtkSetClampMacro(Order, int, EXACT, LIST);
+  vtkNeuralMeshSetClampMacro(Order, int, EXACT, LIST);
   vtkGetMacro(Order, int);
   void SetOrderToExact() { this->SetOrder(EXACT); }
   void SetOrderToList() { this->SetOrder(LIST); }
@@ -160,7 +163,7 @@ public:
    * alpha_w of (6.1) and (9.1): how far the winner moves towards the sample, as a fraction of the
    * way. More learns faster and leaves more folds. Default 0.1 (thesis 0.1), range 0 to 1.
    */
-  vtkSetClampMacro(WinnerRate, double, 0.0, 1.0);
+  vtkNeuralMeshSetClampMacro(WinnerRate, double, 0.0, 1.0);
   vtkGetMacro(WinnerRate, double);
   ///@}
 
@@ -169,7 +172,7 @@ public:
    * alpha_L of (6.4): how far the neighbours of the winner move along their tangential Laplacian,
    * as a fraction. Default 0.2 (thesis: 0.2 with the list, else 0.05), range 0 to 1.
    */
-  vtkSetClampMacro(SmoothingRate, double, 0.0, 1.0);
+  vtkNeuralMeshSetClampMacro(SmoothingRate, double, 0.0, 1.0);
   vtkGetMacro(SmoothingRate, double);
   ///@}
 
@@ -179,7 +182,7 @@ public:
    * gives rounder triangles, takes time and blurs.
    * Default 1 (thesis: 5 in the basic variant without the list, else 1), range 0 to 100.
    */
-  vtkSetClampMacro(SmoothingIterations, int, 0, 100);
+  vtkNeuralMeshSetClampMacro(SmoothingIterations, int, 0, 100);
   vtkGetMacro(SmoothingIterations, int);
   ///@}
 
@@ -188,7 +191,7 @@ public:
    * alpha_sc of (6.6), basic variant: what is left of all signal counters after each sample.
    * Default 0.95 (thesis 0.95), range 0.01 to 1.
    */
-  vtkSetClampMacro(CounterDecay, double, 0.01, 1.0);
+  vtkNeuralMeshSetClampMacro(CounterDecay, double, 0.01, 1.0);
   vtkGetMacro(CounterDecay, double);
   ///@}
 
@@ -197,7 +200,7 @@ public:
    * lambda of (9.4), noise-filtering variant: the number of samples per vertex in which a signal
    * counter falls to its half. Default 6 (thesis 6), range 0.01 to 1000000.
    */
-  vtkSetClampMacro(CounterHalfLife, double, 0.01, 1e6);
+  vtkNeuralMeshSetClampMacro(CounterHalfLife, double, 0.01, 1e6);
   vtkGetMacro(CounterHalfLife, double);
   ///@}
 
@@ -207,7 +210,7 @@ public:
    * epsilon_t, the mean distance plus so many standard deviations, pull as if they were at
    * epsilon_t (9.2). Default 1 (thesis 1), range 0 to 1000.
    */
-  vtkSetClampMacro(NoiseTolerance, double, 0.0, 1000.0);
+  vtkNeuralMeshSetClampMacro(NoiseTolerance, double, 0.0, 1000.0);
   vtkGetMacro(NoiseTolerance, double);
   ///@}
 
@@ -217,7 +220,7 @@ public:
    * and behind TargetSampleDistance. In large batches only every so-many-th sample is observed, so
    * that the distances come from everywhere. Default 1000 (thesis 1000), range 2 to 1000000.
    */
-  vtkSetClampMacro(NoiseWindow, int, 2, 1000000);
+  vtkNeuralMeshSetClampMacro(NoiseWindow, int, 2, 1000000);
   vtkGetMacro(NoiseWindow, int);
   ///@}
 
@@ -227,7 +230,7 @@ public:
    * outliers, from which nothing is learnt; 0 learns from all. Default 5 (thesis 0), range 0 to
    * 1000000.
    */
-  vtkSetClampMacro(OutlierLimit, double, 0.0, 1e6);
+  vtkNeuralMeshSetClampMacro(OutlierLimit, double, 0.0, 1e6);
   vtkGetMacro(OutlierLimit, double);
   ///@}
 
@@ -236,7 +239,7 @@ public:
    * OutlierLimit holds from so many vertices on: before, the mesh does not know the rough shape,
    * and what is far from it need not be an outlier. Default 1000, at least 4.
    */
-  vtkSetClampMacro(OutlierLimitVertices, int, 4, VTK_INT_MAX);
+  vtkNeuralMeshSetClampMacro(OutlierLimitVertices, int, 4, VTK_INT_MAX);
   vtkGetMacro(OutlierLimitVertices, int);
   ///@}
 
@@ -247,7 +250,7 @@ public:
    * maximum of the distances tells sooner than the mean.
    * Default 50 (thesis 50), range 1 to 1000000.
    */
-  vtkSetClampMacro(SamplesPerAddition, int, 1, 1000000);
+  vtkNeuralMeshSetClampMacro(SamplesPerAddition, int, 1, 1000000);
   vtkGetMacro(SamplesPerAddition, int);
   ///@}
 
@@ -257,7 +260,7 @@ public:
    * vertices, while it learns the rough shape: that makes twists and bridges rarer.
    * Default 4 (thesis 1), range 0.01 to 1000.
    */
-  vtkSetClampMacro(EarlyPatience, double, 0.01, 1000.0);
+  vtkNeuralMeshSetClampMacro(EarlyPatience, double, 0.01, 1000.0);
   vtkGetMacro(EarlyPatience, double);
   ///@}
 
@@ -265,7 +268,7 @@ public:
   /**
    * See EarlyPatience. Default 1000, at least 0.
    */
-  vtkSetClampMacro(EarlyVertices, int, 0, VTK_INT_MAX);
+  vtkNeuralMeshSetClampMacro(EarlyVertices, int, 0, VTK_INT_MAX);
   vtkGetMacro(EarlyVertices, int);
   ///@}
 
@@ -274,7 +277,7 @@ public:
    * C_nr of section 9.1, noise-filtering variant: the number of vertex splits between two removals
    * of the laziest vertices. Default 10 (thesis 125), range 1 to 1000000.
    */
-  vtkSetClampMacro(AdditionsPerRemoval, int, 1, 1000000);
+  vtkNeuralMeshSetClampMacro(AdditionsPerRemoval, int, 1, 1000000);
   vtkGetMacro(AdditionsPerRemoval, int);
   ///@}
 
@@ -284,7 +287,7 @@ public:
    * to be removed. Growth needs C_ec > exp(-C_ec) C_vs (6.18); less gives a warning, and maybe a
    * mesh that stalls. Default 10 (thesis 10), range 0.01 to 1000000.
    */
-  vtkSetClampMacro(RemovalPatience, double, 0.01, 1e6);
+  vtkNeuralMeshSetClampMacro(RemovalPatience, double, 0.01, 1e6);
   vtkGetMacro(RemovalPatience, double);
   ///@}
 
@@ -295,7 +298,7 @@ public:
    * mesh are always idle: without a limit their removal can outweigh all growth.
    * Default 0.5 (thesis 0), range 0 to 1000.
    */
-  vtkSetClampMacro(RemovalLimit, double, 0.0, 1000.0);
+  vtkNeuralMeshSetClampMacro(RemovalLimit, double, 0.0, 1000.0);
   vtkGetMacro(RemovalLimit, double);
   ///@}
 
@@ -315,7 +318,7 @@ public:
    * Jump distance of chapter 11, with the list: how far a winner jumps, as a fraction of the number
    * of vertices. Default 1/3 (thesis 1/3), range 0 to 1.
    */
-  vtkSetClampMacro(JumpFraction, double, 0.0, 1.0);
+  vtkNeuralMeshSetClampMacro(JumpFraction, double, 0.0, 1.0);
   vtkGetMacro(JumpFraction, double);
   ///@}
 
@@ -324,7 +327,7 @@ public:
    * With the list: exact counters count until the mesh has so many vertices.
    * Default 1000 (thesis 1000), at least 4.
    */
-  vtkSetClampMacro(ListVertices, int, 4, VTK_INT_MAX);
+  vtkNeuralMeshSetClampMacro(ListVertices, int, 4, VTK_INT_MAX);
   vtkGetMacro(ListVertices, int);
   ///@}
 
@@ -335,7 +338,7 @@ public:
    * Another size gives another mesh of the same quality. Default 65536 (thesis 1, one by one),
    * range 1 to 1048576.
    */
-  vtkSetClampMacro(BatchSize, int, 1, 1048576);
+  vtkNeuralMeshSetClampMacro(BatchSize, int, 1, 1048576);
   vtkGetMacro(BatchSize, int);
   ///@}
 
@@ -343,7 +346,7 @@ public:
   /**
    * Stopping rule: the number of samples to draw at most; 0 for any number. Default 0.
    */
-  vtkSetClampMacro(MaximumIterations, vtkIdType, 0, VTK_ID_MAX);
+  vtkNeuralMeshSetClampMacro(MaximumIterations, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(MaximumIterations, vtkIdType);
   ///@}
 
@@ -353,7 +356,7 @@ public:
    * observations is at most this fraction of the diagonal of the cloud's bounding box; 0 for never.
    * Default 0, range 0 to 1.
    */
-  vtkSetClampMacro(TargetSampleDistance, double, 0.0, 1.0);
+  vtkNeuralMeshSetClampMacro(TargetSampleDistance, double, 0.0, 1.0);
   vtkGetMacro(TargetSampleDistance, double);
   ///@}
 
@@ -363,7 +366,7 @@ public:
    * fraction of the diagonal of the cloud's bounding box; 0 for never. Measured with 4096 points
    * whenever the mesh has grown by a tenth. Default 0, range 0 to 1.
    */
-  vtkSetClampMacro(TargetCloudDistance, double, 0.0, 1.0);
+  vtkNeuralMeshSetClampMacro(TargetCloudDistance, double, 0.0, 1.0);
   vtkGetMacro(TargetCloudDistance, double);
   ///@}
 
@@ -372,7 +375,7 @@ public:
    * Stopping rule: the number of seconds to learn at most; 0 for any. Results then depend on the
    * machine. Default 0, at least 0.
    */
-  vtkSetClampMacro(TimeLimit, double, 0.0, 1e9);
+  vtkNeuralMeshSetClampMacro(TimeLimit, double, 0.0, 1e9);
   vtkGetMacro(TimeLimit, double);
   ///@}
 
@@ -381,7 +384,7 @@ public:
    * Stopping rule: the run has stalled if in so many samples per vertex (of a mesh of at least 100
    * vertices) there was no growth. Default 200, range 1 to 1e9.
    */
-  vtkSetClampMacro(StallPatience, double, 1.0, 1e9);
+  vtkNeuralMeshSetClampMacro(StallPatience, double, 1.0, 1e9);
   vtkGetMacro(StallPatience, double);
   ///@}
 
@@ -391,7 +394,7 @@ public:
    * (default) is that of the input; double if blocks differ. Inside, positions are resolved to
    * about 10^-7 of the extent in any case.
    */
-  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
+  vtkNeuralMeshSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
   vtkGetMacro(OutputPointsPrecision, int);
   ///@}
 

@@ -44,6 +44,7 @@
 #define vtkNeuralMeshComparison_h
 
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
+#include "vtkNeuralMeshSetClampMacro.h"
 #include "vtkPolyDataAlgorithm.h"
 
 #include <array>  // For ivars
@@ -71,7 +72,7 @@ public:
    * How many points are drawn on each surface. The error of the mean falls with the root of the
    * number; the time is in proportion. Default 200000, range 1000 to 100000000.
    */
-  vtkSetClampMacro(NumberOfSamples, vtkIdType, 1000, 100000000);
+  vtkNeuralMeshSetClampMacro(NumberOfSamples, vtkIdType, 1000, 100000000);
   vtkGetMacro(NumberOfSamples, vtkIdType);
   ///@}
 
@@ -79,7 +80,7 @@ public:
   /**
    * Seed of the random numbers: which points are drawn. Default 1, at least 0.
    */
-  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
+  vtkNeuralMeshSetClampMacro(Seed, int, 0, VTK_INT_MAX);
   vtkGetMacro(Seed, int);
   ///@}
 

@@ -1,8 +1,13 @@
 # Sourced by demo.sh and test.sh: installs what is missing and builds. Debian 12, root or sudo.
 
-# The build with ParaView's VTK.
-build_packages=(g++ cmake ninja-build paraview-dev python3-paraview libopenmpi-dev libcli11-dev
-  nlohmann-json3-dev)
+# NEURALMESH_VTK says which VTK to install: ParaView's, or with `plain` Debian's own, which excludes
+# the other.
+if [ "${NEURALMESH_VTK:-paraview}" = plain ]; then
+  vtk_packages=(libvtk9-dev python3-vtk9 libeigen3-dev)
+else
+  vtk_packages=(paraview-dev python3-paraview libopenmpi-dev)
+fi
+build_packages=(g++ cmake ninja-build "${vtk_packages[@]}" libcli11-dev nlohmann-json3-dev)
 
 # Installs those of the given Debian packages that are missing.
 install_packages()

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace neuralmesh
 {
@@ -25,6 +26,10 @@ float squaredDistanceOf(std::uint64_t candidate)
 void VertexGrid::reset(Vector4 boxMin, Vector4 boxMax, float cellSize, std::size_t vertexCapacity)
 {
   const Vector4 extent = boxMax - boxMin;
+  // Vertices may all have come to lie on one spot, where edges have no length.
+  const float longest = std::max({ extent[0], extent[1], extent[2] });
+  cellSize = std::max({ cellSize, longest / (float(MaximumBlocksAlong) * BlockWidth),
+    std::numeric_limits<float>::min() });
   const auto blocksAlong = [&](int axis)
   { return std::floor(double(extent[axis]) / (double(cellSize) * BlockWidth)) + 1.; };
   const auto tooMany = [&]

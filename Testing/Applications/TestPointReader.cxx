@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "FileTest.h"
 #include "PointReader.h"
 
-#include "vtkNew.h"
 #include "vtkOBJWriter.h"
 #include "vtkPLYWriter.h"
 #include "vtkPoints.h"
@@ -16,43 +16,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 namespace
 {
-class PointReader : public ::testing::Test
-{
-protected:
-  void SetUp() override
-  {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    this->Folder =
-      std::filesystem::temp_directory_path() / ("neuralmesh-" + std::string(test->name()));
-    std::filesystem::create_directories(this->Folder);
-  }
-  void TearDown() override { std::filesystem::remove_all(this->Folder); }
-
-  std::string Path(const std::string& name) const { return (this->Folder / name).string(); }
-
-  std::string WriteText(const std::string& name, const std::string& text) const
-  {
-    std::ofstream(this->Path(name)) << text;
-    return this->Path(name);
-  }
-
-  template <typename WriterT>
-  std::string WriteWith(const std::string& name, vtkDataObject* data) const
-  {
-    vtkNew<WriterT> writer;
-    writer->SetFileName(this->Path(name).c_str());
-    writer->SetInputDataObject(data);
-    writer->Write();
-    return this->Path(name);
-  }
-
-  std::filesystem::path Folder;
-};
+using PointReader = FileTest;
 
 /// A tetrahedron, as .stl has no points without triangles.
 template <typename DataT>

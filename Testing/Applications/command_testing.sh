@@ -16,3 +16,10 @@ expect()
   "$@" > out 2> err || status=$?
   [ "$status" -eq "$expected" ] || { cat out err; fail "status $status, not $expected: $*"; }
 }
+
+# 3000 points of a unit sphere, on a spiral.
+make_cloud()
+{
+  awk 'BEGIN { for (i = 0; i < 3000; ++i) { z = 1 - (2 * i + 1) / 3000; r = sqrt(1 - z * z);
+    printf "%.9f %.9f %.9f\n", r * cos(2.39996 * i), r * sin(2.39996 * i), z } }' > cloud.xyz
+}

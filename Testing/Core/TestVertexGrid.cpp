@@ -281,11 +281,14 @@ TEST(VertexGrid, LowestIndexWinsTie)
   }
 }
 
-// Cells too small for the memory are enlarged; answers stay exact.
+// Cells too small for the memory are enlarged, those of no width, too; answers stay exact.
 TEST(VertexGrid, ExactWithCellsTooSmall)
 {
-  GridUnderTest grid(UnitMin, UnitMax, 1e-7f, 100);
-  EXPECT_EQ(wrongAnswers(grid, onSphere, onSphere, 100, 50, 18), 0);
+  for (const float cellSize : { 1e-7f, 1e-40f, 0.f })
+  {
+    GridUnderTest grid(UnitMin, UnitMax, cellSize, 100);
+    EXPECT_EQ(wrongAnswers(grid, onSphere, onSphere, 100, 50, 18), 0);
+  }
 }
 
 // reset() forgets all vertices.

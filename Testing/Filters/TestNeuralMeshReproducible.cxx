@@ -2,13 +2,13 @@
 // Promise: the same input and seed give the same bytes, at any number of threads of VTK; another
 // seed gives another mesh.
 #include "FilterTesting.h"
+#include "VTKThreads.h"
 
 #include "vtkNeuralMesh.h"
 
 #include "vtkDataArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
-#include "vtkSMPTools.h"
 
 #include <cstring>
 
@@ -46,11 +46,11 @@ bool SameMesh(vtkPolyData* a, vtkPolyData* b)
 int TestNeuralMeshReproducible(int, char*[])
 {
   const auto cloud = FilterTesting::SphereCloud(10000);
-  vtkSMPTools::Initialize(1);
+  SetNumberOfVTKThreads(1);
   const auto first = Run(cloud, 1);
   const auto second = Run(cloud, 1);
   CHECK(SameMesh(first, second));
-  vtkSMPTools::Initialize(4);
+  SetNumberOfVTKThreads(4);
   const auto threads = Run(cloud, 1);
   CHECK(SameMesh(first, threads));
   const auto other = Run(cloud, 2);
