@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Triangle meshes of a wanted size from raw point clouds, by learning.
+
+>>> import neuralmesh
+>>> mesh = neuralmesh.reconstruct(points, vertices=20000)
+
+reconstruct() does it in one call. The VTK classes, vtkNeuralMesh and its sisters, are here for
+pipelines. The methods of a mesh and of all VTK objects are those of the package vtkmodules, which
+must be of the very VTK that this package was built with: VTK_VERSION.
+"""
+
+from ._build import VERSION as __version__, VTK_VERSION
+from ._vtk import require_vtk
+
+require_vtk(VTK_VERSION)
+
+from ._reconstruct import reconstruct
+from .vtkFiltersNeuralMesh import *
