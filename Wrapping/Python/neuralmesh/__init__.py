@@ -9,10 +9,10 @@ pipelines. The methods of a mesh and of all VTK objects are those of the package
 must be of the very VTK that this package was built with: VTK_VERSION.
 """
 
+from . import _vtk
 from ._build import VERSION as __version__, VTK_VERSION
-from ._vtk import require_vtk
 
-require_vtk(VTK_VERSION)
+_vtk.require_vtk(VTK_VERSION)
 
 from ._reconstruct import reconstruct
 from .vtkFiltersNeuralMesh import *

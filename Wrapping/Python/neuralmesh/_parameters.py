@@ -94,7 +94,7 @@ def parameters_of(vtk_class: type) -> dict[str, Parameter]:
         if method.startswith("Set") and hasattr(vtk_class, "Get" + name):
             parameter = _parameter(vtk_class, name)
             if parameter is not None:
-                found[_snake_case(name)] = parameter
+                found[snake_case(name)] = parameter
     return found
 
 
@@ -135,7 +135,7 @@ def _parameter(vtk_class: type, name: str) -> Parameter | None:
     beginning = f"Set{name}To"
     choosers = [method for method in vars(vtk_class) if method.startswith(beginning)]
     if choosers:
-        setters = {_snake_case(method[len(beginning) :]): method for method in choosers}
+        setters = {snake_case(method[len(beginning) :]): method for method in choosers}
         return Choice(setters, _chosen(vtk_class, name, setters))
     if hasattr(vtk_class, name + "On"):
         return Switch("Set" + name, bool(default))
@@ -157,8 +157,10 @@ def _chosen(vtk_class: type, name: str, setters: Mapping[str, str]) -> str:
     raise AssertionError(f"{vtk_class.__name__}: no Set{name}To... gives the default")
 
 
-def _snake_case(name: str) -> str:
-    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
+def snake_case(name: str) -> str:
+    """MeanOfRMS99 as mean_of_rms_99."""
+    words = re.findall(r"[A-Z]+(?![a-z])|[A-Z][a-z]+|[0-9]+", name)
+    return "_".join(words).lower()
 
 
 def _plain(value: Any) -> str:
