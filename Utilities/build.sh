@@ -2,7 +2,7 @@
 
 # The build with ParaView's VTK.
 build_packages=(g++ cmake ninja-build paraview-dev python3-paraview libopenmpi-dev libcli11-dev
-  nlohmann-json3-dev)
+  nlohmann-json3-dev python3-numpy)
 
 # Installs those of the given Debian packages that are missing.
 install_packages()
