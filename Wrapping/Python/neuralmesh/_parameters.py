@@ -27,9 +27,9 @@ class Number:
         return isinstance(self.default, int)
 
     def accepts(self, value: Any) -> bool:
+        is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
         return (
-            isinstance(value, numbers.Real)
-            and not isinstance(value, bool)
+            is_number
             and bool(self.minimum <= value <= self.maximum)
             and (not self.integral or value == int(value))
         )
@@ -67,16 +67,17 @@ class Choice:
     default: str
 
     def accepts(self, value: Any) -> bool:
-        return isinstance(value, str) and self._setter(value) is not None
+        return isinstance(value, str) and len(self._meant(value)) == 1
 
     def assign(self, vtk_object: Any, value: Any) -> None:
-        getattr(vtk_object, self._setter(value))()
+        (name,) = self._meant(value)
+        getattr(vtk_object, self.setters[name])()
 
-    def _setter(self, value: str) -> str | None:
-        """The setter of the value; the beginning of a value will do, if it is that of one only."""
-        beginning_so = [name for name in self.setters if name.startswith(value)]
-        name = value if value in self.setters else beginning_so[0] if len(beginning_so) == 1 else ""
-        return self.setters.get(name)
+    def _meant(self, value: str) -> list[str]:
+        """The value itself, or those that begin so."""
+        if value in self.setters:
+            return [value]
+        return [name for name in self.setters if name.startswith(value)]
 
     def __str__(self) -> str:
         return " or ".join(repr(name) for name in self.setters)
@@ -103,7 +104,7 @@ def assign(vtk_object: Any, name: str, value: Any, shown_name: str = "") -> None
 
     shown_name is what the parameter is called in the message, where that differs.
     """
-    parameter = parameters_of(type(vtk_object))[name]
+    parameter = parameters_of(vtk_object.__class__)[name]
     if not parameter.accepts(value):
         raise ValueError(f"{shown_name or name} must be {parameter}, not {value!r}")
     parameter.assign(vtk_object, value)
