@@ -14,12 +14,29 @@ set(NEURALMESH_VTK_COMPONENTS
   IOPLY
   IOXML)
 
+# VTK's Python is the system's; another may come first on the PATH.
+find_program(Python3_EXECUTABLE NAMES python3 HINTS /usr/bin)
+set(NEURALMESH_VTK_PYTHON_COMPONENTS Python WrappingPythonCore)
+
 find_package(ParaView 5.10 QUIET COMPONENTS RemotingCore WrapClientServer ProcessXML)
 option(NEURALMESH_USE_PARAVIEW "Build against ParaView's VTK" "${ParaView_FOUND}")
 if (NEURALMESH_USE_PARAVIEW)
   find_package(ParaView 5.10 REQUIRED COMPONENTS RemotingCore WrapClientServer ProcessXML)
   find_package(VTK REQUIRED COMPONENTS ${NEURALMESH_VTK_COMPONENTS}
+    OPTIONAL_COMPONENTS ${NEURALMESH_VTK_PYTHON_COMPONENTS}
     PATHS "${ParaView_DIR}/vtk" NO_DEFAULT_PATH)
 else ()
-  find_package(VTK 9.1 REQUIRED COMPONENTS ${NEURALMESH_VTK_COMPONENTS})
+  find_package(VTK 9.1 REQUIRED COMPONENTS ${NEURALMESH_VTK_COMPONENTS}
+    OPTIONAL_COMPONENTS ${NEURALMESH_VTK_PYTHON_COMPONENTS})
+endif ()
+
+if (VTK_Python_FOUND AND VTK_WrappingPythonCore_FOUND)
+  set(NEURALMESH_PYTHON_FOUND ON)
+else ()
+  set(NEURALMESH_PYTHON_FOUND OFF)
+endif ()
+option(NEURALMESH_WRAP_PYTHON "Build the Python package" "${NEURALMESH_PYTHON_FOUND}")
+if (NEURALMESH_WRAP_PYTHON AND NOT NEURALMESH_PYTHON_FOUND)
+  message(FATAL_ERROR "NEURALMESH_WRAP_PYTHON: this VTK was built without Python, or Python's "
+    "headers are missing.")
 endif ()

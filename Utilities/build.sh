@@ -7,7 +7,8 @@ if [ "${NEURALMESH_VTK:-paraview}" = plain ]; then
 else
   vtk_packages=(paraview-dev python3-paraview libopenmpi-dev)
 fi
-build_packages=(g++ cmake ninja-build "${vtk_packages[@]}" libcli11-dev nlohmann-json3-dev)
+build_packages=(g++ cmake ninja-build "${vtk_packages[@]}" libcli11-dev
+  nlohmann-json3-dev python3-numpy)
 
 # Installs those of the given Debian packages that are missing.
 install_packages()

@@ -1,0 +1,18 @@
+# What find_package(NeuralMesh) reads, and the documentation.
+include(CMakePackageConfigHelpers)
+
+set(cmake_destination "${CMAKE_INSTALL_LIBDIR}/cmake/NeuralMesh")
+configure_file("${CMAKE_CURRENT_LIST_DIR}/NeuralMeshConfig.cmake.in"
+  "${CMAKE_BINARY_DIR}/${cmake_destination}/NeuralMeshConfig.cmake" @ONLY)
+write_basic_package_version_file(
+  "${CMAKE_BINARY_DIR}/${cmake_destination}/NeuralMeshConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(
+  FILES
+    "${CMAKE_BINARY_DIR}/${cmake_destination}/NeuralMeshConfig.cmake"
+    "${CMAKE_BINARY_DIR}/${cmake_destination}/NeuralMeshConfigVersion.cmake"
+  DESTINATION "${cmake_destination}"
+  COMPONENT development)
+
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(DIRECTORY Documentation DESTINATION "${CMAKE_INSTALL_DOCDIR}")

@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# Whether what `cmake --install` makes can be used, wherever it is moved:
+# test_install.sh BUILD SCRATCH PYTHON VERSION CASE
+set -euo pipefail
+build=$1 scratch=$2 python=$3 version=$4 case=$5
+here=$(cd "$(dirname "$0")" && pwd)
+prefix=$scratch/moved/prefix
+# Nothing may come from the build, nor by a path that is set.
+unset LD_LIBRARY_PATH
+
+fail()
+{
+  echo "FAILED: $*"
+  exit 1
+}
+
+# uses_prefix FILE: whether it finds our library in the prefix.
+uses_prefix()
+{
+  ldd "$1" > "$scratch/ldd.txt"
+  grep -q "libvtkFiltersNeuralMesh.* => $(realpath "$prefix")/" "$scratch/ldd.txt" ||
+    { cat "$scratch/ldd.txt"; fail "$1 does not find its library in the prefix"; }
+  ! grep -q "not found" "$scratch/ldd.txt" || { cat "$scratch/ldd.txt"; fail "$1 lacks a library"; }
+}
+
+# Promise: the tree is installed, has its documentation, and no text in it names a folder of the
+# build.
+case_install()
+{
+  rm -rf "$scratch"
+  mkdir -p "$scratch/moved"
+  cmake --install "$build" --prefix "$scratch/first" > "$scratch/install.txt"
+  mv "$scratch/first" "$prefix"
+  local file
+  for file in README.md LICENSE CHANGELOG.md Documentation/Method.md; do
+    [ -s "$prefix/share/doc/NeuralMesh/$file" ] || fail "no $file"
+  done
+  # In programs, debugging information may.
+  ! grep -rIlF "$(realpath "$build")" "$prefix" || fail "these name the folder of the build"
+}
+
+# Promise: find_package(NeuralMesh) gives a target that is enough to build with and to run.
+case_cxx()
+{
+  cmake -S "$here/Consumer" -B "$scratch/consumer" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_PREFIX_PATH="$prefix" -Dwanted_version="$version" ${VTK_DIR:+-DVTK_DIR="$VTK_DIR"}
+  cmake --build "$scratch/consumer"
+  uses_prefix "$scratch/consumer/consumer"
+  [ "$("$scratch/consumer/consumer")" = "100 vertices" ] || fail "another answer"
+}
+
+# Promise: another minor version is refused.
+case_other_version()
+{
+  ! cmake -S "$here/Consumer" -B "$scratch/other" -G Ninja \
+    -DCMAKE_PREFIX_PATH="$prefix" -Dwanted_version=99.0 > "$scratch/other.txt" 2>&1 ||
+    fail "version 99.0 was found"
+  grep -q "compatible" "$scratch/other.txt" || { cat "$scratch/other.txt"; fail "another reason"; }
+}
+
+# Promise: `import neuralmesh` works from the prefix.
+case_python()
+{
+  export PYTHONPATH=$prefix/lib/python3/dist-packages${PYTHONPATH:+:$PYTHONPATH}
+  cd "$scratch"
+  uses_prefix "$prefix/lib/python3/dist-packages/neuralmesh/vtkFiltersNeuralMesh.so"
+  "$python" - "$(realpath "$prefix")" "$version" << 'END'
+import math, os, sys
+import neuralmesh
+assert os.path.realpath(neuralmesh.__file__).startswith(sys.argv[1]), neuralmesh.__file__
+assert neuralmesh.__version__ == sys.argv[2]
+points = [(math.cos(i), math.sin(i), math.sin(0.1 * i)) for i in range(1000)]
+assert neuralmesh.reconstruct(points, 100).GetNumberOfPoints() == 100
+END
+  local file
+  for file in py.typed vtkFiltersNeuralMesh.pyi; do
+    [ -e "$prefix/lib/python3/dist-packages/neuralmesh/$file" ] || fail "no $file"
+  done
+}
+
+# Promise: the command works from the prefix.
+case_command()
+{
+  uses_prefix "$prefix/bin/neuralmesh"
+  [ "$("$prefix/bin/neuralmesh" --version)" = "$version" ] || fail "another version"
+}
+
+"case_$case"

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The classes in pipelines of VTK."""
+
+import unittest
+
+import neuralmesh
+import support
+from vtkmodules.vtkCommonExecutionModel import vtkPolyDataAlgorithm, vtkTrivialProducer
+from vtkmodules.vtkFiltersCore import vtkMassProperties
+
+
+class Pipeline(unittest.TestCase):
+    # Promise: the filter stands in a pipeline as any other, and runs again when it is changed.
+    def test_pipeline(self):
+        source = vtkTrivialProducer()
+        source.SetOutput(support.point_set(support.sphere()))
+        mesh = neuralmesh.vtkNeuralMesh()
+        self.assertIsInstance(mesh, vtkPolyDataAlgorithm)
+        mesh.SetInputConnection(source.GetOutputPort())
+        mesh.SetNumberOfVertices(500)
+        volume = vtkMassProperties()
+        volume.SetInputConnection(mesh.GetOutputPort())
+        volume.Update()
+        # That of the unit ball is 4.19.
+        self.assertAlmostEqual(volume.GetVolume(), 4.15, delta=0.1)
+        self.assertEqual(mesh.GetStopReason(), "vertices")
+        mesh.SetNumberOfVertices(600)
+        volume.Update()
+        self.assertEqual(mesh.GetOutput().GetNumberOfPoints(), 600)
+
+    # Promise: a filter is shown with all its properties, and the setters say what they are for.
+    def test_documentation(self):
+        self.assertIn("NumberOfVertices: 20000", str(neuralmesh.vtkNeuralMesh()))
+        documentation = neuralmesh.vtkNeuralMesh.SetNumberOfVertices.__doc__
+        self.assertIn("Default 20000, at least 4", " ".join(documentation.split()))
+        self.assertIn("triangle mesh", neuralmesh.vtkNeuralMesh.__doc__)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""reconstruct(): whatever holds the points, the mesh is that of the filter."""
+
+import unittest
+
+import neuralmesh
+import numpy as np
+import support
+from vtkmodules.vtkCommonCore import VTK_DOUBLE, VTK_FLOAT
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkUnstructuredGrid
+
+
+class Arrays(unittest.TestCase):
+    # Promise: the function gives the bytes of the filter, as often as it is called.
+    def test_same_as_filter(self):
+        cloud = support.sphere()
+        algorithm = neuralmesh.vtkNeuralMesh()
+        algorithm.SetInputData(support.point_set(cloud))
+        algorithm.SetNumberOfVertices(300)
+        algorithm.SetSeed(7)
+        algorithm.Update()
+        wanted = support.arrays_of(algorithm.GetOutput())
+        for _ in range(2):
+            mesh = neuralmesh.reconstruct(cloud, 300, 7)
+            self.assertEqual(support.arrays_of(mesh), wanted)
+        self.assertNotEqual(support.arrays_of(neuralmesh.reconstruct(cloud, 300, 8)), wanted)
+
+    # Promise: any type of number is taken; 4-byte floats stay so, all else becomes 8-byte floats.
+    def test_types(self):
+        for name in ("f2", "f4", ">f4", "f8", ">f8", "g", "i1", "i2", "i4", "i8", "u1", "u8"):
+            with self.subTest(name):
+                cloud = (100 + 20 * support.sphere()).astype(name)
+                mesh = neuralmesh.reconstruct(cloud, 100)
+                self.assertEqual(mesh.GetNumberOfPoints(), 100)
+                self.assertTrue(support.is_closed_manifold(mesh))
+                single = name.endswith("f4")
+                self.assertEqual(mesh.GetPoints().GetDataType(), VTK_FLOAT if single else VTK_DOUBLE)
+                same = neuralmesh.reconstruct(cloud.astype("f4" if single else "f8"), 100)
+                self.assertEqual(support.arrays_of(mesh), support.arrays_of(same))
+
+    # Promise: any layout in memory is taken, and the array is neither kept nor changed.
+    def test_layouts(self):
+        cloud = support.sphere()
+        wanted = support.arrays_of(neuralmesh.reconstruct(cloud, 100))
+        wide = np.zeros((4000, 5))
+        wide[::2, 1:4] = cloud
+        frozen = cloud.copy()
+        frozen.flags.writeable = False
+        layouts = {
+            "column by column": np.asfortranarray(cloud),
+            "part of a larger array": wide[::2, 1:4],
+            "backwards": cloud[::-1].copy()[::-1],
+            "read-only": frozen,
+            "a list of lists": cloud.tolist(),
+            "a list of tuples": [tuple(point) for point in cloud],
+            "a list of arrays": list(cloud),
+        }
+        for name, points in layouts.items():
+            with self.subTest(name):
+                mesh = neuralmesh.reconstruct(points, 100)
+                self.assertEqual(support.arrays_of(mesh), wanted)
+        self.assertTrue((cloud == support.sphere()).all())
+
+    # Promise: what is no array of shape (N, 3) of numbers is a ValueError that names the shape.
+    def test_wrong_shapes(self):
+        wrong = {
+            "(2000, 2)": support.sphere()[:, :2],
+            "(2000, 4)": np.zeros((2000, 4)),
+            "(3, 2000)": support.sphere().T,
+            "(6000,)": support.sphere().ravel(),
+            "(1, 2000, 3)": support.sphere()[None],
+            "(0,)": [],
+            "()": 5.0,
+            "complex128": np.ones((10, 3), complex),
+            "bool": np.ones((10, 3), bool),
+            "<U1": [["a", "b", "c"]],
+            "list": [[1, 2, 3], [4, 5]],
+            "vtkImageData": vtkImageData(),
+        }
+        for part, points in wrong.items():
+            with self.subTest(part):
+                with self.assertRaisesRegex(ValueError, r"of shape \(N, 3\)") as caught:
+                    neuralmesh.reconstruct(points, 100)
+                self.assertIn(part, str(caught.exception))
+
+
+class Datasets(unittest.TestCase):
+    # Promise: any vtkPointSet is taken, and many as one cloud.
+    def test_datasets(self):
+        cloud = support.sphere()
+        wanted = support.arrays_of(neuralmesh.reconstruct(cloud, 100))
+        poly_data = support.point_set(cloud)
+        grid = vtkUnstructuredGrid()
+        grid.SetPoints(poly_data.GetPoints())
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, support.point_set(cloud[:500]))
+        blocks.SetBlock(1, support.point_set(cloud[500:]))
+        for dataset in (poly_data, grid, blocks):
+            with self.subTest(dataset.GetClassName()):
+                mesh = neuralmesh.reconstruct(dataset, 100)
+                self.assertEqual(support.arrays_of(mesh), wanted)
+
+    # Promise: the result belongs to the caller alone; no pipeline is behind it.
+    def test_no_pipeline(self):
+        mesh = neuralmesh.reconstruct(support.sphere(), 100)
+        self.assertEqual(mesh.GetReferenceCount(), 1)
+        # One reference is that of the mesh, one is that of this line.
+        self.assertEqual(mesh.GetPoints().GetReferenceCount(), 2)
+
+
+class BadPoints(unittest.TestCase):
+    # Promise: where there is no cloud, a ValueError says so, and VTK prints nothing.
+    def test_no_cloud(self):
+        output, errors, status = support.run_script(
+            """
+            import neuralmesh, numpy, support
+            no_points = numpy.empty((0, 3))
+            not_finite = numpy.full((10, 3), numpy.nan)
+            for points in (no_points, support.point_set(no_points), not_finite, numpy.ones((10, 3))):
+                try:
+                    neuralmesh.reconstruct(points, 100)
+                except ValueError as error:
+                    print(error)
+            """
+        )
+        self.assertEqual(errors, "")
+        self.assertEqual(status, 0)
+        none, none_of_dataset, not_finite, all_equal = output.splitlines()
+        self.assertEqual(none, "points: there are none")
+        self.assertEqual(none_of_dataset, none)
+        self.assertRegex(not_finite, "finite")
+        self.assertRegex(all_equal, "coincide")
+
+    # Promise: points that are not finite are dropped and counted.
+    def test_some_not_finite(self):
+        cloud = support.sphere()
+        cloud[[5, 50, 500], 1] = np.nan, np.inf, -np.inf
+        mesh = neuralmesh.reconstruct(cloud, 100)
+        self.assertEqual(mesh.GetFieldData().GetArray("DroppedPoints").GetValue(0), 3)
+        self.assertTrue(np.isfinite(support.coordinates(mesh)).all())
+
+    # Promise: a warning of VTK is one of Python, with the caller's line, and can be made an error.
+    def test_warnings(self):
+        with self.assertWarnsRegex(RuntimeWarning, "more|beyond|points") as caught:
+            neuralmesh.reconstruct(support.sphere(50), 100)
+        self.assertEqual(caught.filename, __file__)
+        output, errors, status = support.run_script(
+            """
+            import neuralmesh, support, warnings
+            warnings.simplefilter("error")
+            try:
+                neuralmesh.reconstruct(support.sphere(50), 100)
+            except RuntimeWarning:
+                print("raised")
+            """
+        )
+        self.assertEqual((output, errors, status), ("raised\n", "", 0))
+
+
+if __name__ == "__main__":
+    unittest.main()

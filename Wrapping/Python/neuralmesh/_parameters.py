@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The properties of a VTK class as keyword parameters, found in the class itself."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import numbers
+import re
+from dataclasses import dataclass
+from typing import Any, Mapping
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Number:
+    """A property with a range: SetX, GetXMinValue and GetXMaxValue."""
+
+    setter: str
+    default: float
+    minimum: float
+    maximum: float
+
+    @property
+    def integral(self) -> bool:
+        return isinstance(self.default, int)
+
+    def accepts(self, value: Any) -> bool:
+        is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
+        return (
+            is_number
+            and bool(self.minimum <= value <= self.maximum)
+            and (not self.integral or value == int(value))
+        )
+
+    def assign(self, vtk_object: Any, value: Any) -> None:
+        getattr(vtk_object, self.setter)(int(value) if self.integral else float(value))
+
+    def __str__(self) -> str:
+        kind = "an integer" if self.integral else "a number"
+        return f"{kind} from {_plain(self.minimum)} to {_plain(self.maximum)}"
+
+
+@dataclass(frozen=True)
+class Switch:
+    """A property with SetX, XOn and XOff."""
+
+    setter: str
+    default: bool
+
+    def accepts(self, value: Any) -> bool:
+        return isinstance(value, (numbers.Integral, np.bool_)) and value in (0, 1)
+
+    def assign(self, vtk_object: Any, value: Any) -> None:
+        getattr(vtk_object, self.setter)(int(value))
+
+    def __str__(self) -> str:
+        return "True or False"
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A property with SetXToA, SetXToB and so on; its values are "a", "b" and so on."""
+
+    setters: Mapping[str, str]
+    default: str
+
+    def accepts(self, value: Any) -> bool:
+        return isinstance(value, str) and len(self._meant(value)) == 1
+
+    def assign(self, vtk_object: Any, value: Any) -> None:
+        (name,) = self._meant(value)
+        getattr(vtk_object, self.setters[name])()
+
+    def _meant(self, value: str) -> list[str]:
+        """The value itself, or those that begin so."""
+        if value in self.setters:
+            return [value]
+        return [name for name in self.setters if name.startswith(value)]
+
+    def __str__(self) -> str:
+        return " or ".join(repr(name) for name in self.setters)
+
+
+Parameter = Number | Switch | Choice
+
+
+@functools.lru_cache(maxsize=None)
+def parameters_of(vtk_class: type) -> dict[str, Parameter]:
+    """The parameters of a class without those of its superclasses: names in snake case."""
+    found = {}
+    for method in vars(vtk_class):
+        name = method[len("Set") :]
+        if method.startswith("Set") and hasattr(vtk_class, "Get" + name):
+            parameter = _parameter(vtk_class, name)
+            if parameter is not None:
+                found[snake_case(name)] = parameter
+    return found
+
+
+def assign(vtk_object: Any, name: str, value: Any, shown_name: str = "") -> None:
+    """Set a property by the name of its parameter; ValueError says what it may be.
+
+    shown_name is what the parameter is called in the message, where that differs.
+    """
+    parameter = parameters_of(vtk_object.__class__)[name]
+    if not parameter.accepts(value):
+        raise ValueError(f"{shown_name or name} must be {parameter}, not {value!r}")
+    parameter.assign(vtk_object, value)
+
+
+def refuse_unknown(function: str, names: Any, known: Any) -> None:
+    """Raise TypeError for the first of the names that is not known, with those that are near."""
+    for name in names:
+        if name not in known:
+            near = difflib.get_close_matches(name, known) or sorted(known)
+            raise TypeError(
+                f"{function}() got an unexpected keyword argument '{name}'; "
+                f"is it one of these: {', '.join(near)}?"
+            )
+
+
+def table(parameters: Mapping[str, Parameter]) -> str:
+    """A line for each parameter: its name, its default, and what it may be."""
+    width = max(map(len, parameters))
+    return "".join(
+        f"            {name:{width}}  {_plain(parameter.default):12}  {parameter}\n"
+        for name, parameter in parameters.items()
+    )
+
+
+def _parameter(vtk_class: type, name: str) -> Parameter | None:
+    prototype = vtk_class()
+    default = getattr(prototype, "Get" + name)()
+    beginning = f"Set{name}To"
+    choosers = [method for method in vars(vtk_class) if method.startswith(beginning)]
+    if choosers:
+        setters = {snake_case(method[len(beginning) :]): method for method in choosers}
+        return Choice(setters, _chosen(vtk_class, name, setters))
+    if hasattr(vtk_class, name + "On"):
+        return Switch("Set" + name, bool(default))
+    if hasattr(vtk_class, f"Get{name}MinValue"):
+        minimum = getattr(prototype, f"Get{name}MinValue")()
+        maximum = getattr(prototype, f"Get{name}MaxValue")()
+        return Number("Set" + name, default, minimum, maximum)
+    return None
+
+
+def _chosen(vtk_class: type, name: str, setters: Mapping[str, str]) -> str:
+    """Which of the values a new object has."""
+    getter = "Get" + name
+    for value, setter in setters.items():
+        other = vtk_class()
+        getattr(other, setter)()
+        if getattr(other, getter)() == getattr(vtk_class(), getter)():
+            return value
+    raise AssertionError(f"{vtk_class.__name__}: no Set{name}To... gives the default")
+
+
+def snake_case(name: str) -> str:
+    """MeanOfRMS99 as mean_of_rms_99."""
+    words = re.findall(r"[A-Z]+(?![a-z])|[A-Z][a-z]+|[0-9]+", name)
+    return "_".join(words).lower()
+
+
+def _plain(value: Any) -> str:
+    return f"{value:.10g}" if isinstance(value, float) else str(value)

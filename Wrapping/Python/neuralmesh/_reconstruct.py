@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The function reconstruct()."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkPolyData
+
+from ._execution import Progress, execute
+from ._parameters import assign, parameters_of, refuse_unknown, table
+from ._points import as_dataset
+from .vtkFiltersNeuralMesh import vtkNeuralMesh
+
+# Those that have names or places of their own in the signature.
+_NAMED = ("number_of_vertices", "seed", "variant", "preset")
+_PARAMETERS = {
+    name: parameter
+    for name, parameter in parameters_of(vtkNeuralMesh).items()
+    if name not in _NAMED
+}
+
+
+def reconstruct(
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet,
+    vertices: int = 20000,
+    seed: int = 1,
+    *,
+    variant: str = "noise",
+    preset: str = "default",
+    progress: Progress | None = None,
+    **parameters: float | bool | str,
+) -> vtkPolyData:
+    """Make a triangle mesh from a point cloud.
+
+    Args:
+        points: The cloud: an array of shape (N, 3) of floats or integers of any kind and layout, a
+            row for a point, in any unit of length; or a vtkPointSet, of which only the points
+            count; or a vtkCompositeDataSet, of which all point sets are taken as one cloud. No
+            normals are needed. Points with NaN or infinity are dropped.
+        vertices: The number of vertices of the mesh, from 4 to 1000000000.
+        seed: Seed of the random numbers, from 0 to 2147483647. The same points and seed give the
+            same bytes; another seed gives another mesh of the same quality.
+        variant: "noise_filtering", by which points far from the mesh pull less; or "basic".
+            Names may be shortened.
+        preset: "default", what measures best; or "thesis", the values of the thesis.
+        progress: A function that is called now and then with the fraction that is done, from 0 to
+            1. If it returns False, the mesh learnt so far is the result. An exception that it
+            raises ends the run and comes out of this function.
+        **parameters: Any other property of vtkNeuralMesh, in snake case: winner_rate=0.1 for
+            SetWinnerRate(0.1). Each is described there. Names, defaults and ranges:
+
+{table}
+
+    Returns:
+        vtkPolyData with triangles, in the units of the input: an oriented 2-manifold without
+        unused points. The type of the points is that of the input: 4-byte floats stay so, anything
+        else in an array becomes 8-byte floats. Point data: `Normals`, float of shape (M, 3), of
+        length 1; `Activity`, double of shape (M,), in wins. Field data, one value each:
+        `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`, `DroppedPoints`. No pipeline is
+        behind it.
+
+    Raises:
+        ValueError: A parameter is out of its range, which the message names; or there are no
+            points, none that is finite, or none that differs from the others.
+        TypeError: There is no such parameter.
+        RuntimeError: Anything else that VTK finds wrong.
+        KeyboardInterrupt: Ctrl-C was pressed. To keep the mesh learnt so far, cancel by progress,
+            or set time_limit.
+
+    Warns:
+        RuntimeWarning: What VTK warns of, as more vertices than points.
+
+    Example:
+        >>> points = numpy.loadtxt("scan.xyz")[:, :3]
+        >>> mesh = neuralmesh.reconstruct(points, 5000, winner_rate=0.05, time_limit=60)
+        >>> mesh.GetNumberOfPoints()
+        5000
+    """
+    refuse_unknown("reconstruct", parameters, _PARAMETERS)
+    mesh = vtkNeuralMesh()
+    assign(mesh, "number_of_vertices", vertices, shown_name="vertices")
+    assign(mesh, "seed", seed)
+    # A preset sets parameters, and which it sets depends on the variant.
+    assign(mesh, "variant", variant)
+    assign(mesh, "preset", preset)
+    for name, value in parameters.items():
+        assign(mesh, name, value)
+    mesh.SetInputData(as_dataset(points))
+
+    execute(mesh, progress)
+    result = vtkPolyData()
+    result.ShallowCopy(mesh.GetOutput())
+    if result.GetNumberOfPoints() == 0:
+        raise ValueError("points: there are none")
+    return result
+
+
+if reconstruct.__doc__:
+    reconstruct.__doc__ = reconstruct.__doc__.replace("{table}\n", table(_PARAMETERS))
