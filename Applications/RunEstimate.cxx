@@ -19,8 +19,8 @@ constexpr double BytesOfProgram = 52e6;
 constexpr double BytesPerPoint = 98.0;
 constexpr double BytesPerVertex = 400.0;
 
-/// Up to about so many vertices the mesh is in the cache. Each doubling beyond adds this part of the
-/// time of a sample, averaged over the run; see the table of growth in the README.
+/// Up to about so many vertices the mesh is in the cache. Each doubling beyond adds this part of
+/// the time of a sample, averaged over the run; see the table of growth in the README.
 constexpr double VerticesInCache = 32768.0;
 constexpr double SlowdownPerDoubling = 0.35;
 

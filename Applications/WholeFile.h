@@ -6,8 +6,9 @@
 #include <string>
 
 /**
- * Throws std::runtime_error, with a message that names the file, where it can be told beforehand that
- * WriteWholeFile() would fail: there is no such folder, it takes no files, or `path` is a folder.
+ * Throws std::runtime_error, with a message that names the file, where it can be told beforehand
+ * that WriteWholeFile() would fail: there is no such folder, it takes no files, or `path` is a
+ * folder.
  */
 void RequireWritablePlace(const std::string& path);
 

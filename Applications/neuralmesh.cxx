@@ -9,6 +9,7 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <new>
 
 namespace
 {
@@ -49,6 +50,12 @@ int main(int argc, char* argv[])
   {
     std::cerr << "neuralmesh: " << error.what() << std::endl;
     return WrongUse;
+  }
+  catch (const std::bad_alloc&)
+  {
+    std::cerr << "neuralmesh: there is not enough memory; --dry-run tells how much it takes"
+              << std::endl;
+    return Failed;
   }
   catch (const std::exception& error)
   {

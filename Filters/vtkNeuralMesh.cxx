@@ -61,8 +61,8 @@ vtkStandardNewMacro(vtkNeuralMesh);
 
 namespace
 {
-/// Progress is reported in steps of this size, and at least so often: whoever wants to abort does so
-/// when told of progress.
+/// Progress is reported in steps of this size, and at least so often: whoever wants to abort does
+/// so when told of progress.
 constexpr double ProgressStep = 0.01;
 constexpr std::chrono::milliseconds ProgressInterval(50);
 

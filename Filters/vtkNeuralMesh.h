@@ -25,14 +25,14 @@
  * vtkPolyData with triangles: an oriented 2-manifold without unused points; closed components are
  * oriented outwards. Point data:
  * - `Normals` (float, 3 components): area-weighted unit normals, the active normals;
- * - `Activity` (double): the signal counter of the vertex, in wins; with the activity list, the place
- *   of the vertex in it, above 0 (laziest) up to 1.
+ * - `Activity` (double): the signal counter of the vertex, in wins; with the activity list, the
+ *   place of the vertex in it, above 0 (laziest) up to 1.
  *
  * Field data, one value each: `NumberOfVertices`, `Iterations` (samples drawn), `Seed`,
  * `StopReason` (a string: see GetStopReason()), `DroppedPoints`.
  *
- * Output port 1 is a vtkTable, the learning curve: a row for every twentieth more samples and one for
- * the end, with the columns `Iteration`, `Vertices`, `Seconds` (since the start of learning),
+ * Output port 1 is a vtkTable, the learning curve: a row for every twentieth more samples and one
+ * for the end, with the columns `Iteration`, `Vertices`, `Seconds` (since the start of learning),
  * `SampleDistanceMean` and `SampleDistanceDeviation` (of the distance from sample to winner over
  * the last NoiseWindow observations, in units of the input), `RegularRatio` (of vertices with
  * valence 6, on a boundary 4), and the counts so far: `Additions`, `Removals`, `Flips`,
@@ -129,9 +129,10 @@ public:
   ///@{
   /**
    * How it is known which vertex is the most active and which the laziest. EXACT (default): by
-   * signal counters. LIST: by counters up to ListVertices, then by the activity list (chapter 11), in
-   * which a winner jumps forward. The list is the thesis's way to O(n log n); here exact counters
-   * are as fast and give meshes that are as good or better, see Documentation/ActivityList.md.
+   * signal counters. LIST: by counters up to ListVertices, then by the activity list (chapter 11),
+   * in which a winner jumps forward. The list is the thesis's way to O(n log n); here exact
+   * counters are as fast and give meshes that are as good or better, see
+   * Documentation/ActivityList.md.
    */
   vtkNeuralMeshSetClampMacro(Order, int, EXACT, LIST);
   vtkGetMacro(Order, int);
@@ -305,8 +306,8 @@ public:
   ///@{
   /**
    * Whether edges are flipped around vertex splits and collapses: where that brings valences closer
-   * to 6 without folds, and where an edge is the rim of two sheets that lie back to back, as bridges
-   * over gaps are. Default on (thesis off).
+   * to 6 without folds, and where an edge is the rim of two sheets that lie back to back, as
+   * bridges over gaps are. Default on (thesis off).
    */
   vtkSetMacro(EdgeFlips, vtkTypeBool);
   vtkGetMacro(EdgeFlips, vtkTypeBool);

@@ -42,9 +42,9 @@ bool keepsShape(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, V
     cosine(new1, new2) >= std::min(CosineOfBend, cosine(old1, old2));
 }
 
-/// Whether a-b is the rim at which two sheets lie back to back, and c-d is shorter. Such sheets span
-/// gaps between parts of the surface that the mesh has learnt as one: no sample comes there, so
-/// nothing moves them. Flip by flip their rim retracts.
+/// Whether a-b is the rim at which two sheets lie back to back, and c-d is shorter. Such sheets
+/// span gaps between parts of the surface that the mesh has learnt as one: no sample comes there,
+/// so nothing moves them. Flip by flip their rim retracts.
 bool isRimOfSheets(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
 {
   const Vector4 pa = mesh.position(a), pb = mesh.position(b);

@@ -5,9 +5,9 @@
 
 namespace neuralmesh
 {
-/// Flips the edges at `v` and those opposite to it as long as that helps: where valences come closer
-/// to regular, and nothing folds over or leans farther apart than before; and where an edge is the
-/// rim of two sheets back to back, as bridges over gaps are. Returns the number of flips. Not in the
-/// thesis.
+/// Flips the edges at `v` and those opposite to it as long as that helps: where valences come
+/// closer to regular, and nothing folds over or leans farther apart than before; and where an edge
+/// is the rim of two sheets back to back, as bridges over gaps are. Returns the number of flips.
+/// Not in the thesis.
 unsigned flipEdgesAround(Mesh& mesh, VertexIndex v);
 }

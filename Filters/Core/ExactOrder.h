@@ -11,9 +11,9 @@ namespace neuralmesh
 /// them, and the order by s is the order by counters. Numbers of unlimited exponent keep the order
 /// exact however long a vertex has been idle, where a plain counter would have become zero.
 ///
-/// A win costs O(1) on average (the winner moves up a heap). The laziest vertex is found by a second
-/// heap that is brought up to date only where it is looked at: s never shrinks but in splits, so an
-/// old key there is a lower bound. 40 bytes a vertex.
+/// A win costs O(1) on average (the winner moves up a heap). The laziest vertex is found by a
+/// second heap that is brought up to date only where it is looked at: s never shrinks but in
+/// splits, so an old key there is a lower bound. 40 bytes a vertex.
 class ExactOrder final : public ActivityOrder
 {
 public:

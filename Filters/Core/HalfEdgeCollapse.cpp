@@ -10,7 +10,8 @@ double regularityError(const Mesh& mesh, VertexIndex removed, VertexIndex kept)
 {
   const Ring& ring = mesh.ring(removed);
   const unsigned slot = ring.find(kept);
-  // The excess of the kept vertex after the collapse; that of the opposite ones, which lose an edge.
+  // The excess of the kept vertex after the collapse; that of the opposite ones, which lose an
+  // edge.
   const bool boundaryEdge = mesh.isBoundaryEdge(removed, kept);
   const int lostEdges = boundaryEdge ? 3 : 4;
   const int keptExcess = mesh.valenceExcess(kept) + int(ring.size()) - lostEdges;

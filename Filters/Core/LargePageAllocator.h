@@ -12,8 +12,8 @@
 
 namespace neuralmesh
 {
-/// Allocates large arrays on large pages, where the system has them: a sample touches a dozen places
-/// of the mesh, and with pages of 4 KiB finding those takes as long as reading them.
+/// Allocates large arrays on large pages, where the system has them: a sample touches a dozen
+/// places of the mesh, and with pages of 4 KiB finding those takes as long as reading them.
 template <typename T>
 struct LargePageAllocator
 {

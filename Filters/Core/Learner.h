@@ -31,12 +31,12 @@ struct RunCounts
 class Learner
 {
 public:
-  /// Starts from `mesh`, in the coordinates of `cloud`, which must outlive the learner. `order` holds
-  /// the vertices of the mesh.
+  /// Starts from `mesh`, in the coordinates of `cloud`, which must outlive the learner. `order`
+  /// holds the vertices of the mesh.
   Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh,
     std::unique_ptr<ActivityOrder> order);
-  /// Starts from a tetrahedron in the middle of the cloud, with exact counters; with the list, these
-  /// are dropped in time.
+  /// Starts from a tetrahedron in the middle of the cloud, with exact counters; with the list,
+  /// these are dropped in time.
   Learner(const PointCloud& cloud, const Parameters& parameters);
 
   /// Learns so many samples, batch by batch. Ends early once the mesh has as many vertices as were
@@ -103,12 +103,12 @@ private:
   float filterThreshold_ = 0.f; ///< epsilon_t of (9.2)
   float observationLimit_ = 0.f;
   float rejectionLimit_ = 0.f;
+  bool isListDue_ = false; ///< as soon as the mesh is large enough
   std::size_t observationStride_ = 1;
   std::size_t untilObservation_ = 0;
   std::uint64_t nextAddition_ = 0;
   std::uint64_t nextRemoval_ = 0; ///< iteration (basic) or number of additions (noise filtering)
   std::size_t nextRenumbering_ = 0;
   std::size_t capacity_ = 0; ///< indices for which there is memory
-  bool isListDue_ = false;   ///< as soon as the mesh is large enough
 };
 }

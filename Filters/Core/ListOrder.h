@@ -14,8 +14,8 @@ namespace neuralmesh
 class ListOrder final : public ActivityOrder
 {
 public:
-  /// `vertices`, from the laziest to the most active. A winner whose gain is 1 jumps by the fraction
-  /// `jumpFraction` of their number. `seed` is that of the lots drawn at removals.
+  /// `vertices`, from the laziest to the most active. A winner whose gain is 1 jumps by the
+  /// fraction `jumpFraction` of their number. `seed` is that of the lots drawn at removals.
   ListOrder(std::span<const VertexIndex> vertices, double jumpFraction, std::uint64_t seed);
 
   void win(VertexIndex winner, double gain, double decay) override;

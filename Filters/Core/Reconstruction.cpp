@@ -9,8 +9,8 @@ namespace neuralmesh
 {
 namespace
 {
-/// Often enough to end within milliseconds, rarely enough to cost nothing; large batches are not cut
-/// for it.
+/// Often enough to end within milliseconds, rarely enough to cost nothing; large batches are not
+/// cut for it.
 constexpr std::uint64_t SamplesPerCheck = 1024;
 
 /// Learns until a stopping rule is met; returns which.

@@ -7,7 +7,8 @@
 
 namespace neuralmesh
 {
-/// How to split a vertex (6.2.1): the slots that Mesh::split() takes, and where the new vertex goes.
+/// How to split a vertex (6.2.1): the slots that Mesh::split() takes, and where the new vertex
+/// goes.
 struct VertexSplit
 {
   unsigned first = 0;

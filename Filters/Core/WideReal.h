@@ -7,9 +7,9 @@
 
 namespace neuralmesh
 {
-/// A positive real, or zero, with the precision of a double and an exponent without end: significand
-/// times 2 to the power of epoch * 512. Sums keep the epoch of the larger number, so that a series
-/// of growing numbers is never rescaled and the smallest of them never vanish.
+/// A positive real, or zero, with the precision of a double and an exponent without end:
+/// significand times 2 to the power of epoch * 512. Sums keep the epoch of the larger number, so
+/// that a series of growing numbers is never rescaled and the smallest of them never vanish.
 /// Numbers are ordered rightly as long as their significands lie in [2^-250, 2^250] times a power
 /// of two that they share.
 struct WideReal

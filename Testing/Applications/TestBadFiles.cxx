@@ -146,8 +146,8 @@ std::string RandomBytes(std::mt19937& random, std::size_t count)
   return bytes;
 }
 
-// Promise: a file that ends anywhere is read as far as its format lets one tell that it is whole, or
-// refused in one line.
+// Promise: a file that ends anywhere is read as far as its format lets one tell that it is whole,
+// or refused in one line.
 TEST_F(BadFiles, TruncatedAnywhere)
 {
   constexpr std::size_t cuts = 40;
@@ -180,8 +180,8 @@ TEST_F(BadFiles, HalfIsAnError)
   }
 }
 
-// Promise: garbage, alone or behind a good beginning, is refused in one line, or read where it makes
-// sense in the format.
+// Promise: garbage, alone or behind a good beginning, is refused in one line, or read where it
+// makes sense in the format.
 TEST_F(BadFiles, Garbage)
 {
   for (const auto& sample : this->Samples)

@@ -2,7 +2,8 @@
 # test_command.sh COMMAND CASE: what `neuralmesh reconstruct` promises to those who type it.
 source "$(dirname "$0")/command_testing.sh"
 
-# Promise: the asked number of vertices, said on stdout; nothing on stderr where that is no terminal.
+# Promise: the asked number of vertices, said on stdout; nothing on stderr where that is no
+# terminal.
 test_reconstructs()
 {
   expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 500
@@ -106,8 +107,8 @@ test_time_limit()
   [ -s mesh.ply ] || fail "there is no mesh"
 }
 
-# Promise: Ctrl-C ends the learning; the mesh learnt so far is written whole, the statistics, too; the
-# exit status is 130.
+# Promise: Ctrl-C ends the learning; the mesh learnt so far is written whole, the statistics, too;
+# the exit status is 130.
 test_ctrl_c()
 {
   expect 130 timeout --preserve-status --signal INT 1 "$neuralmesh" reconstruct cloud.xyz mesh.ply \

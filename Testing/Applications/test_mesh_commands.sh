@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# test_mesh_commands.sh COMMAND CASE: what `neuralmesh compare` and `neuralmesh info` promise to those
-# who type them.
+# test_mesh_commands.sh COMMAND CASE: what `neuralmesh compare` and `neuralmesh info` promise to
+# those who type them.
 source "$(dirname "$0")/command_testing.sh"
 
-# json EXPRESSION: whether it holds in Python for `lines`, the JSON objects of `out`; a difference of
-# a and b of less than a hundredth is near(a, b).
+# json EXPRESSION: whether it holds in Python for `lines`, the JSON objects of `out`; a difference
+# of a and b of less than a hundredth is near(a, b).
 json()
 {
   /usr/bin/python3 - "$1" <<'PYTHON' || { cat out; fail "this does not hold: $1"; }

@@ -22,7 +22,8 @@ class Progress(unittest.TestCase):
         without = neuralmesh.reconstruct(support.sphere(), 1000)
         self.assertEqual(support.arrays_of(mesh), support.arrays_of(without))
 
-    # Promise: False cancels, also that of numpy, and the mesh so far is valid; nothing else cancels.
+    # Promise: False cancels, also that of numpy, and the mesh so far is valid; nothing else
+    # cancels.
     def test_cancel(self):
         half = np.float64(0.5)
         mesh = neuralmesh.reconstruct(support.sphere(), 1000, progress=lambda done: done < half)

@@ -4,9 +4,10 @@
 >>> import neuralmesh
 >>> mesh = neuralmesh.reconstruct(points, vertices=20000)
 
-reconstruct() does it in one call, compare() tells how far a mesh is from a reference. The VTK classes, vtkNeuralMesh and its sisters, are here for
-pipelines. The methods of a mesh and of all VTK objects are those of the package vtkmodules, which
-must be of the very VTK that this package was built with: VTK_VERSION.
+reconstruct() does it in one call, compare() tells how far a mesh is from a reference. The VTK
+classes, vtkNeuralMesh and its sisters, are here for pipelines. The methods of a mesh and of all VTK
+objects are those of the package vtkmodules, which must be of the very VTK that this package was
+built with: VTK_VERSION.
 """
 
 from . import _vtk
