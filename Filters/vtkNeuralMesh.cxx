@@ -3,8 +3,8 @@
 
 #include "Reconstruction.h"
 #include "vtkPointCloudCollector.h"
+#include "vtkTriangleMeshCollector.h"
 
-#include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -119,20 +119,6 @@ vtkNew<vtkPoints> MakePoints(const std::vector<Eigen::Vector3d>& positions, int 
     points->SetPoint(static_cast<vtkIdType>(i), positions[i].data());
   }
   return points;
-}
-
-vtkNew<vtkCellArray> MakeTriangles(const neuralmesh::TriangleMesh& mesh)
-{
-  vtkNew<vtkIdTypeArray> connectivity;
-  connectivity->SetNumberOfValues(3 * static_cast<vtkIdType>(mesh.triangles.size()));
-  vtkIdType* corner = connectivity->GetPointer(0);
-  for (const auto& triangle : mesh.triangles)
-  {
-    corner = std::copy(triangle.begin(), triangle.end(), corner);
-  }
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(3, connectivity);
-  return cells;
 }
 
 vtkNew<vtkFloatArray> MakeNormals(const std::vector<Eigen::Vector3d>& normals)
@@ -288,7 +274,7 @@ int vtkNeuralMesh::RequestData(
     precision = collector.HasDoublePoints() ? DOUBLE_PRECISION : SINGLE_PRECISION;
   }
   output->SetPoints(MakePoints(result.mesh.points, precision));
-  output->SetPolys(MakeTriangles(result.mesh));
+  output->SetPolys(vtkTriangleMeshCollector::MakeCells(result.mesh));
   output->GetPointData()->SetNormals(MakeNormals(result.normals));
   output->GetPointData()->AddArray(MakeActivity(result.activities));
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMeshComparison.h"
 
-#include "SurfaceSampler.h"
-#include "vtkTriangleMeshCollector.h"
+#include "vtkMeasuredSurface.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkGenericCell.h"
 #include "vtkHausdorffDistancePointSetFilter.h"
-#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
@@ -41,100 +39,6 @@ constexpr std::size_t ClimbedTriangles = 128;
 constexpr int ClimbSteps = 96;
 constexpr int StepsOfOneSize = 8;
 
-/// One of the two surfaces: its mesh in coordinates of the filter, and the samples on it.
-class Surface
-{
-public:
-  explicit Surface(vtkPolyData* data)
-    : Mesh(vtkTriangleMeshCollector::Collect(data))
-  {
-    const auto isFinite = [this](const std::uint32_t corner)
-    { return this->Mesh.points[corner].allFinite(); };
-    std::erase_if(this->Mesh.triangles,
-      [&](const auto& triangle)
-      { return !std::all_of(triangle.begin(), triangle.end(), isFinite); });
-  }
-
-  Eigen::AlignedBox3d GetBox() const
-  {
-    Eigen::AlignedBox3d box;
-    for (const auto& triangle : this->Mesh.triangles)
-    {
-      for (const std::uint32_t corner : triangle)
-      {
-        box.extend(this->Mesh.points[corner]);
-      }
-    }
-    return box;
-  }
-
-  /// Makes `center` the origin and `unit` the unit. Only then is there an area to ask for: squares
-  /// of lengths neither overflow nor vanish.
-  void Transform(const Eigen::Vector3d& center, double unit)
-  {
-    for (Eigen::Vector3d& point : this->Mesh.points)
-    {
-      point = point.allFinite() ? Eigen::Vector3d((point - center) / unit) : center.Zero();
-    }
-    std::erase_if(this->Mesh.triangles,
-      [this](const auto& triangle) { return !(this->GetNormal(triangle).squaredNorm() > 0.0); });
-  }
-
-  bool HasArea() const { return !this->Mesh.triangles.empty(); }
-
-  void Draw(std::size_t count, neuralmesh::Random& random)
-  {
-    this->Samples = neuralmesh::SurfaceSampler(this->Mesh).drawFromShares(count, random);
-  }
-
-  /// The triangles, and as points the vertices, then the samples.
-  vtkNew<vtkPolyData> MakePolyData() const
-  {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    const std::size_t count = this->Mesh.points.size() + this->Samples.size();
-    points->Allocate(static_cast<vtkIdType>(count));
-    for (const Eigen::Vector3d& point : this->Mesh.points)
-    {
-      points->InsertNextPoint(point.data());
-    }
-    for (const auto& sample : this->Samples)
-    {
-      points->InsertNextPoint(sample.point.data());
-    }
-    vtkNew<vtkIdTypeArray> connectivity;
-    connectivity->SetNumberOfValues(3 * static_cast<vtkIdType>(this->Mesh.triangles.size()));
-    vtkIdType* id = connectivity->GetPointer(0);
-    for (const auto& triangle : this->Mesh.triangles)
-    {
-      id = std::copy(triangle.begin(), triangle.end(), id);
-    }
-    vtkNew<vtkCellArray> cells;
-    cells->SetData(3, connectivity);
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(points);
-    data->SetPolys(cells);
-    return data;
-  }
-
-  const neuralmesh::TriangleMesh& GetMesh() const { return this->Mesh; }
-  const std::vector<neuralmesh::SurfaceSampler::Sample>& GetSamples() const
-  {
-    return this->Samples;
-  }
-
-  /// Of a triangle of the mesh; its length is twice the area.
-  Eigen::Vector3d GetNormal(const std::array<std::uint32_t, 3>& triangle) const
-  {
-    const Eigen::Vector3d& corner = this->Mesh.points[triangle[0]];
-    return (this->Mesh.points[triangle[1]] - corner).cross(this->Mesh.points[triangle[2]] - corner);
-  }
-
-private:
-  neuralmesh::TriangleMesh Mesh;
-  std::vector<neuralmesh::SurfaceSampler::Sample> Samples;
-};
-
 /// The two surfaces, moved and scaled so that the bounding box of the reference has its centre in
 /// the origin and a diagonal of 1.
 struct SurfacePair
@@ -160,8 +64,8 @@ struct SurfacePair
     }
   }
 
-  Surface Reference;
-  Surface Result;
+  vtkMeasuredSurface Reference;
+  vtkMeasuredSurface Result;
   double Unit; ///< the diagonal, in units of the input
 };
 
@@ -172,7 +76,7 @@ struct Distances
   std::vector<double> OfSamples;
 };
 
-Distances TakeDistances(vtkDataObject* measured, const Surface& surface)
+Distances TakeDistances(vtkDataObject* measured, const vtkMeasuredSurface& surface)
 {
   auto* array = vtkDoubleArray::SafeDownCast(
     vtkDataSet::SafeDownCast(measured)->GetPointData()->GetArray("Distance"));
@@ -242,15 +146,15 @@ private:
 };
 
 /// The triangles of the samples with the largest distances, with those samples, `most` of them.
-std::vector<neuralmesh::SurfaceSampler::Sample> FarthestSamples(
-  const std::vector<double>& distances, const Surface& surface, std::size_t most)
+std::vector<vtkMeasuredSurface::Sample> FarthestSamples(
+  const std::vector<double>& distances, const vtkMeasuredSurface& surface, std::size_t most)
 {
   std::vector<std::size_t> order(distances.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::sort(order.begin(), order.end(),
     [&](std::size_t a, std::size_t b)
     { return distances[a] != distances[b] ? distances[a] > distances[b] : a < b; });
-  std::vector<neuralmesh::SurfaceSampler::Sample> farthest;
+  std::vector<vtkMeasuredSurface::Sample> farthest;
   std::set<std::size_t> triangles;
   for (std::size_t i = 0; i < order.size() && farthest.size() < most; ++i)
   {
@@ -265,8 +169,8 @@ std::vector<neuralmesh::SurfaceSampler::Sample> FarthestSamples(
 
 /// Over the samples, the vertices of triangles, and what is found by climbing on from the farthest
 /// samples: the peaks are narrow.
-double Maximum(
-  const Distances& distances, const Surface& from, NearestPoint& to, neuralmesh::Random& random)
+double Maximum(const Distances& distances, const vtkMeasuredSurface& from, NearestPoint& to,
+  neuralmesh::Random& random)
 {
   double maximum = *std::max_element(distances.OfSamples.begin(), distances.OfSamples.end());
   for (const auto& triangle : from.GetMesh().triangles)
@@ -299,7 +203,8 @@ double Maximum(
 
 /// Mean angle, in degrees, between the normals of `from` at samples and those of `to` at the
 /// nearest points.
-double MeanNormalAngle(const Surface& from, const Surface& to, NearestPoint& nearestPoint)
+double MeanNormalAngle(
+  const vtkMeasuredSurface& from, const vtkMeasuredSurface& to, NearestPoint& nearestPoint)
 {
   const auto& samples = from.GetSamples();
   const std::size_t stride = (samples.size() + MostAngleSamples - 1) / MostAngleSamples;
@@ -435,8 +340,8 @@ int vtkNeuralMeshComparison::RequestData(
     vtkErrorMacro(<< error.what());
     return 0;
   }
-  Surface& reference = surfaces->Reference;
-  Surface& result = surfaces->Result;
+  vtkMeasuredSurface& reference = surfaces->Reference;
+  vtkMeasuredSurface& result = surfaces->Result;
   const auto count = static_cast<std::size_t>(this->NumberOfSamples);
   neuralmesh::Random random(static_cast<std::uint64_t>(this->Seed));
   reference.Draw(count, random);
@@ -459,8 +364,8 @@ int vtkNeuralMeshComparison::RequestData(
     return 1;
   }
   const double unit = surfaces->Unit;
-  const auto figures =
-    [&](const Distances& distances, const Surface& from, const Surface& to, vtkPolyData* toData)
+  const auto figures = [&](const Distances& distances, const vtkMeasuredSurface& from,
+                         const vtkMeasuredSurface& to, vtkPolyData* toData)
   {
     NearestPoint nearest(toData);
     const std::vector<double>& samples = distances.OfSamples;

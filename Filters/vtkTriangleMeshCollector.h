@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTriangleMeshCollector
- * @brief   the triangles of a vtkPolyData, for the core
+ * @brief   the triangles of a vtkPolyData, for the core, and back
  *
  * Internal to this project, and not installed: a header, so that the command can use it, too.
  */
@@ -13,9 +13,12 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -61,6 +64,21 @@ public:
         }
       });
     return mesh;
+  }
+
+  /** The triangles as cells, with the same point ids. */
+  static vtkNew<vtkCellArray> MakeCells(const neuralmesh::TriangleMesh& mesh)
+  {
+    vtkNew<vtkIdTypeArray> connectivity;
+    connectivity->SetNumberOfValues(3 * static_cast<vtkIdType>(mesh.triangles.size()));
+    vtkIdType* corner = connectivity->GetPointer(0);
+    for (const auto& triangle : mesh.triangles)
+    {
+      corner = std::copy(triangle.begin(), triangle.end(), corner);
+    }
+    vtkNew<vtkCellArray> cells;
+    cells->SetData(3, connectivity);
+    return cells;
   }
 
 private:
