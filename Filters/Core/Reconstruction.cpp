@@ -11,7 +11,7 @@ namespace
 {
 /// Often enough to end within milliseconds, rarely enough to cost nothing; large batches are not
 /// cut for it.
-constexpr std::uint64_t SamplesPerCheck = 1024;
+constexpr std::uint64_t SamplesPerCheck = 4096;
 
 /// Learns until a stopping rule is met; returns which.
 StopReason learn(Learner& learner, const PointCloud& cloud, const Parameters& parameters,

@@ -38,7 +38,7 @@ def measure(model, options):
     for seed in SEEDS:
         _, seconds = run("reconstruct", scan, mesh, "--vertices", str(VERTICES), "--seed", str(seed),
                          "--quiet", *options)
-        distances = json.loads(run("compare", scan, mesh, "--json", "--samples", "50000")[0])
+        distances = json.loads(run("compare", scan, mesh, "--json", "--samples", "20000")[0])
         regular = json.loads(run("info", mesh, "--json")[0])["regular_ratio"]
         distances = distances["reference_to_result"]
         figures = (seconds, distances["rms_percent"], distances["maximum_percent"], 100 * regular)

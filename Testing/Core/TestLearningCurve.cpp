@@ -15,12 +15,12 @@ TEST(LearningCurve, EndsWithTheResult)
   parameters.numberOfVertices = 3000;
   const Reconstruction result = reconstruct(cleanSphere(), parameters, goOn);
   const auto& rows = result.curve.rows();
-  ASSERT_GT(rows.size(), 50u);
+  ASSERT_GT(rows.size(), 30u);
   for (std::size_t i = 1; i < rows.size(); ++i)
   {
     const auto &before = rows[i - 1], &row = rows[i];
     EXPECT_GT(row.counts.iterations, before.counts.iterations);
-    EXPECT_LE(double(row.counts.iterations), 1.06 * double(before.counts.iterations) + 1600.);
+    EXPECT_LE(double(row.counts.iterations), 1.06 * double(before.counts.iterations) + 4200.);
     EXPECT_GE(row.seconds, before.seconds);
     EXPECT_GE(row.counts.additions, before.counts.additions);
     EXPECT_GE(row.counts.removals, before.counts.removals);
