@@ -32,8 +32,10 @@ class Values(unittest.TestCase):
                 mesh.SetVariantToBasic(), mesh.SetPresetToDefault())),
             ({"variant": "noise_filtering"}, lambda mesh: None),
             ({"variant": "noise"}, lambda mesh: None),
-            ({"order": "list", "jump_fraction": 0.1}, lambda mesh: (
-                mesh.SetOrderToList(), mesh.SetJumpFraction(0.1))),
+            ({"order": "list", "jump_fraction": 0.1, "list_vertices": 10}, lambda mesh: (
+                mesh.SetOrderToList(), mesh.SetJumpFraction(0.1), mesh.SetListVertices(10))),
+            ({"order": "list", "preset": "thesis"}, lambda mesh: (
+                mesh.SetOrderToList(), mesh.SetPresetToThesis())),
             # The preset does not undo what is asked for, wherever it stands.
             ({"winner_rate": 0.3, "preset": "thesis", "variant": "basic"}, lambda mesh: (
                 mesh.SetVariantToBasic(), mesh.SetPresetToThesis(), mesh.SetWinnerRate(0.3))),

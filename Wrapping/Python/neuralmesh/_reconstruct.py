@@ -12,7 +12,7 @@ from ._points import as_dataset
 from .vtkFiltersNeuralMesh import vtkNeuralMesh
 
 # Those that have names or places of their own in the signature.
-_NAMED = ("number_of_vertices", "seed", "variant", "preset")
+_NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
 _PARAMETERS = {
     name: parameter
     for name, parameter in parameters_of(vtkNeuralMesh).items()
@@ -26,6 +26,7 @@ def reconstruct(
     seed: int = 1,
     *,
     variant: str = "noise",
+    order: str = "exact",
     preset: str = "default",
     progress: Progress | None = None,
     **parameters: float | bool | str,
@@ -42,6 +43,7 @@ def reconstruct(
             same bytes; another seed gives another mesh of the same quality.
         variant: "noise_filtering", by which points far from the mesh pull less; or "basic".
             Names may be shortened.
+        order: How it is known where to grow: "exact" by counters, or "list" by the activity list.
         preset: "default", what measures best; or "thesis", the values of the thesis.
         progress: A function that is called now and then with the fraction that is done, from 0 to
             1. If it returns False, the mesh learnt so far is the result. An exception that it
@@ -55,9 +57,9 @@ def reconstruct(
         vtkPolyData with triangles, in the units of the input: an oriented 2-manifold without
         unused points. The type of the points is that of the input: 4-byte floats stay so, anything
         else in an array becomes 8-byte floats. Point data: `Normals`, float of shape (M, 3), of
-        length 1; `Activity`, double of shape (M,), in wins. Field data, one value each:
-        `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`, `DroppedPoints`. No pipeline is
-        behind it.
+        length 1; `Activity`, double of shape (M,), in wins, or the place in the list, up to 1. Field
+        data, one value each: `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`,
+        `DroppedPoints`. No pipeline is behind it.
 
     Raises:
         ValueError: A parameter is out of its range, which the message names; or there are no
@@ -80,8 +82,9 @@ def reconstruct(
     mesh = vtkNeuralMesh()
     assign(mesh, "number_of_vertices", vertices, shown_name="vertices")
     assign(mesh, "seed", seed)
-    # A preset sets parameters, and which it sets depends on the variant.
+    # A preset sets parameters, and to what depends on variant and order.
     assign(mesh, "variant", variant)
+    assign(mesh, "order", order)
     assign(mesh, "preset", preset)
     for name, value in parameters.items():
         assign(mesh, name, value)
