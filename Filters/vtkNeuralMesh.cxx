@@ -266,6 +266,12 @@ int vtkNeuralMesh::RequestData(
   const neuralmesh::Reconstruction result = neuralmesh::reconstruct(cloud, parameters, progress);
   this->StopReason = neuralmesh::name(result.stopReason).data();
   this->AbortExecute = 0;
+  if (result.stopReason == neuralmesh::StopReason::Stalled)
+  {
+    vtkWarningMacro(<< "The mesh has stopped growing, at " << result.mesh.points.size()
+                    << " vertices: as many are removed as are added. More RemovalPatience or less "
+                       "SamplesPerAddition may help.");
+  }
   FillLearningCurve(result.curve.rows(), learningCurve);
 
   int precision = this->OutputPointsPrecision;

@@ -383,7 +383,7 @@ public:
   ///@{
   /**
    * Stopping rule: the run has stalled if in so many samples per vertex (of a mesh of at least 100
-   * vertices) there was no growth. Default 200, range 1 to 1e9.
+   * vertices) there was no growth. That gives a warning. Default 200, range 1 to 1e9.
    */
   vtkNeuralMeshSetClampMacro(StallPatience, double, 1.0, 1e9);
   vtkGetMacro(StallPatience, double);

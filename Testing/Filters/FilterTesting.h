@@ -95,6 +95,7 @@ public:
   {
     ++(event == vtkCommand::ErrorEvent ? this->Errors : this->Warnings);
     this->LastText = static_cast<const char*>(callData);
+    this->AllText += this->LastText;
   }
 
   void Observe(vtkObject* object)
@@ -106,6 +107,7 @@ public:
   int Errors = 0;
   int Warnings = 0;
   std::string LastText;
+  std::string AllText;
 };
 }
 

@@ -195,7 +195,8 @@ int CheckCase(const Case& input, int type, int variant, int preset)
   filter->SetInputData(cloud);
   filter->Update();
   CHECK((messages->Errors > 0) == (input.Expected == Outcome::Error));
-  CHECK(messages->Warnings == input.Warnings);
+  const bool isStalled = std::string(filter->GetStopReason()) == "stalled";
+  CHECK(messages->Warnings == input.Warnings + isStalled);
   if (input.Expected == Outcome::Mesh)
   {
     return CheckMesh(filter, cloud, input);
