@@ -14,9 +14,9 @@
 
 namespace
 {
-template <typename ValueT>
+template <typename OwnerT, typename ValueT>
 LearningParameter Describe(const char* name, const char* description, double minimum,
-  double maximum, ValueT defaultValue, void (vtkNeuralMesh::*set)(ValueT))
+  double maximum, ValueT defaultValue, void (OwnerT::*set)(ValueT))
 {
   const auto setValue = [set](vtkNeuralMesh* filter, double value)
   { (filter->*set)(static_cast<ValueT>(value)); };

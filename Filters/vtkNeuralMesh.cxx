@@ -24,34 +24,11 @@
 vtkStandardNewMacro(vtkNeuralMesh);
 
 // clang-format off
-// The parameters that a preset sets, as (name of the property, name in the core).
-#define NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(use)          \
-  use(WinnerRate, winnerRate)                               \
-  use(SmoothingRate, smoothingRate)                         \
-  use(SmoothingIterations, smoothingIterations)             \
-  use(CounterDecay, counterDecay)                           \
-  use(CounterHalfLife, counterHalfLife)                     \
-  use(NoiseTolerance, noiseTolerance)                       \
-  use(NoiseWindow, noiseWindow)                             \
-  use(OutlierLimit, outlierLimit)                           \
-  use(OutlierLimitVertices, outlierLimitVertices)           \
-  use(SamplesPerAddition, samplesPerAddition)               \
-  use(EarlyPatience, earlyPatience)                         \
-  use(EarlyVertices, earlyVertices)                         \
-  use(AdditionsPerRemoval, additionsPerRemoval)             \
-  use(RemovalPatience, removalPatience)                     \
-  use(RemovalLimit, removalLimit)                           \
-  use(EdgeFlips, edgeFlips)                                 \
-  use(JumpFraction, jumpFraction)                           \
-  use(ListVertices, listVertices)                           \
-  use(BatchSize, batchSize)
-
-// The others that the core knows.
-#define NEURAL_MESH_FOR_EACH_OTHER_PARAMETER(use)           \
+// What the core knows apart from the parameters of vtkNeuralMeshAlgorithm, as (name of the
+// property, name in the core).
+#define NEURAL_MESH_FOR_EACH_PARAMETER(use)                 \
   use(NumberOfVertices, numberOfVertices)                   \
   use(Seed, seed)                                           \
-  use(Variant, variant)                                     \
-  use(Order, order)                                         \
   use(MaximumIterations, maximumIterations)                 \
   use(TargetSampleDistance, targetSampleDistance)           \
   use(TargetCloudDistance, targetCloudDistance)             \
@@ -148,39 +125,9 @@ vtkNeuralMesh::vtkNeuralMesh()
 {
   this->SetNumberOfOutputPorts(2);
   this->StallPatience = neuralmesh::Parameters().stallPatience;
-  this->ApplyPreset();
 }
 
 vtkNeuralMesh::~vtkNeuralMesh() = default;
-
-void vtkNeuralMesh::SetPreset(int preset)
-{
-  this->Preset = std::clamp<int>(preset, DEFAULT, THESIS);
-  if (preset != this->Preset)
-  {
-    vtkWarningMacro(<< "Preset must be DEFAULT or THESIS: not " << preset << " but " << this->Preset
-                    << " is used.");
-  }
-  if (this->ApplyPreset())
-  {
-    this->Modified();
-  }
-}
-
-bool vtkNeuralMesh::ApplyPreset()
-{
-  const auto values = neuralmesh::Parameters::of(
-    this->Preset == THESIS ? neuralmesh::Preset::Thesis : neuralmesh::Preset::Default,
-    this->Variant == BASIC ? neuralmesh::Variant::Basic : neuralmesh::Variant::NoiseFiltering,
-    this->Order == LIST ? neuralmesh::Order::List : neuralmesh::Order::Exact);
-  bool changed = false;
-#define SET_PROPERTY(property, parameter)                                                          \
-  changed = changed || this->property != static_cast<decltype(this->property)>(values.parameter);  \
-  this->property = values.parameter;
-  NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(SET_PROPERTY)
-#undef SET_PROPERTY
-  return changed;
-}
 
 int vtkNeuralMesh::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -238,10 +185,10 @@ int vtkNeuralMesh::RequestData(
   }
 
   neuralmesh::Parameters parameters;
+  this->FillParameters(parameters);
 #define SET_PARAMETER(property, parameter)                                                         \
   parameters.parameter = static_cast<decltype(parameters.parameter)>(this->property);
-  NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(SET_PARAMETER)
-  NEURAL_MESH_FOR_EACH_OTHER_PARAMETER(SET_PARAMETER)
+  NEURAL_MESH_FOR_EACH_PARAMETER(SET_PARAMETER)
 #undef SET_PARAMETER
   for (const std::string& warning : parameters.warnings(cloud.points().size()))
   {
@@ -297,11 +244,9 @@ int vtkNeuralMesh::RequestData(
 void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Preset: " << (this->Preset == THESIS ? "Thesis" : "Default") << "\n";
 #define PRINT_PROPERTY(property, parameter)                                                        \
   os << indent << #property ": " << this->property << "\n";
-  NEURAL_MESH_FOR_EACH_OTHER_PARAMETER(PRINT_PROPERTY)
-  NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(PRINT_PROPERTY)
+  NEURAL_MESH_FOR_EACH_PARAMETER(PRINT_PROPERTY)
 #undef PRINT_PROPERTY
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "StopReason: " << this->StopReason << "\n";

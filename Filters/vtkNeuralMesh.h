@@ -71,16 +71,15 @@
 #define vtkNeuralMesh_h
 
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
-#include "vtkNeuralMeshSetClampMacro.h"
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkNeuralMeshAlgorithm.h"
 
 class vtkTable;
 
-class VTKFILTERSNEURALMESH_EXPORT vtkNeuralMesh : public vtkPolyDataAlgorithm
+class VTKFILTERSNEURALMESH_EXPORT vtkNeuralMesh : public vtkNeuralMeshAlgorithm
 {
 public:
   static vtkNeuralMesh* New();
-  vtkTypeMacro(vtkNeuralMesh, vtkPolyDataAlgorithm)
+  vtkTypeMacro(vtkNeuralMesh, vtkNeuralMeshAlgorithm)
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -99,248 +98,6 @@ public:
    */
   vtkNeuralMeshSetClampMacro(Seed, int, 0, VTK_INT_MAX);
   vtkGetMacro(Seed, int);
-  ///@}
-
-  enum VariantType
-  {
-    BASIC,
-    NOISE_FILTERING
-  };
-
-  ///@{
-  /**
-   * Variant of the method. BASIC is Algorithm 1: every sample pulls alike, and vertices that have
-   * not won for a while are removed all at once. NOISE_FILTERING (default) is Algorithm 4: samples
-   * far from the mesh pull less than their distance would have it, and vertices are removed a few
-   * at a time.
-   */
-  vtkNeuralMeshSetClampMacro(Variant, int, BASIC, NOISE_FILTERING);
-  vtkGetMacro(Variant, int);
-  void SetVariantToBasic() { this->SetVariant(BASIC); }
-  void SetVariantToNoiseFiltering() { this->SetVariant(NOISE_FILTERING); }
-  ///@}
-
-  enum OrderType
-  {
-    EXACT,
-    LIST
-  };
-
-  ///@{
-  /**
-   * How it is known which vertex is the most active and which the laziest. EXACT (default): by
-   * signal counters. LIST: by counters up to ListVertices, then by the activity list (chapter 11),
-   * in which a winner jumps forward. The list is the thesis's way to O(n log n); here exact
-   * counters are as fast and give meshes that are as good or better, see
-   * Documentation/ActivityList.md.
-   */
-  vtkNeuralMeshSetClampMacro(Order, int, EXACT, LIST);
-  vtkGetMacro(Order, int);
-  void SetOrderToExact() { this->SetOrder(EXACT); }
-  void SetOrderToList() { this->SetOrder(LIST); }
-  ///@}
-
-  enum PresetType
-  {
-    DEFAULT,
-    THESIS
-  };
-
-  ///@{
-  /**
-   * Sets all parameters of learning and growth, from WinnerRate to BatchSize below: to the defaults
-   * named there, or to those of the thesis for the current variant and order, without anything that
-   * the thesis lacks (valence flips, rejection of outliers, patience at first, batches). So choose
-   * variant and order first, then the preset, then single values. Default DEFAULT.
-   */
-  void SetPreset(int preset);
-  vtkGetMacro(Preset, int);
-  void SetPresetToDefault() { this->SetPreset(DEFAULT); }
-  void SetPresetToThesis() { this->SetPreset(THESIS); }
-  ///@}
-
-  ///@{
-  /**
-   * alpha_w of (6.1) and (9.1): how far the winner moves towards the sample, as a fraction of the
-   * way. More learns faster and leaves more folds. Default 0.1 (thesis 0.1), range 0 to 1.
-   */
-  vtkNeuralMeshSetClampMacro(WinnerRate, double, 0.0, 1.0);
-  vtkGetMacro(WinnerRate, double);
-  ///@}
-
-  ///@{
-  /**
-   * alpha_L of (6.4): how far the neighbours of the winner move along their tangential Laplacian,
-   * as a fraction. Default 0.2 (thesis: 0.2 with the list, else 0.05), range 0 to 1.
-   */
-  vtkNeuralMeshSetClampMacro(SmoothingRate, double, 0.0, 1.0);
-  vtkGetMacro(SmoothingRate, double);
-  ///@}
-
-  ///@{
-  /**
-   * C_L of chapter 6: how often the neighbours of the winner are smoothed for each sample. More
-   * gives rounder triangles, takes time and blurs.
-   * Default 1 (thesis: 5 in the basic variant without the list, else 1), range 0 to 100.
-   */
-  vtkNeuralMeshSetClampMacro(SmoothingIterations, int, 0, 100);
-  vtkGetMacro(SmoothingIterations, int);
-  ///@}
-
-  ///@{
-  /**
-   * alpha_sc of (6.6), basic variant: what is left of all signal counters after each sample.
-   * Default 0.95 (thesis 0.95), range 0.01 to 1.
-   */
-  vtkNeuralMeshSetClampMacro(CounterDecay, double, 0.01, 1.0);
-  vtkGetMacro(CounterDecay, double);
-  ///@}
-
-  ///@{
-  /**
-   * lambda of (9.4), noise-filtering variant: the number of samples per vertex in which a signal
-   * counter falls to its half. Default 6 (thesis 6), range 0.01 to 1000000.
-   */
-  vtkNeuralMeshSetClampMacro(CounterHalfLife, double, 0.01, 1e6);
-  vtkGetMacro(CounterHalfLife, double);
-  ///@}
-
-  ///@{
-  /**
-   * alpha_f of section 9, noise-filtering variant: samples farther from their winner than
-   * epsilon_t, the mean distance plus so many standard deviations, pull as if they were at
-   * epsilon_t (9.2). Default 1 (thesis 1), range 0 to 1000.
-   */
-  vtkNeuralMeshSetClampMacro(NoiseTolerance, double, 0.0, 1000.0);
-  vtkGetMacro(NoiseTolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * Number of distances between sample and winner behind the mean and the standard deviation above,
-   * and behind TargetSampleDistance. In large batches only every so-many-th sample is observed, so
-   * that the distances come from everywhere. Default 1000 (thesis 1000), range 2 to 1000000.
-   */
-  vtkNeuralMeshSetClampMacro(NoiseWindow, int, 2, 1000000);
-  vtkGetMacro(NoiseWindow, int);
-  ///@}
-
-  ///@{
-  /**
-   * Noise-filtering variant: samples farther from their winner than this multiple of epsilon_t are
-   * outliers, from which nothing is learnt; 0 learns from all. Default 5 (thesis 0), range 0 to
-   * 1000000.
-   */
-  vtkNeuralMeshSetClampMacro(OutlierLimit, double, 0.0, 1e6);
-  vtkGetMacro(OutlierLimit, double);
-  ///@}
-
-  ///@{
-  /**
-   * OutlierLimit holds from so many vertices on: before, the mesh does not know the rough shape,
-   * and what is far from it need not be an outlier. Default 1000, at least 4.
-   */
-  vtkNeuralMeshSetClampMacro(OutlierLimitVertices, int, 4, VTK_INT_MAX);
-  vtkGetMacro(OutlierLimitVertices, int);
-  ///@}
-
-  ///@{
-  /**
-   * C_vs of chapter 6: the number of samples between two vertex splits. The time is in proportion.
-   * More follows the cloud closer; less makes misplaced vertices more frequent, of which the
-   * maximum of the distances tells sooner than the mean.
-   * Default 50 (thesis 50), range 1 to 1000000.
-   */
-  vtkNeuralMeshSetClampMacro(SamplesPerAddition, int, 1, 1000000);
-  vtkGetMacro(SamplesPerAddition, int);
-  ///@}
-
-  ///@{
-  /**
-   * SamplesPerAddition is multiplied by this as long as the mesh has less than EarlyVertices
-   * vertices, while it learns the rough shape: that makes twists and bridges rarer.
-   * Default 4 (thesis 1), range 0.01 to 1000.
-   */
-  vtkNeuralMeshSetClampMacro(EarlyPatience, double, 0.01, 1000.0);
-  vtkGetMacro(EarlyPatience, double);
-  ///@}
-
-  ///@{
-  /**
-   * See EarlyPatience. Default 1000, at least 0.
-   */
-  vtkNeuralMeshSetClampMacro(EarlyVertices, int, 0, VTK_INT_MAX);
-  vtkGetMacro(EarlyVertices, int);
-  ///@}
-
-  ///@{
-  /**
-   * C_nr of section 9.1, noise-filtering variant: the number of vertex splits between two removals
-   * of the laziest vertices. Default 10 (thesis 125), range 1 to 1000000.
-   */
-  vtkNeuralMeshSetClampMacro(AdditionsPerRemoval, int, 1, 1000000);
-  vtkGetMacro(AdditionsPerRemoval, int);
-  ///@}
-
-  ///@{
-  /**
-   * C_ec of chapters 6 and 9: the number of samples per vertex in which a vertex must win so as not
-   * to be removed. Growth needs C_ec > exp(-C_ec) C_vs (6.18); less gives a warning, and maybe a
-   * mesh that stalls. Default 10 (thesis 10), range 0.01 to 1000000.
-   */
-  vtkNeuralMeshSetClampMacro(RemovalPatience, double, 0.01, 1e6);
-  vtkGetMacro(RemovalPatience, double);
-  ///@}
-
-  ///@{
-  /**
-   * Noise-filtering variant: the number of vertices removed at a time is at most this multiple of
-   * AdditionsPerRemoval; 0 for no limit. Where the cloud is open or falls into pieces, parts of the
-   * mesh are always idle: without a limit their removal can outweigh all growth.
-   * Default 0.5 (thesis 0), range 0 to 1000.
-   */
-  vtkNeuralMeshSetClampMacro(RemovalLimit, double, 0.0, 1000.0);
-  vtkGetMacro(RemovalLimit, double);
-  ///@}
-
-  ///@{
-  /**
-   * Whether edges are flipped around vertex splits and collapses: where that brings valences closer
-   * to 6 without folds, and where an edge is the rim of two sheets that lie back to back, as
-   * bridges over gaps are. Default on (thesis off).
-   */
-  vtkSetMacro(EdgeFlips, vtkTypeBool);
-  vtkGetMacro(EdgeFlips, vtkTypeBool);
-  vtkBooleanMacro(EdgeFlips, vtkTypeBool);
-  ///@}
-
-  ///@{
-  /**
-   * Jump distance of chapter 11, with the list: how far a winner jumps, as a fraction of the number
-   * of vertices. Default 1/3 (thesis 1/3), range 0 to 1.
-   */
-  vtkNeuralMeshSetClampMacro(JumpFraction, double, 0.0, 1.0);
-  vtkGetMacro(JumpFraction, double);
-  ///@}
-
-  ///@{
-  /**
-   * With the list: exact counters count until the mesh has so many vertices.
-   * Default 1000 (thesis 1000), at least 4.
-   */
-  vtkNeuralMeshSetClampMacro(ListVertices, int, 4, VTK_INT_MAX);
-  vtkGetMacro(ListVertices, int);
-  ///@}
-
-  ///@{
-  /**
-   * The largest number of samples that are drawn at once; there is never more than one for eight
-   * vertices. The winners of a batch are searched before it is learnt, which is faster by far.
-   * Another size gives another mesh of the same quality. Default 65536 (thesis 1, one by one),
-   * range 1 to 1048576.
-   */
-  vtkNeuralMeshSetClampMacro(BatchSize, int, 1, 1048576);
-  vtkGetMacro(BatchSize, int);
   ///@}
 
   ///@{
@@ -423,36 +180,8 @@ private:
   vtkNeuralMesh(const vtkNeuralMesh&) = delete;
   void operator=(const vtkNeuralMesh&) = delete;
 
-  /** Sets what the preset sets. Returns whether anything has changed. */
-  bool ApplyPreset();
-
   vtkIdType NumberOfVertices = 20000;
   int Seed = 1;
-  int Variant = NOISE_FILTERING;
-  int Order = EXACT;
-  int Preset = DEFAULT;
-
-  // What a preset sets; the values are those of the core's presets.
-  double WinnerRate = 0;
-  double SmoothingRate = 0;
-  int SmoothingIterations = 0;
-  double CounterDecay = 0;
-  double CounterHalfLife = 0;
-  double NoiseTolerance = 0;
-  int NoiseWindow = 0;
-  double OutlierLimit = 0;
-  int OutlierLimitVertices = 0;
-  int SamplesPerAddition = 0;
-  double EarlyPatience = 0;
-  int EarlyVertices = 0;
-  int AdditionsPerRemoval = 0;
-  double RemovalPatience = 0;
-  double RemovalLimit = 0;
-  vtkTypeBool EdgeFlips = 0;
-  double JumpFraction = 0;
-  int ListVertices = 0;
-  int BatchSize = 0;
-
   vtkIdType MaximumIterations = 0;
   double TargetSampleDistance = 0.0;
   double TargetCloudDistance = 0.0;

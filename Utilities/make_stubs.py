@@ -81,7 +81,9 @@ def imports(text, own):
 def main(module_name, path):
     module = importlib.import_module(module_name)
     classes = {name: value for name, value in vars(module).items() if inspect.isclass(value)}
-    text = "\n\n".join(class_stub(value) for value in classes.values())
+    # Superclasses first, for the others name them.
+    ordered = sorted(classes.values(), key=lambda value: len(value.__mro__))
+    text = "\n\n".join(class_stub(value) for value in ordered)
     with open(path, "w", encoding="utf-8") as stubs:
         stubs.write("from typing import Any, MutableSequence, overload\n")
         stubs.writelines(imports(text, classes))

@@ -29,7 +29,7 @@ enum class Order
 
 /// All parameters of a run, with the product's defaults. Equation and section numbers are those of
 /// W. Saleem, A flexible framework for learning-based surface reconstruction, 2004. Ranges stand
-/// with the properties of vtkNeuralMesh, which are named alike.
+/// with the properties of vtkNeuralMeshAlgorithm and vtkNeuralMesh, which are named alike.
 struct Parameters
 {
   Variant variant = Variant::NoiseFiltering;

@@ -61,6 +61,8 @@ def start_script(script):
         stderr=subprocess.PIPE,
         text=True,
         cwd=os.path.dirname(__file__),
+        # In pvpython print(flush=True) alone leaves the text in a buffer until the end.
+        env={**os.environ, "PYTHONUNBUFFERED": "1"},
     )
 
 

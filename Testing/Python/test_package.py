@@ -120,8 +120,10 @@ class Stubs(unittest.TestCase):
     def test_getters(self):
         types = {"int": int, "float": float, "str": str}
         checked = 0
+        mesh_class = neuralmesh.vtkNeuralMesh
         for wrapped in CLASSES:
-            instance = wrapped()
+            # Its superclass is abstract.
+            instance = mesh_class() if issubclass(mesh_class, wrapped) else wrapped()
             for node in self.classes[wrapped.__name__].body:
                 if not isinstance(node, ast.FunctionDef) or not node.name.startswith("Get"):
                     continue

@@ -88,9 +88,9 @@ Parameter = Number | Switch | Choice
 
 @functools.lru_cache(maxsize=None)
 def parameters_of(vtk_class: type) -> dict[str, Parameter]:
-    """The parameters of a class without those of its superclasses: names in snake case."""
+    """The parameters that our classes add to those of VTK: names in snake case."""
     found = {}
-    for method in vars(vtk_class):
+    for method in _own_methods(vtk_class):
         name = method[len("Set") :]
         if method.startswith("Set") and hasattr(vtk_class, "Get" + name):
             parameter = _parameter(vtk_class, name)
@@ -130,11 +130,17 @@ def table(parameters: Mapping[str, Parameter]) -> str:
     )
 
 
+def _own_methods(vtk_class: type) -> list[str]:
+    """The methods of a class and of its superclasses up to those of VTK."""
+    ours = [cls for cls in vtk_class.__mro__ if cls.__name__.startswith("vtkNeuralMesh")]
+    return [method for cls in ours for method in vars(cls)]
+
+
 def _parameter(vtk_class: type, name: str) -> Parameter | None:
     prototype = vtk_class()
     default = getattr(prototype, "Get" + name)()
     beginning = f"Set{name}To"
-    choosers = [method for method in vars(vtk_class) if method.startswith(beginning)]
+    choosers = [method for method in _own_methods(vtk_class) if method.startswith(beginning)]
     if choosers:
         setters = {snake_case(method[len(beginning) :]): method for method in choosers}
         return Choice(setters, _chosen(vtk_class, name, setters))
