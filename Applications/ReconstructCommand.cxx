@@ -42,6 +42,7 @@ struct Options
   int Seed = 1;
   int Variant = vtkNeuralMesh::NOISE_FILTERING;
   int Order = vtkNeuralMesh::EXACT;
+  int Topology = 0;
   int Preset = vtkNeuralMesh::DEFAULT;
   std::vector<std::string> Assignments;
   double TimeLimit = 0.0;
@@ -77,6 +78,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
   filter->SetSeed(options.Seed);
   filter->SetVariant(options.Variant);
   filter->SetOrder(options.Order);
+  filter->SetTopologyLearning(options.Topology);
   filter->SetPreset(options.Preset);
   filter->SetTimeLimit(options.TimeLimit);
   for (const std::string& assignment : options.Assignments)
@@ -233,6 +235,8 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   AddChoice(command, "--order", options->Order,
     { { "exact", vtkNeuralMesh::EXACT }, { "list", vtkNeuralMesh::LIST } },
     "How it is known where to grow; exact (default): counters; list: the activity list");
+  AddChoice(command, "--topology", options->Topology, { { "off", 0 }, { "on", 1 } },
+    "on: learn handles and openings; off (default): the surface stays a sphere");
   command->add_option("--set", options->Assignments, "Set a parameter of learning, see below")
     ->type_name("NAME=VALUE")
     ->take_all()

@@ -24,6 +24,10 @@
   use(RemovalPatience, removalPatience)                     \
   use(RemovalLimit, removalLimit)                           \
   use(EdgeFlips, edgeFlips)                                 \
+  use(TopologyRules, topologyRules)                         \
+  use(TopologyPatience, topologyPatience)                   \
+  use(TriangleRemovalFactor, triangleRemovalFactor)         \
+  use(BoundaryMergingFactor, boundaryMergingFactor)         \
   use(JumpFraction, jumpFraction)                           \
   use(ListVertices, listVertices)                           \
   use(BatchSize, batchSize)
@@ -56,7 +60,7 @@ bool vtkNeuralMeshAlgorithm::ApplyPreset()
   bool changed = false;
 #define SET_PROPERTY(property, parameter)                                                          \
   changed = changed || this->property != static_cast<decltype(this->property)>(values.parameter);  \
-  this->property = values.parameter;
+  this->property = static_cast<decltype(this->property)>(values.parameter);
   NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(SET_PROPERTY)
 #undef SET_PROPERTY
   return changed;
@@ -66,6 +70,7 @@ void vtkNeuralMeshAlgorithm::FillParameters(neuralmesh::Parameters& parameters) 
 {
   parameters.variant = static_cast<neuralmesh::Variant>(this->Variant);
   parameters.order = static_cast<neuralmesh::Order>(this->Order);
+  parameters.topologyLearning = this->TopologyLearning != 0;
 #define SET_PARAMETER(property, parameter)                                                         \
   parameters.parameter = static_cast<decltype(parameters.parameter)>(this->property);
   NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(SET_PARAMETER)
@@ -77,6 +82,7 @@ void vtkNeuralMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Variant: " << this->Variant << "\n";
   os << indent << "Order: " << this->Order << "\n";
+  os << indent << "TopologyLearning: " << this->TopologyLearning << "\n";
   os << indent << "Preset: " << (this->Preset == THESIS ? "Thesis" : "Default") << "\n";
 #define PRINT_PROPERTY(property, parameter)                                                        \
   os << indent << #property ": " << this->property << "\n";

@@ -70,6 +70,18 @@ public:
   void SetOrderToList() { this->SetOrder(LIST); }
   ///@}
 
+  ///@{
+  /**
+   * Whether the topology of the shape is learnt (chapter 7), in the basic and the noise-filtering
+   * variant: triangles that stay large are removed, for there the cloud has no points, and
+   * boundaries that come close to each other are joined. So handles and openings come to be. See
+   * Documentation/Topology.md. Default off.
+   */
+  vtkSetMacro(TopologyLearning, vtkTypeBool);
+  vtkGetMacro(TopologyLearning, vtkTypeBool);
+  vtkBooleanMacro(TopologyLearning, vtkTypeBool);
+  ///@}
+
   enum PresetType
   {
     DEFAULT,
@@ -244,6 +256,51 @@ public:
   vtkBooleanMacro(EdgeFlips, vtkTypeBool);
   ///@}
 
+  enum TopologyRulesType
+  {
+    MENDED_RULES,
+    THESIS_RULES
+  };
+
+  ///@{
+  /**
+   * Topology learning: by which rules. THESIS_RULES are those of chapter 7 as written. MENDED_RULES
+   * (default) are the same with what they need to work.
+   */
+  vtkNeuralMeshSetClampMacro(TopologyRules, int, MENDED_RULES, THESIS_RULES);
+  vtkGetMacro(TopologyRules, int);
+  void SetTopologyRulesToMended() { this->SetTopologyRules(MENDED_RULES); }
+  void SetTopologyRulesToThesis() { this->SetTopologyRules(THESIS_RULES); }
+  ///@}
+
+  ///@{
+  /**
+   * C_top of chapter 9, topology learning: the number of samples per vertex between two calls.
+   * Default 10 (thesis 10), range 0.01 to 1000000.
+   */
+  vtkNeuralMeshSetClampMacro(TopologyPatience, double, 0.01, 1e6);
+  vtkGetMacro(TopologyPatience, double);
+  ///@}
+
+  ///@{
+  /**
+   * alpha_r of (7.4), topology learning: triangles larger than this multiple of the mean area are
+   * removed. Less opens more. Default 10 (thesis 10), range 1 to 1e9.
+   */
+  vtkNeuralMeshSetClampMacro(TriangleRemovalFactor, double, 1.0, 1e9);
+  vtkGetMacro(TriangleRemovalFactor, double);
+  ///@}
+
+  ///@{
+  /**
+   * alpha_m of (7.5), topology learning: boundaries are joined whose distance is less than this
+   * multiple of the square root of the mean area of a triangle.
+   * Default 2.576 (thesis 2.576), range 0 to 1e9.
+   */
+  vtkNeuralMeshSetClampMacro(BoundaryMergingFactor, double, 0.0, 1e9);
+  vtkGetMacro(BoundaryMergingFactor, double);
+  ///@}
+
   ///@{
   /**
    * Jump distance of chapter 11, with the list: how far a winner jumps, as a fraction of the number
@@ -292,6 +349,7 @@ private:
 
   int Variant = NOISE_FILTERING;
   int Order = EXACT;
+  vtkTypeBool TopologyLearning = 0;
   int Preset = DEFAULT;
 
   // What a preset sets; the values are those of the core's presets.
@@ -311,6 +369,10 @@ private:
   double RemovalPatience = 0;
   double RemovalLimit = 0;
   vtkTypeBool EdgeFlips = 0;
+  int TopologyRules = 0;
+  double TopologyPatience = 0;
+  double TriangleRemovalFactor = 0;
+  double BoundaryMergingFactor = 0;
   double JumpFraction = 0;
   int ListVertices = 0;
   int BatchSize = 0;

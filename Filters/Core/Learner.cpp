@@ -94,9 +94,15 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mes
 {
   this->renumber();
   this->nextAddition_ = std::uint64_t(this->parameters_.samplesPerAddition);
-  this->nextRemoval_ = this->parameters_.variant == Variant::Basic
-    ? std::uint64_t(this->parameters_.removalPatience * double(this->mesh_.vertexCount()))
-    : std::uint64_t(this->parameters_.additionsPerRemoval);
+  this->nextRemoval_ = this->removalInterval();
+  this->boundarySmoothing_ = parameters.topologyRules == TopologyRules::Thesis
+    ? BoundarySmoothing::Everywhere
+    : BoundarySmoothing::Along;
+  if (this->parameters_.topologyLearning)
+  {
+    this->topology_.emplace(this->mesh_, this->parameters_);
+    this->nextTopology_ = this->topologyInterval();
+  }
   this->updateDecay();
 }
 
@@ -132,6 +138,10 @@ void Learner::learnBatch(std::size_t size)
     if (this->isRemovalDue())
     {
       this->nodeRemoval();
+    }
+    if (this->isTopologyDue())
+    {
+      this->learnTopology();
     }
   }
   if (this->mesh_.vertexCount() >= this->nextRenumbering_)
@@ -248,7 +258,7 @@ void Learner::smoothNeighbors(VertexIndex winner)
   auto& positions = this->smoothedPositions_;
   for (unsigned slot = 0; slot < ring.size(); ++slot)
   {
-    positions[slot] = smoothedPosition(this->mesh_, ring[slot], rate);
+    positions[slot] = smoothedPosition(this->mesh_, ring[slot], rate, this->boundarySmoothing_);
   }
   for (unsigned slot = 0; slot < ring.size(); ++slot)
   {
@@ -258,14 +268,18 @@ void Learner::smoothNeighbors(VertexIndex winner)
 
 // --- Growth --------------------------------------------------------------------------------------
 
+double Learner::patience() const
+{
+  const bool early = this->mesh_.vertexCount() < std::size_t(this->parameters_.earlyVertices);
+  return early ? this->parameters_.earlyPatience : 1.;
+}
+
 bool Learner::isAdditionDue() const { return this->counts_.iterations >= this->nextAddition_; }
 
 void Learner::nodeAddition()
 {
-  const bool early = this->mesh_.vertexCount() < std::size_t(this->parameters_.earlyVertices);
-  const double patience = early ? this->parameters_.earlyPatience : 1.;
-  this->nextAddition_ +=
-    std::max<std::uint64_t>(1, std::uint64_t(patience * this->parameters_.samplesPerAddition));
+  this->nextAddition_ += std::max<std::uint64_t>(
+    1, std::uint64_t(this->patience() * this->parameters_.samplesPerAddition));
 
   for (int attempt = 0; attempt < SplitAttempts; ++attempt)
   {
@@ -279,6 +293,10 @@ void Learner::nodeAddition()
     }
     const VertexIndex added = this->mesh_.split(v, plan->first, plan->steps, plan->position);
     this->grid_.insert(added, plan->position);
+    if (this->topology_)
+    {
+      this->topology_->boundaries().split(v, added);
+    }
     const double area = restrictedVoronoiArea(this->mesh_, v);
     const double addedArea = restrictedVoronoiArea(this->mesh_, added);
     const double share = area + addedArea > 0. ? area / (area + addedArea) : 0.5;
@@ -311,19 +329,26 @@ bool Learner::isRemovalDue() const
              : this->counts_.additions) >= this->nextRemoval_;
 }
 
+std::uint64_t Learner::removalInterval() const
+{
+  // Growth depends on the ratio of C_ec to C_vs, (6.18): patience is with both.
+  return this->parameters_.variant == Variant::Basic
+    ? std::uint64_t(
+        this->patience() * this->parameters_.removalPatience * double(this->mesh_.vertexCount()))
+    : std::uint64_t(this->parameters_.additionsPerRemoval);
+}
+
 void Learner::nodeRemoval()
 {
   if (this->parameters_.variant == Variant::Basic)
   {
     this->removeIdleVertices();
-    this->nextRemoval_ +=
-      std::uint64_t(this->parameters_.removalPatience * double(this->mesh_.vertexCount()));
   }
   else
   {
     this->removeVertices();
-    this->nextRemoval_ += std::uint64_t(this->parameters_.additionsPerRemoval);
   }
+  this->nextRemoval_ += this->removalInterval();
   this->updateDecay();
 }
 
@@ -367,7 +392,11 @@ bool Learner::removeVertex(VertexIndex v)
   const VertexIndex kept = bestCollapse(this->mesh_, v);
   if (kept == NoVertex)
   {
-    return false;
+    return this->removeStar(v);
+  }
+  if (this->topology_)
+  {
+    this->topology_->boundaries().collapse(v, kept);
   }
   this->mesh_.collapse(v, kept);
   this->grid_.erase(v, this->mesh_.position(v));
@@ -378,6 +407,48 @@ bool Learner::removeVertex(VertexIndex v)
   }
   ++this->counts_.removals;
   return true;
+}
+
+// --- Topology learning ---------------------------------------------------------------------------
+
+bool Learner::isTopologyDue() const
+{
+  return this->topology_ && this->counts_.iterations >= this->nextTopology_;
+}
+
+void Learner::learnTopology()
+{
+  this->follow(this->topology_->learn(this->mesh_));
+  this->nextTopology_ += this->topologyInterval();
+  this->updateDecay();
+}
+
+std::uint64_t Learner::topologyInterval() const
+{
+  return std::uint64_t(this->parameters_.topologyPatience * double(this->mesh_.vertexCount())) + 1;
+}
+
+bool Learner::removeStar(VertexIndex v)
+{
+  if (!this->topology_ || !this->topology_->canRemoveStar(this->mesh_, v))
+  {
+    return false;
+  }
+  this->follow(this->topology_->removeStar(this->mesh_, v));
+  return !this->mesh_.isAlive(v);
+}
+
+void Learner::follow(const TopologyLearning::Result& result)
+{
+  for (const VertexIndex v : result.removedVertices)
+  {
+    this->grid_.erase(v, this->mesh_.position(v));
+    this->order_->erase(v);
+  }
+  this->hasWon_.resize(this->mesh_.indexEnd());
+  this->counts_.removedTriangles += result.removedTriangles;
+  this->counts_.mergedBoundaries += result.mergedBoundaries;
+  this->counts_.filledBoundaries += result.filledBoundaries;
 }
 
 void Learner::enterList()
@@ -428,6 +499,10 @@ void Learner::renumber()
   this->hasWon_ = std::move(hasWon);
   this->mesh_.renumber(order);
   this->order_->renumber(order);
+  if (this->topology_)
+  {
+    this->topology_->boundaries().renumber(order);
+  }
 
   this->capacity_ = 64 + std::size_t(GrowthUntilRenumbering * 1.1 * double(order.size()));
   this->nextRenumbering_ = 1 + std::size_t(GrowthUntilRenumbering * double(order.size()));

@@ -7,10 +7,13 @@
 #include "Parameters.h"
 #include "PointCloud.h"
 #include "SampleStream.h"
+#include "Smoothing.h"
+#include "TopologyLearning.h"
 #include "VertexGrid.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace neuralmesh
@@ -24,6 +27,9 @@ struct RunCounts
   std::uint64_t removals = 0;
   std::uint64_t flips = 0;
   std::uint64_t illegalOperations = 0; ///< splits and collapses that were due, but not legal
+  std::uint64_t removedTriangles = 0;
+  std::uint64_t mergedBoundaries = 0; ///< pairs
+  std::uint64_t filledBoundaries = 0;
 };
 
 /// The Neural Mesh algorithm: a mesh that grows and moves towards samples of a cloud. Here is the
@@ -75,14 +81,22 @@ private:
   }
   void smoothNeighbors(VertexIndex winner);
 
+  double patience() const; ///< by which C_vs is multiplied now
   bool isAdditionDue() const;
   void nodeAddition();
   bool isRemovalDue() const;
+  std::uint64_t removalInterval() const; ///< in iterations (basic), additions (noise filtering)
   void nodeRemoval();
   void removeIdleVertices();
   void removeVertices();
   bool removeVertex(VertexIndex v);
   void enterList();
+
+  bool isTopologyDue() const;
+  void learnTopology();
+  std::uint64_t topologyInterval() const; ///< in iterations
+  bool removeStar(VertexIndex v);
+  void follow(const TopologyLearning::Result& result);
 
   void updateDecay();
 
@@ -91,6 +105,7 @@ private:
   VertexGrid grid_;
   std::unique_ptr<ActivityOrder> order_;
   SampleStream samples_;
+  std::optional<TopologyLearning> topology_;
   MovingStatistics sampleDistances_;
   RunCounts counts_;
   Vector4 boxMin_;
@@ -99,6 +114,7 @@ private:
   std::vector<VertexIndex> winners_;
   std::array<Vector4, Ring::Capacity> smoothedPositions_;
   std::vector<std::uint8_t> hasWon_; ///< since the last removal; basic variant only
+  BoundarySmoothing boundarySmoothing_ = BoundarySmoothing::Along;
   double decay_ = 1.;
   float filterThreshold_ = 0.f; ///< epsilon_t of (9.2)
   float observationLimit_ = 0.f;
@@ -108,6 +124,7 @@ private:
   std::size_t untilObservation_ = 0;
   std::uint64_t nextAddition_ = 0;
   std::uint64_t nextRemoval_ = 0; ///< iteration (basic) or number of additions (noise filtering)
+  std::uint64_t nextTopology_ = 0;
   std::size_t nextRenumbering_ = 0;
   std::size_t capacity_ = 0; ///< indices for which there is memory
 };

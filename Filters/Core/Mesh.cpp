@@ -230,65 +230,6 @@ void Mesh::flip(VertexIndex a, VertexIndex b)
   ringD.insert(ringD.find(b) + 1, c);
 }
 
-Mesh::RemovedTriangle Mesh::removeTriangle(const Triangle& triangle)
-{
-  RemovedTriangle result;
-  // Where a fan falls into two: the slot of the last neighbour of its first part.
-  std::array<int, 3> gaps{ -1, -1, -1 };
-  for (unsigned corner = 0; corner < 3; ++corner)
-  {
-    Ring& ring = this->rings_[triangle[corner]];
-    const unsigned slot = ring.find(triangle[(corner + 1) % 3]);
-    assert(ring.next(slot) == triangle[(corner + 2) % 3]);
-    if (!ring.isOpen())
-    {
-      ring.rotateToFront(ring.after(slot));
-      ring.setOpen(true);
-    }
-    else if (slot == 0)
-    {
-      ring.erase(0);
-    }
-    else if (slot + 2 == ring.size())
-    {
-      ring.erase(slot + 1);
-    }
-    else
-    {
-      gaps[corner] = int(slot);
-    }
-  }
-  for (unsigned corner = 0; corner < 3; ++corner)
-  {
-    const VertexIndex v = triangle[corner];
-    if (gaps[corner] >= 0)
-    {
-      const Ring ring = this->ring(v);
-      const unsigned firstCount = unsigned(gaps[corner]) + 1;
-      const std::span<const VertexIndex> all(ring.begin(), ring.end());
-      const auto first = all.first(firstCount);
-      const auto second = all.subspan(firstCount);
-      const bool keepFirst = first.size() >= second.size();
-      const auto smaller = keepFirst ? second : first;
-      const VertexIndex duplicate = this->newVertex(this->position(v));
-      this->rings_[v].assign(keepFirst ? first : second, true);
-      this->rings_[duplicate].assign(smaller, true);
-      for (const VertexIndex neighbor : smaller)
-      {
-        Ring& neighborRing = this->rings_[neighbor];
-        neighborRing.replace(neighborRing.find(v), duplicate);
-      }
-      result.duplicates[corner] = { v, duplicate };
-    }
-    else if (this->valence(v) < 2)
-    {
-      this->eraseVertex(v);
-      result.erased[corner] = v;
-    }
-  }
-  return result;
-}
-
 void Mesh::reserve(std::size_t count)
 {
   this->rings_.reserve(count);

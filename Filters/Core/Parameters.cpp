@@ -19,6 +19,7 @@ Parameters Parameters::of(Preset preset, Variant variant, Order order)
     parameters.additionsPerRemoval = 125;
     parameters.removalLimit = 0.;
     parameters.edgeFlips = false;
+    parameters.topologyRules = TopologyRules::Thesis;
     parameters.batchSize = 1;
   }
   return parameters;

@@ -27,6 +27,13 @@ enum class Order
   List   ///< the activity list (chapter 11)
 };
 
+/// By which rules topology is learnt.
+enum class TopologyRules
+{
+  Mended, ///< the thesis's, with what they need to work
+  Thesis  ///< as written (chapter 7)
+};
+
 /// All parameters of a run, with the product's defaults. Equation and section numbers are those of
 /// W. Saleem, A flexible framework for learning-based surface reconstruction, 2004. Ranges stand
 /// with the properties of vtkNeuralMeshAlgorithm and vtkNeuralMesh, which are named alike.
@@ -55,6 +62,13 @@ struct Parameters
   double removalPatience = 10.; ///< C_ec, samples per vertex
   double removalLimit = 0.5;    ///< removals per addition at most, noise filtering; 0 = any
   bool edgeFlips = true;        ///< flips towards regular valences around splits, collapses
+
+  // Topology learning
+  bool topologyLearning = false;
+  TopologyRules topologyRules = TopologyRules::Mended;
+  double topologyPatience = 10.;        ///< C_top, samples per vertex
+  double triangleRemovalFactor = 10.;   ///< alpha_r (7.4)
+  double boundaryMergingFactor = 2.576; ///< alpha_m (7.5)
 
   // The activity list
   double jumpFraction = 1. / 3.; ///< how far a winner jumps, fraction of n

@@ -5,9 +5,16 @@
 
 namespace neuralmesh
 {
+/// Where a vertex on a boundary may go.
+enum class BoundarySmoothing
+{
+  Along,     ///< along the boundary
+  Everywhere ///< as an inner vertex, as the thesis has it
+};
+
 /// Where smoothing moves a vertex: `rate` (alpha_L) times the tangential part of its Laplacian,
 /// (6.2) to (6.4). The normal need not have unit length: L - (L.n) n / (n.n).
-inline Vector4 smoothedInnerPosition(
+inline Vector4 smoothedInTangentPlane(
   const Vector4* positions, Vector4 center, const Ring& ring, float rate)
 {
   static constexpr std::array<float, Ring::Capacity + 1> inverse{ 0.f, 1.f, 1.f / 2.f, 1.f / 3.f,
@@ -15,7 +22,7 @@ inline Vector4 smoothedInnerPosition(
     1.f / 12.f, 1.f / 13.f, 1.f / 14.f, 1.f / 15.f };
   Vector4 sum;
   Vector4 normal;
-  Vector4 previous = positions[ring.back()] - center;
+  Vector4 previous = positions[ring.isOpen() ? ring.front() : ring.back()] - center;
   for (const VertexIndex neighbor : ring)
   {
     const Vector4 edge = positions[neighbor] - center;
@@ -31,7 +38,7 @@ inline Vector4 smoothedInnerPosition(
 
 /// A boundary vertex moves along the boundary only. Across, smoothing would shorten the boundary
 /// and so close openings that are there.
-inline Vector4 smoothedBoundaryPosition(
+inline Vector4 smoothedAlongBoundary(
   const Vector4* positions, Vector4 center, const Ring& ring, float rate)
 {
   const Vector4 first = positions[ring.front()];
@@ -43,11 +50,13 @@ inline Vector4 smoothedBoundaryPosition(
   return center + (rate * along) * tangent;
 }
 
-inline Vector4 smoothedPosition(const Mesh& mesh, VertexIndex v, float rate)
+inline Vector4 smoothedPosition(const Mesh& mesh, VertexIndex v, float rate,
+  BoundarySmoothing onBoundary = BoundarySmoothing::Along)
 {
   const Vector4* positions = mesh.positions().data();
   const Ring& ring = mesh.ring(v);
-  return ring.isOpen() ? smoothedBoundaryPosition(positions, positions[v], ring, rate)
-                       : smoothedInnerPosition(positions, positions[v], ring, rate);
+  return ring.isOpen() && onBoundary == BoundarySmoothing::Along
+    ? smoothedAlongBoundary(positions, positions[v], ring, rate)
+    : smoothedInTangentPlane(positions, positions[v], ring, rate);
 }
 }

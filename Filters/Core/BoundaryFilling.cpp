@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryFilling.h"
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+
+namespace neuralmesh
+{
+namespace
+{
+/// A corner of a boundary, and the square of the edge with which a triangle would close it.
+struct Corner
+{
+  float squaredEdge;
+  VertexIndex vertex;
+  auto operator<=>(const Corner&) const = default;
+};
+
+Corner cornerAt(const Mesh& mesh, VertexIndex v)
+{
+  const Ring& ring = mesh.ring(v);
+  return { squaredNorm(mesh.position(ring.front()) - mesh.position(ring.back())), v };
+}
+
+/// Fills a loop corner by corner; leaves it as it was if it cannot be filled wholly.
+bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLongestEdge)
+{
+  std::priority_queue<Corner, std::vector<Corner>, std::greater<>> corners;
+  const auto consider = [&](VertexIndex v)
+  {
+    const Corner corner = cornerAt(mesh, v);
+    if (corner.squaredEdge < squaredLongestEdge)
+    {
+      corners.push(corner);
+    }
+  };
+  std::for_each(loop.begin(), loop.end(), consider);
+
+  std::vector<Triangle> filled;
+  while (!corners.empty() && filled.size() + 2 < loop.size())
+  {
+    const Corner corner = corners.top();
+    const VertexIndex v = corner.vertex;
+    corners.pop();
+    // Corners change with their neighbours: then they are in the queue again.
+    if (mesh.isBoundary(v) && corner == cornerAt(mesh, v) && mesh.canFill(v))
+    {
+      const Triangle triangle{ mesh.ring(v).front(), v, mesh.ring(v).back() };
+      mesh.fill(v);
+      filled.push_back(triangle);
+      if (mesh.isBoundary(triangle[0]))
+      {
+        consider(triangle[0]);
+        consider(triangle[2]);
+      }
+    }
+  }
+  if (filled.size() + 2 == loop.size())
+  {
+    return true;
+  }
+  for (auto triangle = filled.rbegin(); triangle != filled.rend(); ++triangle)
+  {
+    mesh.removeTriangle(*triangle);
+  }
+  return false;
+}
+}
+
+std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longestEdge)
+{
+  std::size_t filled = 0;
+  for (BoundaryManager::LoopIndex index = 0; index < boundaries.loops().size(); ++index)
+  {
+    const std::vector<VertexIndex> loop = boundaries.vertices(mesh, index);
+    if (!loop.empty() && fillLoop(mesh, loop, float(longestEdge * longestEdge)))
+    {
+      boundaries.retrace(mesh, loop);
+      ++filled;
+    }
+  }
+  return filled;
+}
+}

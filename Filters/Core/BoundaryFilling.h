@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "BoundaryManager.h"
+
+namespace neuralmesh
+{
+/// Fills the loops that can be filled with triangles without edges of `longestEdge` or more: small
+/// holes, and slits. Corner by corner, each time the one with the shortest third edge. Returns the
+/// number of loops filled. Not in the thesis.
+std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longestEdge);
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TopologyLearning.h"
+
+#include "BoundaryFilling.h"
+#include "BoundaryMerging.h"
+#include "TriangleRemoval.h"
+#include "TriangleShape.h"
+
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Below, a mesh is not torn.
+constexpr std::size_t LeastVertices = 20;
+/// Up to this size tearing is undone where it has taken most of the mesh; beyond, so much never
+/// hangs on a few triangles.
+constexpr std::size_t VerticesOfSmallMesh = 1000;
+constexpr double LeastPartLeft = 0.5;
+}
+
+TopologyLearning::TopologyLearning(const Mesh& mesh, const Parameters& parameters)
+  : parameters_(parameters)
+  , boundaries_(mesh)
+{
+}
+
+TopologyLearning::Result TopologyLearning::learn(Mesh& mesh)
+{
+  Result result;
+  const double meanArea = meanTriangleArea(mesh);
+  const double largestArea = this->parameters_.triangleRemovalFactor * meanArea;
+  const double mergingLimit = this->parameters_.boundaryMergingFactor * std::sqrt(meanArea);
+  if (mesh.vertexCount() >= LeastVertices)
+  {
+    const auto size = this->isMended() ? TriangleSize::LongestEdge : TriangleSize::Area;
+    this->removeTriangles(mesh, findLargeTriangles(mesh, largestArea, size), result);
+  }
+  result.mergedBoundaries = mergeBoundaries(mesh, this->boundaries_, mergingLimit,
+    this->isMended() ? LoopDistance::Mean : LoopDistance::Hausdorff);
+  if (this->isMended())
+  {
+    const double longestEdge = std::sqrt(largestArea / EquilateralArea);
+    result.filledBoundaries = fillBoundaries(mesh, this->boundaries_, longestEdge);
+  }
+  return result;
+}
+
+bool TopologyLearning::canRemoveStar(const Mesh& mesh, VertexIndex v) const
+{
+  return this->isMended() && mesh.isBoundary(v) && mesh.vertexCount() >= LeastVertices;
+}
+
+TopologyLearning::Result TopologyLearning::removeStar(Mesh& mesh, VertexIndex v)
+{
+  Result result;
+  this->removeTriangles(mesh, trianglesAt(mesh, v), result);
+  return result;
+}
+
+void TopologyLearning::removeTriangles(
+  Mesh& mesh, std::span<const Triangle> triangles, Result& result)
+{
+  if (triangles.empty())
+  {
+    return;
+  }
+  const bool isSmall = mesh.vertexCount() <= VerticesOfSmallMesh;
+  const Mesh before = isSmall ? mesh : Mesh();
+  const TriangleRemoval removal = neuralmesh::removeTriangles(mesh, triangles);
+  if (isSmall && double(mesh.vertexCount()) < LeastPartLeft * double(before.vertexCount()))
+  {
+    mesh = before;
+    return;
+  }
+  this->boundaries_.retrace(mesh, removal.changed);
+  result.removedTriangles = removal.triangleCount;
+  for (const VertexIndex v : removal.changed)
+  {
+    if (!mesh.isAlive(v))
+    {
+      result.removedVertices.push_back(v);
+    }
+  }
+}
+}
