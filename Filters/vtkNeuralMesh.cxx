@@ -84,6 +84,9 @@ void FillLearningCurve(const std::vector<neuralmesh::LearningCurve::Row>& rows, 
   addCount("Flips", [](const Row& row) { return row.counts.flips; });
   addCount("RejectedSamples", [](const Row& row) { return row.counts.rejectedSamples; });
   addCount("IllegalOperations", [](const Row& row) { return row.counts.illegalOperations; });
+  addCount("RemovedTriangles", [](const Row& row) { return row.counts.removedTriangles; });
+  addCount("MergedBoundaries", [](const Row& row) { return row.counts.mergedBoundaries; });
+  addCount("FilledBoundaries", [](const Row& row) { return row.counts.filledBoundaries; });
 }
 
 vtkNew<vtkPoints> MakePoints(const std::vector<Eigen::Vector3d>& positions, int precision)

@@ -36,7 +36,8 @@
  * `SampleDistanceMean` and `SampleDistanceDeviation` (of the distance from sample to winner over
  * the last NoiseWindow observations, in units of the input), `RegularRatio` (of vertices with
  * valence 6, on a boundary 4), and the counts so far: `Additions`, `Removals`, `Flips`,
- * `RejectedSamples`, `IllegalOperations` (splits and collapses that were due, but not legal).
+ * `RejectedSamples`, `IllegalOperations` (splits and collapses that were due, but not legal); and of
+ * topology learning `RemovedTriangles`, `MergedBoundaries` (pairs) and `FilledBoundaries`.
  *
  * The same input and seed give the same mesh to the byte, on any number of threads; another seed
  * gives another mesh of the same quality. This holds as long as TimeLimit is not met and nobody
@@ -51,8 +52,9 @@
  * A property out of its range is clamped, with a warning; NaN leaves it as it is.
  *
  * @par What it does not do
- * The result has the topology of a sphere: handles and boundaries of the shape are covered by
- * triangles. The mesh approximates: vertices lie near the points, not on them. Interpolation of
+ * Without TopologyLearning the result has the topology of a sphere: handles and boundaries of the
+ * shape are covered by triangles. With it many come out right, but there is no warrant: see
+ * Documentation/Topology.md. The mesh approximates: vertices lie near the points, not on them. Interpolation of
  * the points is done by vtkDelaunay3D or vtkSurfaceReconstructionFilter; where there are reliable
  * oriented normals, vtkSignedDistance with vtkExtractSurface is an alternative.
  *
