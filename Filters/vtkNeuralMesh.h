@@ -54,9 +54,9 @@
  * @par What it does not do
  * Without TopologyLearning the result has the topology of a sphere: handles and boundaries of the
  * shape are covered by triangles. With it many come out right, but there is no warrant: see
- * Documentation/Topology.md. The mesh approximates: vertices lie near the points, not on them. Interpolation of
- * the points is done by vtkDelaunay3D or vtkSurfaceReconstructionFilter; where there are reliable
- * oriented normals, vtkSignedDistance with vtkExtractSurface is an alternative.
+ * Documentation/Topology.md. The mesh approximates: vertices lie near the points, not on them.
+ * Interpolation of the points is done by vtkDelaunay3D or vtkSurfaceReconstructionFilter; where
+ * there are reliable oriented normals, vtkSignedDistance with vtkExtractSurface is an alternative.
  *
  * @par Sources
  * W. Saleem, A flexible framework for learning-based surface reconstruction, Universitaet des

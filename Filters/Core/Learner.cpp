@@ -411,10 +411,7 @@ bool Learner::removeVertex(VertexIndex v)
 
 // --- Topology learning ---------------------------------------------------------------------------
 
-bool Learner::isTopologyDue() const
-{
-  return this->topology_ && this->counts_.iterations >= this->nextTopology_;
-}
+bool Learner::isTopologyDue() const { return this->counts_.iterations >= this->nextTopology_; }
 
 void Learner::learnTopology()
 {

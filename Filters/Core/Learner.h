@@ -12,6 +12,7 @@
 #include "VertexGrid.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -124,7 +125,7 @@ private:
   std::size_t untilObservation_ = 0;
   std::uint64_t nextAddition_ = 0;
   std::uint64_t nextRemoval_ = 0; ///< iteration (basic) or number of additions (noise filtering)
-  std::uint64_t nextTopology_ = 0;
+  std::uint64_t nextTopology_ = std::numeric_limits<std::uint64_t>::max();
   std::size_t nextRenumbering_ = 0;
   std::size_t capacity_ = 0; ///< indices for which there is memory
 };
