@@ -36,8 +36,8 @@ public:
   Eigen::AlignedBox3d GetBox() const;
 
   /**
-   * Makes `center` the origin and `unit` the unit. Only then is there an area to ask for: squares of
-   * lengths neither overflow nor vanish.
+   * Makes `center` the origin and `unit` the unit. Only then is there an area to ask for: squares
+   * of lengths neither overflow nor vanish.
    */
   void Transform(const Eigen::Vector3d& center, double unit);
 

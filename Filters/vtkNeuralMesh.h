@@ -36,8 +36,8 @@
  * `SampleDistanceMean` and `SampleDistanceDeviation` (of the distance from sample to winner over
  * the last NoiseWindow observations, in units of the input), `RegularRatio` (of vertices with
  * valence 6, on a boundary 4), and the counts so far: `Additions`, `Removals`, `Flips`,
- * `RejectedSamples`, `IllegalOperations` (splits and collapses that were due, but not legal); and of
- * topology learning `RemovedTriangles`, `MergedBoundaries` (pairs) and `FilledBoundaries`.
+ * `RejectedSamples`, `IllegalOperations` (splits and collapses that were due, but not legal); and
+ * of topology learning `RemovedTriangles`, `MergedBoundaries` (pairs) and `FilledBoundaries`.
  *
  * The same input and seed give the same mesh to the byte, on any number of threads; another seed
  * gives another mesh of the same quality. This holds as long as TimeLimit is not met and nobody

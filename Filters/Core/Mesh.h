@@ -95,11 +95,11 @@ public:
   struct RemovedTriangle;
   RemovedTriangle removeTriangle(const Triangle& triangle);
 
-  /// Joins two boundary loops by a closed strip of triangles, which makes a handle, or one component
-  /// of two. The strip begins at the edge between the first vertices of both. Each of `alongFirst`
-  /// is a triangle: on the next edge of the first loop, or of the second one. The first loop is in
-  /// the order of its direction (each vertex is followed by the last one in its ring), the second
-  /// one against it.
+  /// Joins two boundary loops by a closed strip of triangles, which makes a handle, or one
+  /// component of two. The strip begins at the edge between the first vertices of both. Each of
+  /// `alongFirst` is a triangle: on the next edge of the first loop, or of the second one. The
+  /// first loop is in the order of its direction (each vertex is followed by the last one in its
+  /// ring), the second one against it.
   bool canJoin(std::span<const VertexIndex> first, std::span<const VertexIndex> second,
     const std::vector<bool>& alongFirst) const;
   void join(std::span<const VertexIndex> first, std::span<const VertexIndex> second,

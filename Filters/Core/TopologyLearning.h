@@ -12,10 +12,10 @@ namespace neuralmesh
 /// The topology-learning add-on (Algorithm 2): tears the mesh where its triangles are large, for
 /// there the cloud has no points, and joins boundaries that have come close, which makes handles.
 ///
-/// The rules as written hardly ever get there. The mended ones judge a triangle by its longest edge,
-/// so that slivers that span an opening go, too; take the mean distance of two loops, where one far
-/// vertex would keep them apart; lay the shortest strip between them; and close what is no wider
-/// than a triangle may be: the cracks that tearing leaves.
+/// The rules as written hardly ever get there. The mended ones judge a triangle by its longest
+/// edge, so that slivers that span an opening go, too; take the mean distance of two loops, where
+/// one far vertex would keep them apart; lay the shortest strip between them; and close what is no
+/// wider than a triangle may be: the cracks that tearing leaves.
 class TopologyLearning
 {
 public:
