@@ -4,6 +4,7 @@
 #include "ErrorCollector.h"
 #include "Interruption.h"
 #include "LearningParameters.h"
+#include "MeshReader.h"
 #include "MeshWriter.h"
 #include "PointReader.h"
 #include "ProgressBar.h"
@@ -38,6 +39,7 @@ struct Options
 {
   std::string Input;
   std::string Output;
+  std::string Initial;
   long long Vertices = 20000;
   int Seed = 1;
   int Variant = vtkNeuralMesh::NOISE_FILTERING;
@@ -110,16 +112,18 @@ void AddChoice(CLI::App* command, const std::string& name, int& choice,
     ->type_name(names);
 }
 
-/** Throws if the filter could not do anything with the points of `input`. */
-void RequireResult(vtkNeuralMesh* filter, const ErrorCollector& errors, const std::string& input)
+/** Throws if the filter could not do anything with what it was given. */
+void RequireResult(vtkNeuralMesh* filter, const ErrorCollector& errors, const Options& options)
 {
   if (errors.HasError())
   {
-    throw std::runtime_error(input + ": " + errors.GetMessage());
+    const std::string first =
+      options.Initial.empty() ? "" : " (first mesh " + options.Initial + ")";
+    throw std::runtime_error(options.Input + first + ": " + errors.GetMessage());
   }
   if (filter->GetOutput()->GetNumberOfPoints() == 0)
   {
-    throw std::runtime_error(input + ": there are no points in it");
+    throw std::runtime_error(options.Input + ": there are no points in it");
   }
 }
 
@@ -128,7 +132,7 @@ int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const Options& opt
   vtkNew<ErrorCollector> errors;
   errors->Observe(filter);
   const RunEstimate estimate = EstimateRun(filter, points);
-  RequireResult(filter, *errors, options.Input);
+  RequireResult(filter, *errors, options);
   std::printf("points     %lld\n", static_cast<long long>(points->GetNumberOfPoints()));
   std::printf("vertices   %lld\n", options.Vertices);
   std::printf("samples    about %.3g million\n", 1e-6 * estimate.Samples);
@@ -151,7 +155,7 @@ void Learn(vtkNeuralMesh* filter, vtkPointSet* points, const Options& options)
   filter->SetInputData(points);
   filter->Update();
   bar->Clear();
-  RequireResult(filter, *errors, options.Input);
+  RequireResult(filter, *errors, options);
 }
 
 int Reconstruct(const Options& options)
@@ -168,6 +172,10 @@ int Reconstruct(const Options& options)
 
   Stopwatch stopwatch;
   const auto points = ReadPoints(options.Input);
+  if (!options.Initial.empty())
+  {
+    filter->SetFirstMeshData(ReadMesh(options.Initial));
+  }
   const double reading = stopwatch.Lap();
   if (options.DryRun)
   {
@@ -226,6 +234,10 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
       "Seed of the random numbers, from 0 on (default 1): the same seed, the same mesh")
     ->check(CLI::Range(0, VTK_INT_MAX).description(""))
     ->type_name("N");
+  command
+    ->add_option("--initial", options->Initial,
+      "Start from the triangles of this file: .ply .vtp .vtk .obj .stl")
+    ->type_name("FILE");
   AddChoice(command, "--method", options->Variant,
     { { "basic", vtkNeuralMesh::BASIC }, { "noise", vtkNeuralMesh::NOISE_FILTERING } },
     "basic: every sample pulls alike; noise (default): samples that are far off pull less");

@@ -11,7 +11,7 @@
 
 namespace
 {
-/// Vertices that are learnt so as to see how fast it goes.
+/// Vertices by which a mesh grows so as to see how fast it goes.
 constexpr vtkIdType TriedVertices = 5000;
 
 /// The program without data, and what is held at the peak beyond the input itself.
@@ -33,7 +33,10 @@ double ValueAt(vtkTable* curve, vtkIdType row, const char* column)
 RunEstimate EstimateRun(vtkNeuralMesh* filter, vtkPointSet* points)
 {
   const double vertices = static_cast<double>(filter->GetNumberOfVertices());
-  filter->SetNumberOfVertices(std::min(filter->GetNumberOfVertices(), TriedVertices));
+  vtkPolyData* first = filter->GetFirstMesh();
+  const vtkIdType firstVertices = first ? first->GetNumberOfPoints() : 0;
+  filter->SetNumberOfVertices(
+    std::min(filter->GetNumberOfVertices(), firstVertices + TriedVertices));
   filter->SetInputData(points);
   filter->Update();
   vtkTable* curve = filter->GetLearningCurve();

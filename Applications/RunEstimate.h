@@ -14,7 +14,7 @@ struct RunEstimate
 };
 
 /**
- * Learns a small mesh with the parameters of `filter` and goes on from its learning curve. Time
+ * Learns a small mesh, or somewhat more of the first one, with the parameters of `filter` and goes on from its learning curve. Time
  * limits and targets of distance are not foreseen: runs that they end take less. Leaves the filter
  * with another input and another result.
  */

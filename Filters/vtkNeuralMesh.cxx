@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMesh.h"
 
+#include "MeshBuilder.h"
 #include "Reconstruction.h"
 #include "vtkPointCloudCollector.h"
 #include "vtkTriangleMeshCollector.h"
@@ -20,6 +21,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <stdexcept>
 
 vtkStandardNewMacro(vtkNeuralMesh);
 
@@ -89,6 +92,17 @@ void FillLearningCurve(const std::vector<neuralmesh::LearningCurve::Row>& rows, 
   addCount("FilledBoundaries", [](const Row& row) { return row.counts.filledBoundaries; });
 }
 
+/// Throws std::runtime_error if there is a first mesh that is none to learn on.
+std::optional<neuralmesh::Mesh> MakeFirstMesh(
+  vtkPolyData* data, const neuralmesh::PointCloud& cloud)
+{
+  if (!data)
+  {
+    return {};
+  }
+  return neuralmesh::buildMesh(vtkTriangleMeshCollector::Collect(data), cloud);
+}
+
 vtkNew<vtkPoints> MakePoints(const std::vector<Eigen::Vector3d>& positions, int precision)
 {
   vtkNew<vtkPoints> points;
@@ -126,6 +140,7 @@ vtkNew<vtkDoubleArray> MakeActivity(const std::vector<double>& activities)
 
 vtkNeuralMesh::vtkNeuralMesh()
 {
+  this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
   this->StallPatience = neuralmesh::Parameters().stallPatience;
 }
@@ -137,6 +152,11 @@ int vtkNeuralMesh::FillInputPortInformation(int port, vtkInformation* info)
   if (!this->Superclass::FillInputPortInformation(port, info))
   {
     return 0;
+  }
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
   }
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
@@ -152,6 +172,20 @@ int vtkNeuralMesh::FillOutputPortInformation(int port, vtkInformation* info)
     return 1;
   }
   return this->Superclass::FillOutputPortInformation(port, info);
+}
+
+void vtkNeuralMesh::SetFirstMeshConnection(vtkAlgorithmOutput* port)
+{
+  this->SetInputConnection(1, port);
+}
+
+void vtkNeuralMesh::SetFirstMeshData(vtkPolyData* mesh) { this->SetInputData(1, mesh); }
+
+vtkPolyData* vtkNeuralMesh::GetFirstMesh()
+{
+  return this->GetNumberOfInputConnections(1) > 0
+    ? vtkPolyData::SafeDownCast(this->GetInputDataObject(1, 0))
+    : nullptr;
 }
 
 vtkTable* vtkNeuralMesh::GetLearningCurve()
@@ -193,6 +227,21 @@ int vtkNeuralMesh::RequestData(
   parameters.parameter = static_cast<decltype(parameters.parameter)>(this->property);
   NEURAL_MESH_FOR_EACH_PARAMETER(SET_PARAMETER)
 #undef SET_PARAMETER
+  std::optional<neuralmesh::Mesh> first;
+  try
+  {
+    first = MakeFirstMesh(vtkPolyData::GetData(inputVector[1]), cloud);
+  }
+  catch (const std::runtime_error& error)
+  {
+    vtkErrorMacro(<< "Learning cannot start from the first mesh: " << error.what() << ".");
+    return 0;
+  }
+  if (first && first->vertexCount() > parameters.numberOfVertices)
+  {
+    vtkWarningMacro(<< "The first mesh has " << first->vertexCount() << " vertices, more than "
+                    << this->NumberOfVertices << ": it comes out as it is.");
+  }
   for (const std::string& warning : parameters.warnings(cloud.points().size()))
   {
     vtkWarningMacro(<< warning);
@@ -213,7 +262,8 @@ int vtkNeuralMesh::RequestData(
     // Not CheckAbort(): it would have the executive throw away the mesh learnt so far.
     return !this->GetAbortExecute();
   };
-  const neuralmesh::Reconstruction result = neuralmesh::reconstruct(cloud, parameters, progress);
+  const neuralmesh::Reconstruction result =
+    neuralmesh::reconstruct(cloud, parameters, progress, std::move(first));
   this->StopReason = neuralmesh::name(result.stopReason).data();
   this->AbortExecute = 0;
   if (result.stopReason == neuralmesh::StopReason::Stalled)

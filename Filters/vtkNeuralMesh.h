@@ -21,6 +21,9 @@
  * An input without points gives an empty output. An input whose points all coincide, or of which
  * none is finite, is an error.
  *
+ * Input port 1, optional: a vtkPolyData with triangles to start from instead of the tetrahedron,
+ * see SetFirstMeshConnection().
+ *
  * @par Output
  * vtkPolyData with triangles: an oriented 2-manifold without unused points; closed components are
  * oriented outwards. Point data:
@@ -52,11 +55,12 @@
  * A property out of its range is clamped, with a warning; NaN leaves it as it is.
  *
  * @par What it does not do
- * Without TopologyLearning the result has the topology of a sphere: handles and boundaries of the
- * shape are covered by triangles. With it many come out right, but there is no warrant: see
- * Documentation/Topology.md. The mesh approximates: vertices lie near the points, not on them.
- * Interpolation of the points is done by vtkDelaunay3D or vtkSurfaceReconstructionFilter; where
- * there are reliable oriented normals, vtkSignedDistance with vtkExtractSurface is an alternative.
+ * Without TopologyLearning the result has the topology of the mesh that it starts from, which is
+ * that of a sphere unless there is a first mesh: handles and boundaries of the shape are covered by
+ * triangles. With it many come out right, but there is no warrant: see Documentation/Topology.md.
+ * The mesh approximates: vertices lie near the points, not on them. Interpolation of the points is
+ * done by vtkDelaunay3D or vtkSurfaceReconstructionFilter; where there are reliable oriented
+ * normals, vtkSignedDistance with vtkExtractSurface is an alternative.
  *
  * @par Sources
  * W. Saleem, A flexible framework for learning-based surface reconstruction, Universitaet des
@@ -83,6 +87,35 @@ public:
   static vtkNeuralMesh* New();
   vtkTypeMacro(vtkNeuralMesh, vtkNeuralMeshAlgorithm)
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Input port 1, the first mesh: triangles from which learning starts, in the coordinates of the
+   * cloud; to go on with the result of an earlier run, to refine an earlier mesh by a new scan, or
+   * to give the topology, which the result then has. Default none: learning starts from a
+   * tetrahedron. See Documentation/FirstMesh.md.
+   *
+   * It must be an oriented 2-manifold, with or without boundary, and lie at the cloud. An error
+   * that names the points is given where it is not: no triangles; an edge of more than two
+   * triangles; two triangles that run along their edge in the same direction; triangles at a point
+   * that are not one fan; a triangle that is there twice or uses a point twice, or a point that
+   * does not exist; a point that is not finite, or farther from the cloud than 10^6 times its size.
+   * vtkCleanPolyData, vtkPolyDataNormals and vtkPolyDataConnectivityFilter mend most of that.
+   *
+   * Polygons become fans of triangles and strips are taken apart; vtkTriangleFilter does it better
+   * for polygons that are not convex. Lines, vertices, attributes and points that no triangle uses
+   * are left out. Vertices of more than 15 neighbours are split; so are boundary edges of a mesh
+   * that could not grow otherwise, such as a single triangle.
+   *
+   * All vertices start with the activity of one win. A first mesh that has NumberOfVertices
+   * vertices or more is not learnt: it comes out as it is, with a warning if it has more. As in any
+   * run, parts of it that are far from all points are removed in time, and closed components are
+   * turned outwards.
+   */
+  void SetFirstMeshConnection(vtkAlgorithmOutput* port);
+  void SetFirstMeshData(vtkPolyData* mesh);
+  vtkPolyData* GetFirstMesh();
+  ///@}
 
   ///@{
   /**

@@ -29,6 +29,10 @@ constexpr std::size_t VerticesInCache = 1 << 15;
 /// Where outliers are rejected, distances count as at most so many epsilon_t in the statistics:
 /// otherwise outliers raise the very limit beyond which they are rejected.
 constexpr float ObservationLimit = 1.5f;
+/// How often the window is filled before a first mesh is learnt, and with how many samples at most:
+/// each time the limit sinks, until it tells outliers.
+constexpr int FirstObservations = 8;
+constexpr std::size_t MostFirstSamples = 1 << 16;
 
 /// Width of a grid cell in mean edges.
 constexpr float EdgesPerCell = 2.f;
@@ -73,12 +77,32 @@ Mesh firstTetrahedron(const PointCloud& cloud)
   const Vector4 center = max(min(meanOf(cloud.points()), cloud.bulkMax()), cloud.bulkMin());
   return Mesh::tetrahedron(center, FirstRadius);
 }
+
+/// Counters with which no vertex counts as idle before it could win: with counters of zero, most of
+/// a large mesh would be removed at once.
+std::unique_ptr<ActivityOrder> orderAfterOneWin(std::size_t count)
+{
+  auto order = std::make_unique<ExactOrder>(count);
+  for (std::size_t v = 0; v < count; ++v)
+  {
+    order->win(VertexIndex(v), 1., 1.);
+  }
+  return order;
+}
 }
 
 Learner::Learner(const PointCloud& cloud, const Parameters& parameters)
   : Learner(cloud, parameters, firstTetrahedron(cloud), std::make_unique<ExactOrder>(4))
 {
   this->isListDue_ = parameters.order == Order::List;
+}
+
+Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh)
+  : Learner(cloud, parameters, mesh, orderAfterOneWin(mesh.indexEnd()))
+{
+  this->isListDue_ = parameters.order == Order::List;
+  this->enterListIfDue();
+  this->observeFirstMesh();
 }
 
 Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh,
@@ -95,12 +119,12 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mes
   this->renumber();
   this->nextAddition_ = std::uint64_t(this->parameters_.samplesPerAddition);
   this->nextRemoval_ = this->removalInterval();
-  this->boundarySmoothing_ = parameters.topologyRules == TopologyRules::Thesis
-    ? BoundarySmoothing::Everywhere
-    : BoundarySmoothing::Along;
   if (this->parameters_.topologyLearning)
   {
     this->topology_.emplace(this->mesh_, this->parameters_);
+    this->boundarySmoothing_ = parameters.topologyRules == TopologyRules::Thesis
+      ? BoundarySmoothing::Everywhere
+      : BoundarySmoothing::Along;
     this->nextTopology_ = this->topologyInterval();
   }
   this->updateDecay();
@@ -218,6 +242,28 @@ void Learner::prepareNoiseFilter(std::size_t batchSize)
   }
 }
 
+void Learner::observeFirstMesh()
+{
+  const std::size_t count =
+    std::min(std::size_t(this->parameters_.noiseWindow), MostFirstSamples / FirstObservations);
+  for (int i = 0; i < FirstObservations; ++i)
+  {
+    const std::span<const Vector4> samples = this->samples_.draw(count);
+    this->prepareNoiseFilter(count);
+    this->findWinners(samples);
+    for (std::size_t sample = 0; sample < count; ++sample)
+    {
+      const Vector4 winner = this->mesh_.position(this->winners_[sample]);
+      this->observe(squaredNorm(samples[sample] - winner));
+    }
+  }
+}
+
+void Learner::observe(float squaredDistance)
+{
+  this->sampleDistances_.add(std::min(std::sqrt(squaredDistance), this->observationLimit_));
+}
+
 void Learner::basicStep(Vector4 sample, VertexIndex winner)
 {
   const Vector4 toSample = sample - this->mesh_.position(winner);
@@ -225,7 +271,7 @@ void Learner::basicStep(Vector4 sample, VertexIndex winner)
   if (this->untilObservation_-- == 0)
   {
     this->untilObservation_ = this->observationStride_ - 1;
-    this->sampleDistances_.add(std::min(std::sqrt(squaredDistance), this->observationLimit_));
+    this->observe(squaredDistance);
   }
   if (squaredDistance > this->rejectionLimit_ * this->rejectionLimit_)
   {
@@ -313,11 +359,7 @@ void Learner::nodeAddition()
     }
     ++this->counts_.additions;
     this->updateDecay();
-    if (this->isListDue_ &&
-      this->mesh_.vertexCount() >= std::size_t(this->parameters_.listVertices))
-    {
-      this->enterList();
-    }
+    this->enterListIfDue();
     return;
   }
 }
@@ -448,8 +490,12 @@ void Learner::follow(const TopologyLearning::Result& result)
   this->counts_.filledBoundaries += result.filledBoundaries;
 }
 
-void Learner::enterList()
+void Learner::enterListIfDue()
 {
+  if (!this->isListDue_ || this->mesh_.vertexCount() < std::size_t(this->parameters_.listVertices))
+  {
+    return;
+  }
   this->isListDue_ = false;
   std::vector<VertexIndex> laziestFirst(this->mesh_.vertexCount());
   for (VertexIndex& v : laziestFirst)

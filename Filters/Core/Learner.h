@@ -42,8 +42,10 @@ public:
   /// holds the vertices of the mesh.
   Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh,
     std::unique_ptr<ActivityOrder> order);
-  /// Starts from a tetrahedron in the middle of the cloud, with exact counters; with the list,
-  /// these are dropped in time.
+  /// Starts from `mesh` with exact counters, as if each vertex had just won once; with the list,
+  /// the counters are dropped as soon as the mesh is large enough.
+  Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh);
+  /// Starts from a tetrahedron in the middle of the cloud.
   Learner(const PointCloud& cloud, const Parameters& parameters);
 
   /// Learns so many samples, batch by batch. Ends early once the mesh has as many vertices as were
@@ -73,6 +75,9 @@ private:
   void findWinners(std::span<const Vector4> samples);
   void prefetchAhead(std::size_t sample) const;
   void prepareNoiseFilter(std::size_t batchSize);
+  /// Takes the distances to a first mesh before it moves: outliers would pull at it at once.
+  void observeFirstMesh();
+  void observe(float squaredDistance);
 
   void basicStep(Vector4 sample, VertexIndex winner);
   void moveVertex(VertexIndex v, Vector4 position)
@@ -91,7 +96,7 @@ private:
   void removeIdleVertices();
   void removeVertices();
   bool removeVertex(VertexIndex v);
-  void enterList();
+  void enterListIfDue();
 
   bool isTopologyDue() const;
   void learnTopology();

@@ -8,6 +8,14 @@
 
 namespace neuralmesh
 {
+Mesh::Mesh(LargeVector<Vector4> positions, LargeVector<Ring> rings)
+  : rings_(std::move(rings))
+  , positions_(std::move(positions))
+  , vertexCount_(rings_.size())
+{
+  assert(this->positions_.size() == this->vertexCount_);
+}
+
 Mesh Mesh::tetrahedron(Vector4 center, float radius)
 {
   const float r = radius / std::sqrt(3.f);

@@ -27,6 +27,8 @@ class Mesh
 {
 public:
   Mesh() = default;
+  /// Vertices of these positions and rings, which must be those of an oriented 2-manifold.
+  Mesh(LargeVector<Vector4> positions, LargeVector<Ring> rings);
 
   /// A regular tetrahedron, outwards oriented.
   static Mesh tetrahedron(Vector4 center, float radius);

@@ -60,9 +60,9 @@ PointCloud::PointCloud(std::span<const Eigen::Vector3d> points)
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& point : finite)
   {
-    const Eigen::Vector3d p = (point - this->center_) / this->size_;
-    if (p.cwiseAbs().maxCoeff() <= FarthestPoint)
+    if (this->takesIn(point))
     {
+      const Eigen::Vector3d p = (point - this->center_) / this->size_;
       scaled.emplace_back(p);
       box.extend(p);
     }

@@ -44,6 +44,11 @@ public:
   {
     return Vector4(Eigen::Vector3d((point - this->center_) / this->size_));
   }
+  /// Whether a finite point is not so far off that it would be dropped.
+  bool takesIn(const Eigen::Vector3d& point) const
+  {
+    return ((point - this->center_) / this->size_).cwiseAbs().maxCoeff() <= FarthestPoint;
+  }
   /// Length of the unit of this cloud in the units of the input.
   double unit() const { return this->size_; }
 

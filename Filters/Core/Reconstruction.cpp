@@ -17,7 +17,7 @@ constexpr std::uint64_t SamplesPerCheck = 4096;
 StopReason learn(Learner& learner, const PointCloud& cloud, const Parameters& parameters,
   LearningCurve& curve, const Progress& progress)
 {
-  StoppingRules rules(cloud, parameters);
+  StoppingRules rules(cloud, parameters, learner.mesh().vertexCount());
   for (;;)
   {
     StopReason reason = rules.check(learner);
@@ -59,11 +59,12 @@ TriangleMesh toInput(const Mesh& mesh, const PointCloud& cloud)
 }
 }
 
-Reconstruction reconstruct(
-  const PointCloud& cloud, const Parameters& parameters, const Progress& progress)
+Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
+  const Progress& progress, std::optional<Mesh> first)
 {
   Reconstruction result;
-  Learner learner(cloud, parameters);
+  Learner learner =
+    first ? Learner(cloud, parameters, std::move(*first)) : Learner(cloud, parameters);
   result.stopReason = learn(learner, cloud, parameters, result.curve, progress);
   result.counts = learner.counts();
 

@@ -6,6 +6,7 @@
 #include "TriangleMesh.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace neuralmesh
@@ -24,8 +25,8 @@ struct Reconstruction
   StopReason stopReason = StopReason::None;
 };
 
-/// Grows a mesh over a cloud that has an extent: from a tetrahedron until a stopping rule is met,
-/// then oriented outwards.
-Reconstruction reconstruct(
-  const PointCloud& cloud, const Parameters& parameters, const Progress& progress);
+/// Grows a mesh over a cloud that has an extent: from `first`, or a tetrahedron if there is none,
+/// until a stopping rule is met, then oriented outwards.
+Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
+  const Progress& progress, std::optional<Mesh> first = {});
 }

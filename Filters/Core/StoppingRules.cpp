@@ -42,9 +42,11 @@ std::string_view name(StopReason reason)
   return "";
 }
 
-StoppingRules::StoppingRules(const PointCloud& cloud, const Parameters& parameters)
+StoppingRules::StoppingRules(
+  const PointCloud& cloud, const Parameters& parameters, std::size_t firstVertices)
   : cloud_(cloud)
   , parameters_(parameters)
+  , firstVertices_(firstVertices)
   , nextCloudDistance_(FirstCloudDistance)
 {
 }
@@ -91,8 +93,10 @@ StopReason StoppingRules::check(const Learner& learner)
 
 double StoppingRules::progress(const Learner& learner)
 {
-  double done = this->samplesUntil(learner.mesh().vertexCount()) /
-    this->samplesUntil(std::size_t(this->parameters_.numberOfVertices));
+  const double first = this->samplesUntil(this->firstVertices_);
+  const double last = this->samplesUntil(std::size_t(this->parameters_.numberOfVertices));
+  double done =
+    (this->samplesUntil(learner.mesh().vertexCount()) - first) / std::max(1., last - first);
   if (this->parameters_.maximumIterations > 0)
   {
     done = std::max(

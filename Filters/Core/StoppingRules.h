@@ -26,7 +26,9 @@ std::string_view name(StopReason reason);
 class StoppingRules
 {
 public:
-  StoppingRules(const PointCloud& cloud, const Parameters& parameters);
+  /// Progress counts from a mesh of so many vertices on.
+  StoppingRules(
+    const PointCloud& cloud, const Parameters& parameters, std::size_t firstVertices = 0);
 
   /// The rule that the learner meets now, or None. To be asked after every batch.
   StopReason check(const Learner& learner);
@@ -44,6 +46,7 @@ private:
 
   const PointCloud& cloud_;
   Parameters parameters_;
+  std::size_t firstVertices_;
   Clock::time_point start_ = Clock::now();
   std::size_t mostVertices_ = 0;
   std::uint64_t lastGrowth_ = 0;

@@ -136,6 +136,37 @@ test_statistics()
   [ ! -e other.ply ] || fail "a mesh was written"
 }
 
+# Promise: --initial starts from the triangles of a file; a bad one is an error that names it, and
+# nothing is written.
+test_initial()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz small.ply --vertices 300
+  local extension
+  for extension in ply vtp obj stl; do
+    expect 0 "$neuralmesh" reconstruct cloud.xyz "small.$extension" --vertices 300
+    expect 0 "$neuralmesh" reconstruct cloud.xyz large.ply --initial "small.$extension" \
+      --vertices 400
+    grep -Eq '^vertices +400$' out || fail "not 400 vertices from .$extension"
+    [ "$(sed -n 's/^samples *\([0-9]*\),.*/\1/p' out)" -lt 30000 ] || fail "it started anew"
+  done
+  expect 0 "$neuralmesh" info large.ply
+  expect 0 "$neuralmesh" reconstruct cloud.xyz same.ply --initial small.ply --vertices 300
+  grep -q '^samples    0, ended by: vertices' out || fail "a mesh of all vertices was learnt"
+  expect 0 "$neuralmesh" reconstruct cloud.xyz other.ply --initial small.ply --vertices 20000 \
+    --dry-run
+  [ ! -e other.ply ] || fail "a dry run wrote a mesh"
+
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n' > bad.obj
+  expect 1 "$neuralmesh" reconstruct cloud.xyz other.ply --initial bad.obj --vertices 300
+  grep -q 'bad.obj.*edge 0-1 has 3 triangles' err || { cat err; fail "the message is another"; }
+  [ "$(wc -l < err)" -eq 1 ] || fail "the message is not one line"
+  expect 1 "$neuralmesh" reconstruct cloud.xyz other.ply --initial missing.ply --vertices 300
+  grep -q 'missing.ply' err || fail "the message does not name the missing file"
+  expect 1 "$neuralmesh" reconstruct cloud.xyz other.ply --initial cloud.xyz --vertices 300
+  grep -q 'cloud.xyz: no mesh' err || fail "a file of points was taken as a mesh"
+  [ ! -e other.ply ] || fail "a mesh was written"
+}
+
 # Promise: a dry run says what it will take, and writes nothing.
 test_dry_run()
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AllocationCounter.h"
 #include "ExactOrder.h"
+#include "LearnerSettings.h"
 #include "ListOrder.h"
 #include "MeshTools.h"
 #include "Reconstruction.h"
@@ -59,43 +60,7 @@ Learner goOnWith(Learner& grown, const Parameters& parameters)
   return { cleanSphere(), parameters, grown.mesh(), std::move(order) };
 }
 
-struct Setting
-{
-  Preset preset;
-  Variant variant;
-  Order order;
-};
-
-std::string settingName(const ::testing::TestParamInfo<Setting>& info)
-{
-  return std::string(info.param.preset == Preset::Default ? "Default" : "Thesis") +
-    (info.param.variant == Variant::Basic ? "Basic" : "NoiseFiltering") +
-    (info.param.order == Order::List ? "List" : "");
-}
-
-class LearnerSettings : public ::testing::TestWithParam<Setting>
-{
-protected:
-  static Parameters parameters(std::uint64_t vertices)
-  {
-    const auto [preset, variant, order] = GetParam();
-    Parameters result = Parameters::of(preset, variant, order);
-    result.numberOfVertices = vertices;
-    result.listVertices = 100;
-    return result;
-  }
-};
-
-INSTANTIATE_TEST_SUITE_P(Learner, LearnerSettings,
-  ::testing::Values(Setting{ Preset::Default, Variant::NoiseFiltering, Order::Exact },
-    Setting{ Preset::Default, Variant::Basic, Order::Exact },
-    Setting{ Preset::Thesis, Variant::NoiseFiltering, Order::Exact },
-    Setting{ Preset::Thesis, Variant::Basic, Order::Exact },
-    Setting{ Preset::Default, Variant::NoiseFiltering, Order::List },
-    Setting{ Preset::Default, Variant::Basic, Order::List },
-    Setting{ Preset::Thesis, Variant::NoiseFiltering, Order::List },
-    Setting{ Preset::Thesis, Variant::Basic, Order::List }),
-  settingName);
+INSTANTIATE_TEST_SUITE_P(Learner, LearnerSettings, allSettings(), settingName);
 }
 
 // A sphere comes out with exactly the vertices asked for, closed, without handles, oriented

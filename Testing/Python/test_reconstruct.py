@@ -7,7 +7,12 @@ import neuralmesh
 import numpy as np
 import support
 from vtkmodules.vtkCommonCore import VTK_DOUBLE, VTK_FLOAT
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import (
+    vtkCellArray,
+    vtkImageData,
+    vtkMultiBlockDataSet,
+    vtkUnstructuredGrid,
+)
 
 
 class Arrays(unittest.TestCase):
@@ -106,6 +111,49 @@ class Datasets(unittest.TestCase):
         self.assertEqual(mesh.GetReferenceCount(), 1)
         # One reference is that of the mesh, one is that of this line.
         self.assertEqual(mesh.GetPoints().GetReferenceCount(), 2)
+
+
+class FirstMesh(unittest.TestCase):
+    # Promise: learning starts from the first mesh, as that of the filter does.
+    def test_same_as_filter(self):
+        cloud = support.sphere()
+        first = neuralmesh.reconstruct(cloud, 100)
+        algorithm = neuralmesh.vtkNeuralMesh()
+        algorithm.SetInputData(support.point_set(cloud))
+        algorithm.SetFirstMeshData(first)
+        algorithm.SetNumberOfVertices(200)
+        algorithm.Update()
+        mesh = neuralmesh.reconstruct(cloud, 200, first_mesh=first)
+        self.assertEqual(support.arrays_of(mesh), support.arrays_of(algorithm.GetOutput()))
+        self.assertEqual(mesh.GetNumberOfPoints(), 200)
+        self.assertTrue(support.is_closed_manifold(mesh))
+        self.assertNotEqual(
+            support.arrays_of(mesh), support.arrays_of(neuralmesh.reconstruct(cloud, 200))
+        )
+
+    # Promise: what is no vtkPolyData, or no manifold, is a ValueError that says so.
+    def test_bad_meshes(self):
+        cloud = support.sphere()
+        for bad in (cloud, "mesh.ply", vtkUnstructuredGrid()):
+            with self.assertRaisesRegex(ValueError, "first_mesh must be a vtkPolyData, not "):
+                neuralmesh.reconstruct(cloud, 200, first_mesh=bad)
+        with self.assertRaisesRegex(ValueError, "first mesh: there are no triangles"):
+            neuralmesh.reconstruct(cloud, 200, first_mesh=support.point_set(cloud))
+        fins = support.point_set(cloud[:5])
+        triangles = vtkCellArray()
+        for tip in (2, 3, 4):
+            triangles.InsertNextCell(3, (0, 1, tip))
+        fins.SetPolys(triangles)
+        with self.assertRaisesRegex(ValueError, "edge 0-1 has 3 triangles"):
+            neuralmesh.reconstruct(cloud, 200, first_mesh=fins)
+
+    # Promise: one that has more vertices than asked for comes out as it is, with a warning.
+    def test_large(self):
+        cloud = support.sphere()
+        first = neuralmesh.reconstruct(cloud, 100)
+        with self.assertWarnsRegex(RuntimeWarning, "100 vertices, more than 50"):
+            mesh = neuralmesh.reconstruct(cloud, 50, first_mesh=first)
+        self.assertEqual(mesh.GetNumberOfPoints(), 100)
 
 
 class BadPoints(unittest.TestCase):

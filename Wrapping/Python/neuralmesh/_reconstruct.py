@@ -28,6 +28,7 @@ def reconstruct(
     variant: str = "noise",
     order: str = "exact",
     preset: str = "default",
+    first_mesh: vtkPolyData | None = None,
     progress: Progress | None = None,
     **parameters: float | bool | str,
 ) -> vtkPolyData:
@@ -45,6 +46,9 @@ def reconstruct(
             Names may be shortened.
         order: How it is known where to grow: "exact" by counters, or "list" by the activity list.
         preset: "default", what measures best; or "thesis", the values of the thesis.
+        first_mesh: Triangles to start from instead of a tetrahedron, in the coordinates of the
+            points: an oriented 2-manifold, with or without boundary, whose topology the result then
+            has. One of as many vertices as are asked for, or more, comes out as it is.
         progress: A function that is called now and then with the fraction that is done, from 0 to
             1. If it returns False, the mesh learnt so far is the result. An exception that it
             raises ends the run and comes out of this function.
@@ -63,7 +67,8 @@ def reconstruct(
 
     Raises:
         ValueError: A parameter is out of its range, which the message names; or there are no
-            points, none that is finite, or none that differs from the others.
+            points, none that is finite, or none that differs from the others; or first_mesh is no
+            vtkPolyData, or its triangles are no oriented manifold: the message names the points.
         TypeError: There is no such parameter.
         RuntimeError: Anything else that VTK finds wrong.
         KeyboardInterrupt: Ctrl-C was pressed. To keep the mesh learnt so far, cancel by progress,
@@ -89,6 +94,10 @@ def reconstruct(
     for name, value in parameters.items():
         assign(mesh, name, value)
     mesh.SetInputData(as_dataset(points))
+    if first_mesh is not None:
+        if not isinstance(first_mesh, vtkPolyData):
+            raise ValueError(f"first_mesh must be a vtkPolyData, not {type(first_mesh).__name__}")
+        mesh.SetFirstMeshData(first_mesh)
 
     execute(mesh, progress)
     result = vtkPolyData()
