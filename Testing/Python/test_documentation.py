@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The tables of properties in the documentation beside the filter itself."""
+
+import pathlib
+import re
+import unittest
+
+from neuralmesh import vtkNeuralMesh, vtkNeuralMeshEnsemble
+
+DOCUMENTATION = pathlib.Path(__file__).parents[2] / "Documentation"
+WORDS = {"on": 1, "off": 0}
+
+
+def rows_of(page):
+    """The rows of the tables with a column `default`, as dictionaries by the names of columns."""
+    header = None
+    for line in page.read_text(encoding="utf-8").splitlines():
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if not line.startswith("|"):
+            header = None
+        elif header is None:
+            header = cells
+        elif "property" in header and "default" in header and not cells[0].startswith("-"):
+            yield dict(zip(header, cells))
+
+
+def value_of(mesh, name):
+    for method in dir(mesh):
+        if method.startswith(f"Set{name}To") and not callable(getattr(mesh, f"Get{name}As", None)):
+            return _chosen(mesh, name)
+    return getattr(mesh, "Get" + name)()
+
+
+def _chosen(mesh, name):
+    """The word for the value of a property with SetXToA, SetXToB and so on."""
+    value = getattr(mesh, "Get" + name)()
+    for method in dir(mesh):
+        if method.startswith(f"Set{name}To"):
+            other = type(mesh)()
+            getattr(other, method)()
+            if getattr(other, "Get" + name)() == value:
+                return " ".join(re.findall("[A-Z][a-z]*", method[len(f"Set{name}To"):])).lower()
+    raise AssertionError(name)
+
+
+class Tables(unittest.TestCase):
+    # Promise: what a page gives as the default of a property, or as its value in the thesis preset of
+    # the variant that the page is about, it is.
+    def test_values(self):
+        variants = {"Basic": "Basic", "NoiseFiltering": "NoiseFiltering", "NormalBased": "NormalBased"}
+        checked = 0
+        for page in DOCUMENTATION.glob("*.md"):
+            for row in rows_of(page):
+                name = row["property"].strip("`")
+                for column in {"default", "thesis"} & set(row):
+                    if not row[column]:
+                        continue
+                    mesh = vtkNeuralMeshEnsemble() if page.stem == "Ensembles" else vtkNeuralMesh()
+                    getattr(mesh, "SetVariantTo" + variants.get(page.stem, "NoiseFiltering"))()
+                    getattr(mesh, "SetPresetTo" + column.capitalize())()
+                    with self.subTest(page=page.name, property=name, column=column):
+                        value = value_of(mesh, name)
+                        shown = WORDS.get(row[column], row[column])
+                        if isinstance(value, str):
+                            self.assertEqual(shown, value)
+                        else:
+                            self.assertAlmostEqual(float(shown), value, places=3)
+                        checked += 1
+        self.assertGreater(checked, 50)
+
+
+if __name__ == "__main__":
+    unittest.main()
