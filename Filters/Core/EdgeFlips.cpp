@@ -56,25 +56,37 @@ bool isRimOfSheets(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c
     squaredNorm(normal2) > sliver && cosine(normal1, normal2) < CosineOfRim;
 }
 
-bool improves(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
+bool isMoreRegular(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
 {
-  return (valenceGain(mesh, a, b, c, d) > 0 && keepsShape(mesh, a, b, c, d)) ||
-    isRimOfSheets(mesh, a, b, c, d);
+  return valenceGain(mesh, a, b, c, d) > 0 && keepsShape(mesh, a, b, c, d);
 }
 
-bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b)
+/// Flips a-b if that is legal and the edge between the opposite vertices is better: for the
+/// valences, or to retract a rim.
+bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims)
 {
   const Ring& ring = mesh.ring(a);
   const unsigned slot = ring.find(b);
   const VertexIndex c = ring.next(slot);
   const VertexIndex d = ring.previous(slot);
-  if (c == NoVertex || d == NoVertex || !improves(mesh, a, b, c, d) || !mesh.canFlip(a, b))
+  if (c == NoVertex || d == NoVertex)
+  {
+    return false;
+  }
+  const bool isBetter =
+    isMoreRegular(mesh, a, b, c, d) || (retractsRims && isRimOfSheets(mesh, a, b, c, d));
+  if (!isBetter || !mesh.canFlip(a, b))
   {
     return false;
   }
   mesh.flip(a, b);
   return true;
 }
+}
+
+bool flipIfMoreRegular(Mesh& mesh, VertexIndex a, VertexIndex b)
+{
+  return flipIfBetter(mesh, a, b, false);
 }
 
 unsigned flipEdgesAround(Mesh& mesh, VertexIndex v)
@@ -90,8 +102,8 @@ unsigned flipEdgesAround(Mesh& mesh, VertexIndex v)
       const VertexIndex neighbor = before[slot];
       const VertexIndex next = before.next(slot);
       const bool opposite = next != NoVertex && mesh.ring(neighbor).contains(next) &&
-        flipIfBetter(mesh, neighbor, next);
-      const bool spoke = mesh.ring(v).contains(neighbor) && flipIfBetter(mesh, v, neighbor);
+        flipIfBetter(mesh, neighbor, next, true);
+      const bool spoke = mesh.ring(v).contains(neighbor) && flipIfBetter(mesh, v, neighbor, true);
       flips += unsigned(opposite) + unsigned(spoke);
       improved = improved || opposite || spoke;
     }

@@ -10,4 +10,8 @@ namespace neuralmesh
 /// is the rim of two sheets back to back, as bridges over gaps are. Returns the number of flips.
 /// Not in the thesis.
 unsigned flipEdgesAround(Mesh& mesh, VertexIndex v);
+
+/// Flips the edge a-b if that is legal, brings valences closer to regular, and nothing folds over or
+/// leans farther apart than before. Returns whether it did.
+bool flipIfMoreRegular(Mesh& mesh, VertexIndex a, VertexIndex b);
 }

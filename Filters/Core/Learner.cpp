@@ -7,6 +7,7 @@
 #include "ListOrder.h"
 #include "Morton.h"
 #include "Smoothing.h"
+#include "VertexRemoval.h"
 #include "VertexSplit.h"
 
 #include <algorithm>
@@ -115,7 +116,14 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mes
   , boxMin_(cloud.bulkMin())
   , boxMax_(cloud.bulkMax())
   , hasWon_(mesh_.indexEnd(), 1)
+  , winGain_(parameters)
 {
+  if (parameters.computeFeatureStrength)
+  {
+    this->featureStrength_.emplace(this->mesh_.indexEnd(), parameters.featureMemory);
+    this->samplesAfterGrowth_ = std::uint64_t(parameters.featureSamples *
+      double(std::max<std::uint64_t>(parameters.numberOfVertices, this->mesh_.vertexCount())));
+  }
   this->renumber();
   this->nextAddition_ = std::uint64_t(this->parameters_.samplesPerAddition);
   this->nextRemoval_ = this->removalInterval();
@@ -133,7 +141,7 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mes
 void Learner::learn(std::uint64_t sampleCount)
 {
   const std::uint64_t end = this->counts_.iterations + sampleCount;
-  while (this->counts_.iterations < end && !this->hasAllVertices())
+  while (this->counts_.iterations < end && !this->isComplete())
   {
     const std::uint64_t left = end - this->counts_.iterations;
     this->learnBatch(std::size_t(std::min<std::uint64_t>(left, this->batchSize())));
@@ -142,11 +150,18 @@ void Learner::learn(std::uint64_t sampleCount)
 
 void Learner::learnBatch(std::size_t size)
 {
+  const bool isGrowing = !this->hasAllVertices();
+  if (!isGrowing)
+  {
+    size = std::size_t(std::min<std::uint64_t>(size, this->samplesAfterGrowth_));
+    this->samplesAfterGrowth_ -= size;
+  }
   this->mesh_.releaseErased();
   const std::span<const Vector4> samples = this->samples_.draw(size);
   this->prepareNoiseFilter(size);
+  this->winGain_.beginBatch(this->observationStride_);
   this->findWinners(samples);
-  for (std::size_t i = 0; i < samples.size() && !this->hasAllVertices(); ++i)
+  for (std::size_t i = 0; i < samples.size() && !(isGrowing && this->hasAllVertices()); ++i)
   {
     this->prefetchAhead(i);
     if (!this->mesh_.isAlive(this->winners_[i]))
@@ -155,6 +170,10 @@ void Learner::learnBatch(std::size_t size)
     }
     this->basicStep(samples[i], this->winners_[i]);
     ++this->counts_.iterations;
+    if (!isGrowing)
+    {
+      continue;
+    }
     if (this->isAdditionDue())
     {
       this->nodeAddition();
@@ -229,7 +248,7 @@ void Learner::prepareNoiseFilter(std::size_t batchSize)
   this->filterThreshold_ = infinity;
   this->observationLimit_ = infinity;
   this->rejectionLimit_ = infinity;
-  if (this->parameters_.variant == Variant::NoiseFiltering && this->sampleDistances_.isFull())
+  if (this->parameters_.filtersNoise() && this->sampleDistances_.isFull())
   {
     this->filterThreshold_ = float(this->sampleDistances_.mean() +
       this->parameters_.noiseTolerance * this->sampleDistances_.deviation());
@@ -284,16 +303,32 @@ void Learner::basicStep(Vector4 sample, VertexIndex winner)
   {
     rate *= this->filterThreshold_ / std::sqrt(squaredDistance);
   }
-  this->moveVertex(winner, this->mesh_.position(winner) + rate * toSample);
+  const Vector4 moved = this->mesh_.position(winner) + rate * toSample;
+  double gain = 1.;
+  if (this->winGain_.isDue(this->counts_.iterations)) [[unlikely]]
+  {
+    gain = this->measureMove(winner, moved);
+  }
+  this->moveVertex(winner, moved);
   for (int i = 0; i < this->parameters_.smoothingIterations; ++i)
   {
     this->smoothNeighbors(winner);
   }
-  this->order_->win(winner, 1., this->decay_);
-  if (this->parameters_.variant == Variant::Basic)
+  this->order_->win(winner, gain, this->decay_);
+  if (!this->parameters_.filtersNoise())
   {
     this->hasWon_[winner] = 1;
   }
+}
+
+double Learner::measureMove(VertexIndex winner, Vector4 position)
+{
+  const double gain = this->winGain_.ofMove(this->mesh_, winner, position);
+  if (this->featureStrength_)
+  {
+    this->featureStrength_->win(winner, this->winGain_.normalGain());
+  }
+  return gain;
 }
 
 void Learner::smoothNeighbors(VertexIndex winner)
@@ -330,7 +365,9 @@ void Learner::nodeAddition()
   for (int attempt = 0; attempt < SplitAttempts; ++attempt)
   {
     const VertexIndex v = this->order_->top();
-    const auto plan = planVertexSplit(this->mesh_, v);
+    const auto plan = this->parameters_.additionOperation == AdditionOperation::EdgeSplit
+      ? planEdgeSplit(this->mesh_, v)
+      : planVertexSplit(this->mesh_, v);
     if (!plan)
     {
       ++this->counts_.illegalOperations;
@@ -347,7 +384,11 @@ void Learner::nodeAddition()
     const double addedArea = restrictedVoronoiArea(this->mesh_, added);
     const double share = area + addedArea > 0. ? area / (area + addedArea) : 0.5;
     this->order_->split(v, added, std::clamp(share, LeastShare, 1. - LeastShare));
-    if (this->parameters_.variant == Variant::Basic)
+    if (this->featureStrength_)
+    {
+      this->featureStrength_->split(v, added);
+    }
+    if (!this->parameters_.filtersNoise())
     {
       this->hasWon_.resize(this->mesh_.indexEnd());
       this->hasWon_[added] = 1;
@@ -366,29 +407,28 @@ void Learner::nodeAddition()
 
 bool Learner::isRemovalDue() const
 {
-  return (this->parameters_.variant == Variant::Basic
-             ? this->counts_.iterations
-             : this->counts_.additions) >= this->nextRemoval_;
+  return (this->parameters_.filtersNoise() ? this->counts_.additions : this->counts_.iterations) >=
+    this->nextRemoval_;
 }
 
 std::uint64_t Learner::removalInterval() const
 {
   // Growth depends on the ratio of C_ec to C_vs, (6.18): patience is with both.
-  return this->parameters_.variant == Variant::Basic
-    ? std::uint64_t(
-        this->patience() * this->parameters_.removalPatience * double(this->mesh_.vertexCount()))
-    : std::uint64_t(this->parameters_.additionsPerRemoval);
+  return this->parameters_.filtersNoise()
+    ? std::uint64_t(this->parameters_.additionsPerRemoval)
+    : std::uint64_t(
+        this->patience() * this->parameters_.removalPatience * double(this->mesh_.vertexCount()));
 }
 
 void Learner::nodeRemoval()
 {
-  if (this->parameters_.variant == Variant::Basic)
+  if (this->parameters_.filtersNoise())
   {
-    this->removeIdleVertices();
+    this->removeVertices();
   }
   else
   {
-    this->removeVertices();
+    this->removeIdleVertices();
   }
   this->nextRemoval_ += this->removalInterval();
   this->updateDecay();
@@ -440,9 +480,19 @@ bool Learner::removeVertex(VertexIndex v)
   {
     this->topology_->boundaries().collapse(v, kept);
   }
+  const RemovalOperation operation = this->parameters_.removalOperation;
+  if (operation == RemovalOperation::FullEdgeCollapse)
+  {
+    this->moveVertex(kept, positionAfterFullCollapse(this->mesh_, v, kept));
+  }
+  const Ring polygon = this->mesh_.ring(v);
   this->mesh_.collapse(v, kept);
   this->grid_.erase(v, this->mesh_.position(v));
   this->order_->erase(v);
+  if (operation == RemovalOperation::VertexDelete)
+  {
+    this->counts_.flips += triangulateAnew(this->mesh_, polygon, kept);
+  }
   if (this->parameters_.edgeFlips)
   {
     this->counts_.flips += flipEdgesAround(this->mesh_, kept);
@@ -497,6 +547,7 @@ void Learner::enterListIfDue()
     return;
   }
   this->isListDue_ = false;
+  this->winGain_.enterList();
   std::vector<VertexIndex> laziestFirst(this->mesh_.vertexCount());
   for (VertexIndex& v : laziestFirst)
   {
@@ -552,6 +603,10 @@ void Learner::renumber()
   this->mesh_.reserve(this->capacity_);
   this->order_->reserve(this->capacity_);
   this->hasWon_.reserve(this->capacity_);
+  if (this->featureStrength_)
+  {
+    this->featureStrength_->renumber(order, this->capacity_);
+  }
   this->grid_.reset(
     this->boxMin_, this->boxMax_, EdgesPerCell * meanEdgeLength(this->mesh_), this->capacity_);
   for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)

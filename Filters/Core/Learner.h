@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ActivityOrder.h"
+#include "FeatureStrength.h"
 #include "Mesh.h"
 #include "MovingStatistics.h"
 #include "Parameters.h"
@@ -10,6 +11,7 @@
 #include "Smoothing.h"
 #include "TopologyLearning.h"
 #include "VertexGrid.h"
+#include "WinGain.h"
 
 #include <cstdint>
 #include <limits>
@@ -48,8 +50,7 @@ public:
   /// Starts from a tetrahedron in the middle of the cloud.
   Learner(const PointCloud& cloud, const Parameters& parameters);
 
-  /// Learns so many samples, batch by batch. Ends early once the mesh has as many vertices as were
-  /// asked for.
+  /// Learns so many samples, batch by batch. Ends early once all is learnt.
   void learn(std::uint64_t sampleCount);
 
   /// Samples in a batch, at the present size of the mesh.
@@ -61,11 +62,21 @@ public:
   /// Distances between samples and winners, in units of the cloud; clipped where outliers are
   /// rejected.
   const MovingStatistics& sampleDistances() const { return this->sampleDistances_; }
+  /// Changes of the winner's normal, delta_w of (8.1).
+  const MovingStatistics& normalChanges() const { return this->winGain_.normalChanges(); }
+  /// Nothing unless it was asked for.
+  const std::optional<FeatureStrength>& featureStrength() const { return this->featureStrength_; }
   const VertexGrid& grid() const { return this->grid_; }
+
   bool hasAllVertices() const
   {
     return this->mesh_.vertexCount() >= this->parameters_.numberOfVertices;
   }
+  /// Samples that are left to be learnt once the mesh has all its vertices, without growth: those
+  /// that feature strength takes.
+  std::uint64_t samplesAfterGrowth() const { return this->samplesAfterGrowth_; }
+  /// Whether there is nothing left to learn.
+  bool isComplete() const { return this->hasAllVertices() && this->samplesAfterGrowth_ == 0; }
 
   /// Vertices in Morton order without gaps, in all structures.
   void renumber();
@@ -85,6 +96,7 @@ private:
     this->grid_.move(v, this->mesh_.position(v), position);
     this->mesh_.setPosition(v, position);
   }
+  double measureMove(VertexIndex winner, Vector4 position);
   void smoothNeighbors(VertexIndex winner);
 
   double patience() const; ///< by which C_vs is multiplied now
@@ -119,8 +131,10 @@ private:
 
   std::vector<VertexIndex> winners_;
   std::array<Vector4, Ring::Capacity> smoothedPositions_;
-  std::vector<std::uint8_t> hasWon_; ///< since the last removal; basic variant only
+  std::vector<std::uint8_t> hasWon_; ///< since the last removal; not if noise is filtered
   BoundarySmoothing boundarySmoothing_ = BoundarySmoothing::Along;
+  WinGain winGain_;
+  std::optional<FeatureStrength> featureStrength_;
   double decay_ = 1.;
   float filterThreshold_ = 0.f; ///< epsilon_t of (9.2)
   float observationLimit_ = 0.f;
@@ -129,8 +143,9 @@ private:
   std::size_t observationStride_ = 1;
   std::size_t untilObservation_ = 0;
   std::uint64_t nextAddition_ = 0;
-  std::uint64_t nextRemoval_ = 0; ///< iteration (basic) or number of additions (noise filtering)
+  std::uint64_t nextRemoval_ = 0; ///< iteration; number of additions if noise is filtered
   std::uint64_t nextTopology_ = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t samplesAfterGrowth_ = 0;
   std::size_t nextRenumbering_ = 0;
   std::size_t capacity_ = 0; ///< indices for which there is memory
 };

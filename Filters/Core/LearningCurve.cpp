@@ -40,6 +40,7 @@ void LearningCurve::add(const Learner& learner, double unit, double seconds)
     .seconds = seconds,
     .sampleDistanceMean = unit * learner.sampleDistances().mean(),
     .sampleDistanceDeviation = unit * learner.sampleDistances().deviation(),
+    .normalChangeMean = learner.normalChanges().mean(),
     .regularRatio = regularRatio(learner.mesh()),
   });
 }

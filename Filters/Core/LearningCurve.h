@@ -18,7 +18,8 @@ public:
     double seconds = 0.;            ///< since the start of the run
     double sampleDistanceMean = 0.; ///< of |s - v_w| over the window, in units of the input
     double sampleDistanceDeviation = 0.;
-    double regularRatio = 0.; ///< vertices of valence 6, on a boundary 4
+    double normalChangeMean = 0.; ///< M_delta of (8.2)
+    double regularRatio = 0.;     ///< vertices of valence 6, on a boundary 4
   };
 
   /// Whether it is time for a row: each comes a twentieth later than the one before, so that all

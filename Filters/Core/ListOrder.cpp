@@ -25,7 +25,8 @@ ListOrder::ListOrder(std::span<const VertexIndex> vertices, double jumpFraction,
 
 std::size_t ListOrder::jumpDistance(double gain) const
 {
-  return std::size_t(gain * this->jumpFraction_ * double(this->list_.size()));
+  const double size = double(this->list_.size());
+  return std::size_t(std::min(gain * this->jumpFraction_ * size, size));
 }
 
 void ListOrder::win(VertexIndex winner, double gain, double)

@@ -13,7 +13,8 @@ Parameters Parameters::of(Preset preset, Variant variant, Order order)
   if (preset == Preset::Thesis)
   {
     parameters.smoothingRate = order == Order::List ? 0.2 : 0.05;
-    parameters.smoothingIterations = variant == Variant::Basic && order == Order::Exact ? 5 : 1;
+    parameters.smoothingIterations =
+      variant != Variant::NoiseFiltering && order == Order::Exact ? 5 : 1;
     parameters.outlierLimit = 0.;
     parameters.earlyPatience = 1.;
     parameters.additionsPerRemoval = 125;
@@ -23,6 +24,30 @@ Parameters Parameters::of(Preset preset, Variant variant, Order order)
     parameters.batchSize = 1;
   }
   return parameters;
+}
+
+std::vector<std::string> Parameters::errors() const
+{
+  std::vector<std::string> errors;
+  if (this->jump != Jump::Constant && this->order == Order::Exact)
+  {
+    errors.push_back("Jump is about the activity list, and Order is EXACT: a Jump other than "
+                     "CONSTANT needs Order LIST. With counters, NORMAL_BASED is the variant that "
+                     "grows by normal activity.");
+  }
+  if (this->jump == Jump::Weighted &&
+    this->constantWeight + this->normalWeight + this->areaWeight + this->volumeWeight <= 0.)
+  {
+    errors.push_back("All weights of the WEIGHTED Jump are 0: one of ConstantWeight, NormalWeight, "
+                     "AreaWeight and VolumeWeight must be above it.");
+  }
+  if (this->topologyLearning && this->variant == Variant::NormalBased)
+  {
+    errors.push_back("TopologyLearning takes large triangles for openings, and NORMAL_BASED makes "
+                     "large triangles where the surface is flat: TopologyLearning needs the Variant "
+                     "NOISE_FILTERING or BASIC.");
+  }
+  return errors;
 }
 
 std::vector<std::string> Parameters::warnings(std::size_t pointCount) const

@@ -77,6 +77,10 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
     result.activities.push_back(learner.order().activity(v));
+    if (learner.featureStrength())
+    {
+      result.featureStrengths.push_back(double((*learner.featureStrength())[v]));
+    }
   }
   return result;
 }

@@ -20,6 +20,7 @@ struct Reconstruction
   TriangleMesh mesh;
   std::vector<Eigen::Vector3d> normals;
   std::vector<double> activities;
+  std::vector<double> featureStrengths; ///< empty unless they were asked for
   RunCounts counts;
   LearningCurve curve;
   StopReason stopReason = StopReason::None;

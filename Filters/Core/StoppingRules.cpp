@@ -32,6 +32,8 @@ std::string_view name(StopReason reason)
       return "sample distance";
     case StopReason::CloudDistance:
       return "cloud distance";
+    case StopReason::NormalChange:
+      return "normal change";
     case StopReason::TimeLimit:
       return "time limit";
     case StopReason::Stalled:
@@ -55,7 +57,7 @@ StopReason StoppingRules::check(const Learner& learner)
 {
   const std::uint64_t iterations = learner.counts().iterations;
   const std::size_t vertices = learner.mesh().vertexCount();
-  if (learner.hasAllVertices())
+  if (learner.isComplete())
   {
     return StopReason::Vertices;
   }
@@ -73,6 +75,11 @@ StopReason StoppingRules::check(const Learner& learner)
   {
     return StopReason::CloudDistance;
   }
+  if (this->parameters_.targetNormalChange > 0. && learner.normalChanges().isFull() &&
+    learner.normalChanges().mean() <= this->parameters_.targetNormalChange)
+  {
+    return StopReason::NormalChange;
+  }
   if (this->parameters_.timeLimit > 0. && this->seconds() >= this->parameters_.timeLimit)
   {
     return StopReason::TimeLimit;
@@ -84,7 +91,7 @@ StopReason StoppingRules::check(const Learner& learner)
   }
   const double patience =
     this->parameters_.stallPatience * double(std::max(this->mostVertices_, LeastVerticesForStall));
-  if (double(iterations - this->lastGrowth_) > patience)
+  if (!learner.hasAllVertices() && double(iterations - this->lastGrowth_) > patience)
   {
     return StopReason::Stalled;
   }
@@ -95,8 +102,12 @@ double StoppingRules::progress(const Learner& learner)
 {
   const double first = this->samplesUntil(this->firstVertices_);
   const double last = this->samplesUntil(std::size_t(this->parameters_.numberOfVertices));
+  // All samples after growth are left as long as the mesh grows.
+  const double left = double(learner.samplesAfterGrowth());
+  this->samplesAfterGrowth_ = std::max(this->samplesAfterGrowth_, left);
   double done =
-    (this->samplesUntil(learner.mesh().vertexCount()) - first) / std::max(1., last - first);
+    (this->samplesUntil(learner.mesh().vertexCount()) - first + this->samplesAfterGrowth_ - left) /
+    std::max(1., last - first + this->samplesAfterGrowth_);
   if (this->parameters_.maximumIterations > 0)
   {
     done = std::max(
@@ -113,7 +124,8 @@ double StoppingRules::progress(const Learner& learner)
 double StoppingRules::samplesUntil(std::size_t vertices) const
 {
   const double early = std::min(double(vertices), double(this->parameters_.earlyVertices));
-  return double(vertices) + early * (this->parameters_.earlyPatience - 1.);
+  return double(this->parameters_.samplesPerAddition) *
+    (double(vertices) + early * (this->parameters_.earlyPatience - 1.));
 }
 
 double StoppingRules::seconds() const

@@ -15,6 +15,7 @@ enum class StopReason
   Iterations,     ///< the most that were allowed
   SampleDistance, ///< mean |s - v_w| is small enough
   CloudDistance,  ///< mean distance from P to M is small enough
+  NormalChange,   ///< mean change of the winner's normal is small enough
   TimeLimit,      ///< the time is over
   Stalled,        ///< the mesh has stopped growing
   Cancelled       ///< by the caller
@@ -51,6 +52,7 @@ private:
   std::size_t mostVertices_ = 0;
   std::uint64_t lastGrowth_ = 0;
   std::size_t nextCloudDistance_;
+  double samplesAfterGrowth_ = 0.;
   double progress_ = 0.;
 };
 }

@@ -8,7 +8,7 @@ namespace neuralmesh
 {
 namespace
 {
-VertexSplit planInnerSplit(const Mesh& mesh, VertexIndex v)
+unsigned slotOfLongestEdge(const Mesh& mesh, VertexIndex v)
 {
   const Ring& ring = mesh.ring(v);
   unsigned longest = 0;
@@ -22,57 +22,72 @@ VertexSplit planInnerSplit(const Mesh& mesh, VertexIndex v)
       longest = slot;
     }
   }
-  // Half of the star around the longest edge. Where it cannot lie evenly around that edge, it
-  // leans to the side whose end then has the lower valence.
-  VertexSplit split;
-  split.steps = std::max(2u, ring.size() / 2);
-  const unsigned before = split.steps / 2;
-  split.first = ring.before(longest, before);
-  if (split.steps % 2 == 1)
-  {
-    const unsigned earlier = ring.before(split.first);
-    const auto excess = [&](unsigned first)
-    {
-      return mesh.valenceExcess(ring[first]) +
-        mesh.valenceExcess(ring[ring.after(first, split.steps)]);
-    };
-    if (excess(earlier) < excess(split.first))
-    {
-      split.first = earlier;
-    }
-  }
-  split.position = 0.5f * (mesh.position(v) + mesh.position(ring[longest]));
-  return split;
+  return longest;
 }
 
-VertexSplit planBoundarySplit(const Mesh& mesh, VertexIndex v)
+/// The first slot of half of the star around the longest edge. Where it cannot lie evenly around
+/// that edge, it leans to the side whose end then has the lower valence.
+unsigned firstOfHalfStar(const Mesh& mesh, const Ring& ring, unsigned longest, unsigned steps)
+{
+  const unsigned first = ring.before(longest, steps / 2);
+  const unsigned earlier = ring.before(first);
+  const auto excess = [&](unsigned slot)
+  {
+    return mesh.valenceExcess(ring[slot]) + mesh.valenceExcess(ring[ring.after(slot, steps)]);
+  };
+  return steps % 2 == 1 && excess(earlier) < excess(first) ? earlier : first;
+}
+
+/// Around the longest edge, `steps` of the ring.
+VertexSplit planInnerSplit(const Mesh& mesh, VertexIndex v, unsigned steps)
+{
+  const Ring& ring = mesh.ring(v);
+  const unsigned longest = slotOfLongestEdge(mesh, v);
+  return { .first = firstOfHalfStar(mesh, ring, longest, steps),
+    .steps = steps,
+    .position = 0.5f * (mesh.position(v) + mesh.position(ring[longest])) };
+}
+
+/// From the longest boundary edge, `steps` of the ring.
+VertexSplit planBoundarySplit(const Mesh& mesh, VertexIndex v, unsigned steps)
 {
   const Ring& ring = mesh.ring(v);
   const Vector4 center = mesh.position(v);
   const Vector4 first = mesh.position(ring.front());
   const Vector4 last = mesh.position(ring.back());
   const bool alongFirst = squaredNorm(first - center) >= squaredNorm(last - center);
-  VertexSplit split;
-  split.steps = ring.size() / 2;
-  split.first = alongFirst ? 0 : ring.size() - 1 - split.steps;
-  split.position = 0.5f * (center + (alongFirst ? first : last));
+  return { .first = alongFirst ? 0 : ring.size() - 1 - steps,
+    .steps = steps,
+    .position = 0.5f * (center + (alongFirst ? first : last)) };
+}
+
+std::optional<VertexSplit> planSplit(
+  const Mesh& mesh, VertexIndex v, unsigned innerSteps, unsigned boundarySteps)
+{
+  const bool isBoundary = mesh.isBoundary(v);
+  if (isBoundary && mesh.valence(v) < 4)
+  {
+    return std::nullopt;
+  }
+  const VertexSplit split = isBoundary ? planBoundarySplit(mesh, v, boundarySteps)
+                                       : planInnerSplit(mesh, v, innerSteps);
+  if (!mesh.canSplit(v, split.first, split.steps))
+  {
+    return std::nullopt;
+  }
   return split;
 }
 }
 
 std::optional<VertexSplit> planVertexSplit(const Mesh& mesh, VertexIndex v)
 {
-  if (mesh.isBoundary(v) && mesh.valence(v) < 4)
-  {
-    return std::nullopt;
-  }
-  const VertexSplit split =
-    mesh.isBoundary(v) ? planBoundarySplit(mesh, v) : planInnerSplit(mesh, v);
-  if (!mesh.canSplit(v, split.first, split.steps))
-  {
-    return std::nullopt;
-  }
-  return split;
+  const unsigned half = mesh.valence(v) / 2;
+  return planSplit(mesh, v, std::max(2u, half), half);
+}
+
+std::optional<VertexSplit> planEdgeSplit(const Mesh& mesh, VertexIndex v)
+{
+  return planSplit(mesh, v, 2, 1);
 }
 
 double restrictedVoronoiArea(const Mesh& mesh, VertexIndex v)

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Ring.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// How strongly the vertices tell of features: the normal counters of (8.5), which are averages and
+/// do not decay.
+class FeatureStrength
+{
+public:
+  /// `memory` is alpha_fd: what a win leaves of the strength before it.
+  FeatureStrength(std::size_t count, double memory)
+    : memory_(float(memory))
+    , strengths_(count, 0.f)
+  {
+  }
+
+  /// `winner` won, and its normal turned by `gain` times the mean, n_delta.
+  void win(VertexIndex winner, double gain)
+  {
+    float& strength = this->strengths_[winner];
+    strength = this->memory_ * strength + (1.f - this->memory_) * float(gain);
+  }
+  /// `added` came out of a split of `split`: it is where that was.
+  void split(VertexIndex split, VertexIndex added)
+  {
+    this->strengths_.resize(std::max<std::size_t>(this->strengths_.size(), added + 1));
+    this->strengths_[added] = this->strengths_[split];
+  }
+  float operator[](VertexIndex v) const { return this->strengths_[v]; }
+
+  /// As Mesh::renumber(), with memory for `capacity` indices.
+  void renumber(std::span<const VertexIndex> order, std::size_t capacity)
+  {
+    std::vector<float> strengths;
+    strengths.reserve(capacity);
+    for (const VertexIndex v : order)
+    {
+      strengths.push_back(this->strengths_[v]);
+    }
+    this->strengths_ = std::move(strengths);
+  }
+
+private:
+  float memory_;
+  std::vector<float> strengths_;
+};
+}
