@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <span>
@@ -37,6 +38,11 @@ inline std::vector<Triangle> canonical(std::vector<Triangle> triangles)
   }
   std::sort(triangles.begin(), triangles.end());
   return triangles;
+}
+
+inline Mesh::Removal removeTriangle(Mesh& mesh, const Triangle& triangle)
+{
+  return mesh.removeTriangles(std::span(&triangle, 1));
 }
 
 inline ManifoldReport reportOf(const Mesh& mesh)
@@ -107,7 +113,7 @@ inline VertexIndex insertIntoTriangle(Mesh& mesh, VertexIndex v, unsigned slot)
 inline Mesh makeFan(unsigned rim)
 {
   Mesh mesh = Mesh::tetrahedron({}, 1.f);
-  mesh.removeTriangle({ 1, 3, 2 });
+  removeTriangle(mesh, { 1, 3, 2 });
   while (mesh.valence(0) < rim)
   {
     mesh.split(1, 0, 1, {});
@@ -170,13 +176,13 @@ inline Mesh makeRandomMesh(std::size_t vertices, Random& random)
   return mesh;
 }
 
-/// Removes random triangles, with those that become isolated.
+/// Removes random triangles, with those that go with them.
 inline void tear(Mesh& mesh, unsigned triangles, Random& random)
 {
   for (unsigned i = 0; i < triangles; ++i)
   {
     const std::vector<Triangle> all = trianglesOf(mesh);
-    mesh.removeTriangle(all[random.below(std::uint32_t(all.size()))]);
+    removeTriangle(mesh, all[random.below(std::uint32_t(all.size()))]);
   }
 }
 
@@ -223,5 +229,34 @@ inline std::vector<Triangle> without(std::vector<Triangle> triangles, const Tria
   std::erase_if(
     triangles, [&](const Triangle& other) { return canonical({ other }).front() == removed; });
   return triangles;
+}
+
+/// Whether two triangles have the same three corners.
+inline bool hasTwins(const std::vector<Triangle>& triangles)
+{
+  std::set<Triangle> sets;
+  return std::any_of(triangles.begin(), triangles.end(),
+    [&](Triangle triangle)
+    {
+      std::sort(triangle.begin(), triangle.end());
+      return !sets.insert(triangle).second;
+    });
+}
+
+inline std::size_t highestValence(const std::vector<Triangle>& triangles)
+{
+  std::map<VertexIndex, std::set<VertexIndex>> neighbors;
+  std::size_t highest = 0;
+  for (const Triangle& triangle : triangles)
+  {
+    for (unsigned k = 0; k < 3; ++k)
+    {
+      auto& set = neighbors[triangle[k]];
+      set.insert(triangle[(k + 1) % 3]);
+      set.insert(triangle[(k + 2) % 3]);
+      highest = std::max(highest, set.size());
+    }
+  }
+  return highest;
 }
 }
