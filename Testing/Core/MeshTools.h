@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <span>
@@ -223,5 +224,34 @@ inline std::vector<Triangle> without(std::vector<Triangle> triangles, const Tria
   std::erase_if(
     triangles, [&](const Triangle& other) { return canonical({ other }).front() == removed; });
   return triangles;
+}
+
+/// Whether two triangles have the same three corners.
+inline bool hasTwins(const std::vector<Triangle>& triangles)
+{
+  std::set<Triangle> sets;
+  return std::any_of(triangles.begin(), triangles.end(),
+    [&](Triangle triangle)
+    {
+      std::sort(triangle.begin(), triangle.end());
+      return !sets.insert(triangle).second;
+    });
+}
+
+inline std::size_t highestValence(const std::vector<Triangle>& triangles)
+{
+  std::map<VertexIndex, std::set<VertexIndex>> neighbors;
+  std::size_t highest = 0;
+  for (const Triangle& triangle : triangles)
+  {
+    for (unsigned k = 0; k < 3; ++k)
+    {
+      auto& set = neighbors[triangle[k]];
+      set.insert(triangle[(k + 1) % 3]);
+      set.insert(triangle[(k + 2) % 3]);
+      highest = std::max(highest, set.size());
+    }
+  }
+  return highest;
 }
 }

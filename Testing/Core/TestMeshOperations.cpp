@@ -22,34 +22,6 @@ std::vector<Triangle> splitAlong(std::vector<Triangle> triangles, VertexIndex v,
   return triangles;
 }
 
-bool hasTwins(const std::vector<Triangle>& triangles)
-{
-  std::set<Triangle> sets;
-  return std::any_of(triangles.begin(), triangles.end(),
-    [&](Triangle triangle)
-    {
-      std::sort(triangle.begin(), triangle.end());
-      return !sets.insert(triangle).second;
-    });
-}
-
-std::size_t highestValence(const std::vector<Triangle>& triangles)
-{
-  std::map<VertexIndex, std::set<VertexIndex>> neighbors;
-  std::size_t highest = 0;
-  for (const Triangle& triangle : triangles)
-  {
-    for (unsigned k = 0; k < 3; ++k)
-    {
-      auto& set = neighbors[triangle[k]];
-      set.insert(triangle[(k + 1) % 3]);
-      set.insert(triangle[(k + 2) % 3]);
-      highest = std::max(highest, set.size());
-    }
-  }
-  return highest;
-}
-
 /// Random operations on a mesh, each of them done on its bare triangles, too, and checked there: a
 /// mesh must allow what leaves a manifold of the same topology, and do just that.
 class RandomOperations
