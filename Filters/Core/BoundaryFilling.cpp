@@ -60,10 +60,7 @@ bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLon
   {
     return true;
   }
-  for (auto triangle = filled.rbegin(); triangle != filled.rend(); ++triangle)
-  {
-    mesh.removeTriangle(*triangle);
-  }
+  mesh.removeTriangles(filled);
   return false;
 }
 }

@@ -63,6 +63,13 @@ std::size_t Mesh::triangleCount() const
   return corners / 3;
 }
 
+bool Mesh::contains(const Triangle& triangle) const
+{
+  const Ring& ring = this->ring(triangle[0]);
+  const unsigned slot = ring.find(triangle[1]);
+  return slot < ring.size() && ring.next(slot) == triangle[2];
+}
+
 bool Mesh::canSplit(VertexIndex v, unsigned first, unsigned steps) const
 {
   const Ring& ring = this->ring(v);

@@ -75,6 +75,7 @@ public:
     }
   }
   std::size_t triangleCount() const;
+  bool contains(const Triangle& triangle) const;
 
   /// Vertex split of `v` along the edges in the slots `first` and `first + steps` of its ring
   /// (counter-clockwise, steps >= 1): the new vertex takes over the edges from the one to the other
@@ -92,10 +93,11 @@ public:
   bool canFlip(VertexIndex a, VertexIndex b) const;
   void flip(VertexIndex a, VertexIndex b);
 
-  /// Removes a triangle. Where its removal would leave two fans at a vertex, the smaller one gets a
-  /// vertex of its own at the same place; vertices left without triangles are erased.
-  struct RemovedTriangle;
-  RemovedTriangle removeTriangle(const Triangle& triangle);
+  /// Removes triangles, and more where two fans would be left at a vertex: then the smaller one
+  /// goes, too (Figure 7.3). Vertices without triangles are erased. Triangles that are not there are
+  /// passed over.
+  struct Removal;
+  Removal removeTriangles(std::span<const Triangle> triangles);
 
   /// Joins two boundary loops by a closed strip of triangles, which makes a handle, or one
   /// component of two. The strip begins at the edge between the first vertices of both. Each of
@@ -132,15 +134,10 @@ private:
   std::size_t vertexCount_ = 0;
 };
 
-/// What removeTriangle() did: up to three vertices each, the rest NoVertex.
-struct Mesh::RemovedTriangle
+/// What removeTriangles() did.
+struct Mesh::Removal
 {
-  struct Duplicate
-  {
-    VertexIndex original = NoVertex;
-    VertexIndex duplicate = NoVertex;
-  };
-  std::array<Duplicate, 3> duplicates;
-  std::array<VertexIndex, 3> erased{ NoVertex, NoVertex, NoVertex };
+  std::vector<VertexIndex> vertices; ///< where something was removed; some, or all, may be gone
+  std::size_t triangleCount = 0;
 };
 }

@@ -3,7 +3,9 @@
 #include "Mesh.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cassert>
+#include <map>
 #include <utility>
 
 namespace neuralmesh
@@ -25,64 +27,98 @@ std::vector<std::pair<VertexIndex, VertexIndex>> stripEdges(std::span<const Vert
   }
   return edges;
 }
+
+/// Triangles at a vertex, by the slots of their first neighbours.
+using Slots = std::bitset<Ring::Capacity>;
+
+/// Triangles at a vertex, each beside the next.
+struct Fan
+{
+  unsigned first = 0; ///< slot
+  unsigned triangleCount = 0;
+
+  bool contains(const Ring& ring, unsigned slot) const
+  {
+    return ring.before(slot, this->first) < this->triangleCount;
+  }
+};
+
+/// The largest fan that is left at a vertex without the triangles in `removed`, which are some; of
+/// equally large ones the first.
+Fan largestFan(const Ring& ring, const Slots& removed)
+{
+  unsigned begin = 0;
+  while (!ring.isOpen() && !removed[begin])
+  {
+    ++begin;
+  }
+  Fan largest, fan;
+  for (unsigned i = 0; i < ring.triangleCount(); ++i)
+  {
+    const unsigned slot = ring.after(begin, i);
+    fan = removed[slot] ? Fan{ ring.after(slot), 0 } : Fan{ fan.first, fan.triangleCount + 1 };
+    largest = fan.triangleCount > largest.triangleCount ? fan : largest;
+  }
+  return largest;
+}
 }
 
-Mesh::RemovedTriangle Mesh::removeTriangle(const Triangle& triangle)
+Mesh::Removal Mesh::removeTriangles(std::span<const Triangle> triangles)
 {
-  RemovedTriangle result;
-  // Where a fan falls into two: the slot of the last neighbour of its first part.
-  std::array<int, 3> gaps{ -1, -1, -1 };
-  for (unsigned corner = 0; corner < 3; ++corner)
+  // First what goes, until no vertex is left with two fans; then all at once.
+  std::map<VertexIndex, Slots> removed;
+  std::vector<VertexIndex> changed;
+  const auto remove = [&](const Triangle& triangle)
   {
-    Ring& ring = this->rings_[triangle[corner]];
-    const unsigned slot = ring.find(triangle[(corner + 1) % 3]);
-    assert(ring.next(slot) == triangle[(corner + 2) % 3]);
-    if (!ring.isOpen())
+    for (unsigned corner = 0; corner < 3; ++corner)
     {
-      ring.rotateToFront(ring.after(slot));
-      ring.setOpen(true);
+      const VertexIndex v = triangle[corner];
+      removed[v].set(this->ring(v).find(triangle[(corner + 1) % 3]));
+      changed.push_back(v);
     }
-    else if (slot == 0)
+  };
+  for (const Triangle& triangle : triangles)
+  {
+    if (this->contains(triangle))
     {
-      ring.erase(0);
-    }
-    else if (slot + 2 == ring.size())
-    {
-      ring.erase(slot + 1);
-    }
-    else
-    {
-      gaps[corner] = int(slot);
+      remove(triangle);
     }
   }
-  for (unsigned corner = 0; corner < 3; ++corner)
+  while (!changed.empty())
   {
-    const VertexIndex v = triangle[corner];
-    if (gaps[corner] >= 0)
+    const VertexIndex v = changed.back();
+    changed.pop_back();
+    const Ring& ring = this->ring(v);
+    const Fan fan = largestFan(ring, removed[v]);
+    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
     {
-      const Ring ring = this->ring(v);
-      const unsigned firstCount = unsigned(gaps[corner]) + 1;
-      const std::span<const VertexIndex> all(ring.begin(), ring.end());
-      const auto first = all.first(firstCount);
-      const auto second = all.subspan(firstCount);
-      const bool keepFirst = first.size() >= second.size();
-      const auto smaller = keepFirst ? second : first;
-      const VertexIndex duplicate = this->newVertex(this->position(v));
-      this->rings_[v].assign(keepFirst ? first : second, true);
-      this->rings_[duplicate].assign(smaller, true);
-      for (const VertexIndex neighbor : smaller)
+      if (!removed[v][slot] && !fan.contains(ring, slot))
       {
-        Ring& neighborRing = this->rings_[neighbor];
-        neighborRing.replace(neighborRing.find(v), duplicate);
+        remove({ v, ring[slot], ring[ring.after(slot)] });
       }
-      result.duplicates[corner] = { v, duplicate };
     }
-    else if (this->valence(v) < 2)
+  }
+
+  Removal result;
+  for (const auto& [v, slots] : removed)
+  {
+    result.vertices.push_back(v);
+    result.triangleCount += slots.count();
+    const Ring ring = this->ring(v);
+    const Fan fan = largestFan(ring, slots);
+    if (fan.triangleCount == 0)
     {
       this->eraseVertex(v);
-      result.erased[corner] = v;
+      continue;
     }
+    std::array<VertexIndex, Ring::Capacity> neighbors{};
+    for (unsigned i = 0; i <= fan.triangleCount; ++i)
+    {
+      neighbors[i] = ring[ring.after(fan.first, i)];
+    }
+    this->rings_[v].assign(std::span(neighbors).first(fan.triangleCount + 1), true);
   }
+  result.triangleCount /= 3;
   return result;
 }
 

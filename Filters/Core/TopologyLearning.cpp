@@ -68,15 +68,15 @@ void TopologyLearning::removeTriangles(
   }
   const bool isSmall = mesh.vertexCount() <= VerticesOfSmallMesh;
   const Mesh before = isSmall ? mesh : Mesh();
-  const TriangleRemoval removal = neuralmesh::removeTriangles(mesh, triangles);
+  const Mesh::Removal removal = mesh.removeTriangles(triangles);
   if (isSmall && double(mesh.vertexCount()) < LeastPartLeft * double(before.vertexCount()))
   {
     mesh = before;
     return;
   }
-  this->boundaries_.retrace(mesh, removal.changed);
+  this->boundaries_.retrace(mesh, removal.vertices);
   result.removedTriangles = removal.triangleCount;
-  for (const VertexIndex v : removal.changed)
+  for (const VertexIndex v : removal.vertices)
   {
     if (!mesh.isAlive(v))
     {

@@ -3,7 +3,6 @@
 
 #include "Mesh.h"
 
-#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -21,16 +20,4 @@ double meanTriangleArea(const Mesh& mesh);
 std::vector<Triangle> findLargeTriangles(const Mesh& mesh, double limit, TriangleSize size);
 
 std::vector<Triangle> trianglesAt(const Mesh& mesh, VertexIndex v);
-
-/// The vertices at which something was removed; some of them, or all, may be gone.
-struct TriangleRemoval
-{
-  std::vector<VertexIndex> changed;
-  std::size_t triangleCount = 0;
-};
-
-/// Removes triangles, and more where that is needed for the mesh to stay a manifold: where two fans
-/// would be left at a vertex, the smaller one goes, too (Figure 7.3). Vertices without triangles
-/// vanish. Triangles that are no more there are passed over.
-TriangleRemoval removeTriangles(Mesh& mesh, std::span<const Triangle> triangles);
 }

@@ -138,14 +138,14 @@ struct Tube
     std::vector<Triangle> triangles = trianglesOf(this->mesh);
     std::erase_if(triangles,
       [&](const Triangle& triangle) { return !isIn(triangle, above) || !isIn(triangle, below); });
-    removeTriangles(this->mesh, triangles);
+    this->mesh.removeTriangles(triangles);
   }
 
   /// Removes the triangles above the first ring, and below the last one.
   void cutEnds()
   {
-    removeTriangles(this->mesh, trianglesAt(this->mesh, this->top));
-    removeTriangles(this->mesh, trianglesAt(this->mesh, this->bottom));
+    this->mesh.removeTriangles(trianglesAt(this->mesh, this->top));
+    this->mesh.removeTriangles(trianglesAt(this->mesh, this->bottom));
   }
 };
 

@@ -40,6 +40,11 @@ inline std::vector<Triangle> canonical(std::vector<Triangle> triangles)
   return triangles;
 }
 
+inline Mesh::Removal removeTriangle(Mesh& mesh, const Triangle& triangle)
+{
+  return mesh.removeTriangles(std::span(&triangle, 1));
+}
+
 inline ManifoldReport reportOf(const Mesh& mesh)
 {
   return checkManifold(mesh.indexEnd(), trianglesOf(mesh));
@@ -108,7 +113,7 @@ inline VertexIndex insertIntoTriangle(Mesh& mesh, VertexIndex v, unsigned slot)
 inline Mesh makeFan(unsigned rim)
 {
   Mesh mesh = Mesh::tetrahedron({}, 1.f);
-  mesh.removeTriangle({ 1, 3, 2 });
+  removeTriangle(mesh, { 1, 3, 2 });
   while (mesh.valence(0) < rim)
   {
     mesh.split(1, 0, 1, {});
@@ -171,13 +176,13 @@ inline Mesh makeRandomMesh(std::size_t vertices, Random& random)
   return mesh;
 }
 
-/// Removes random triangles, with those that become isolated.
+/// Removes random triangles, with those that go with them.
 inline void tear(Mesh& mesh, unsigned triangles, Random& random)
 {
   for (unsigned i = 0; i < triangles; ++i)
   {
     const std::vector<Triangle> all = trianglesOf(mesh);
-    mesh.removeTriangle(all[random.below(std::uint32_t(all.size()))]);
+    removeTriangle(mesh, all[random.below(std::uint32_t(all.size()))]);
   }
 }
 

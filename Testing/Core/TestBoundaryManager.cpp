@@ -189,8 +189,7 @@ private:
 
   std::string removeTriangles(const std::vector<Triangle>& triangles)
   {
-    this->boundaries_.retrace(
-      this->mesh_, neuralmesh::removeTriangles(this->mesh_, triangles).changed);
+    this->boundaries_.retrace(this->mesh_, this->mesh_.removeTriangles(triangles).vertices);
     return this->count("removal", true);
   }
 
@@ -307,7 +306,7 @@ TEST(BoundaryManager, OtherLoopsStayAsTheyAre)
   ASSERT_TRUE(tube.mesh.canCollapse(added, v));
   boundaries.collapse(added, v);
   tube.mesh.collapse(added, v);
-  boundaries.retrace(tube.mesh, removeTriangles(tube.mesh, trianglesAt(tube.mesh, v)).changed);
+  boundaries.retrace(tube.mesh, tube.mesh.removeTriangles(trianglesAt(tube.mesh, v)).vertices);
   EXPECT_EQ(boundaries.vertices(tube.mesh, boundaries.loopOf(tube.rings.back()[4])).size(), 9u);
   EXPECT_EQ(boundaries.loopOf(tube.rings.front().front()), loop);
   EXPECT_EQ(boundaries.loops()[loop].first, before.first);

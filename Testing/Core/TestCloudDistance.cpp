@@ -147,7 +147,7 @@ TEST(CloudDistance, SurfaceOfSphere)
 TEST(CloudDistance, TriangleBesideTheClosestVertex)
 {
   Mesh mesh = makeFan(3);
-  mesh.removeTriangle({ 0, mesh.ring(0)[0], mesh.ring(0)[1] });
+  removeTriangle(mesh, { 0, mesh.ring(0)[0], mesh.ring(0)[1] });
   const Ring ring = mesh.ring(0);
   ASSERT_EQ(mesh.triangleCount(), 2u);
   // Two triangles at an edge of length 2, the one low, the other high.
