@@ -26,6 +26,15 @@ Corner cornerAt(const Mesh& mesh, VertexIndex v)
 /// Fills a loop corner by corner; leaves it as it was if it cannot be filled wholly.
 bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLongestEdge)
 {
+  const auto isTooLong = [&](VertexIndex v)
+  {
+    const Vector4 edge = mesh.position(mesh.ring(v).back()) - mesh.position(v);
+    return squaredNorm(edge) >= squaredLongestEdge;
+  };
+  if (std::any_of(loop.begin(), loop.end(), isTooLong))
+  {
+    return false;
+  }
   std::priority_queue<Corner, std::vector<Corner>, std::greater<>> corners;
   const auto consider = [&](VertexIndex v)
   {

@@ -29,7 +29,7 @@ public:
     {
       const std::string operation = this->operate();
       std::string wrong = defectOf(this->boundaries_, this->mesh_);
-      if (wrong.empty() && i % 10 == 0)
+      if (wrong.empty() && i % 20 == 0)
       {
         wrong = defectOf(this->mesh_);
       }
