@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Learner.h"
 
-#include "EdgeFlips.h"
 #include "ExactOrder.h"
-#include "HalfEdgeCollapse.h"
-#include "ListOrder.h"
 #include "Morton.h"
 #include "Smoothing.h"
-#include "VertexRemoval.h"
-#include "VertexSplit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +19,9 @@ constexpr std::size_t VerticesPerSampleOfBatch = 8;
 /// samples would all lie in one corner of the cloud.
 constexpr std::size_t ObservationsPerBatch = 250;
 constexpr std::size_t PrefetchDistance = 8;
-/// Meshes up to this size stay in the cache by themselves, more or less.
+/// Meshes up to this size stay in the nearer cache by themselves, more or less; up to that size in
+/// the next one.
+constexpr std::size_t VerticesInNearCache = 1 << 12;
 constexpr std::size_t VerticesInCache = 1 << 15;
 
 /// Where outliers are rejected, distances count as at most so many epsilon_t in the statistics:
@@ -39,11 +36,6 @@ constexpr std::size_t MostFirstSamples = 1 << 16;
 constexpr float EdgesPerCell = 2.f;
 /// Vertices are renumbered and the grid is made anew whenever there are so many times more.
 constexpr double GrowthUntilRenumbering = 1.4;
-
-/// Splits tried in a Node Addition before it is given up.
-constexpr int SplitAttempts = 8;
-/// Bounds of the share of activity that a vertex keeps in a split.
-constexpr double LeastShare = 0.05;
 
 /// Radius of the first tetrahedron; the bulk of the cloud has a diagonal of 1.
 constexpr float FirstRadius = 0.1f;
@@ -161,7 +153,7 @@ void Learner::learnBatch(std::size_t size)
   this->prepareNoiseFilter(size);
   this->winGain_.beginBatch(this->observationStride_);
   this->findWinners(samples);
-  for (std::size_t i = 0; i < samples.size() && !(isGrowing && this->hasAllVertices()); ++i)
+  for (std::size_t i = 0; i < samples.size(); ++i)
   {
     this->prefetchAhead(i);
     if (!this->mesh_.isAlive(this->winners_[i]))
@@ -170,21 +162,13 @@ void Learner::learnBatch(std::size_t size)
     }
     this->basicStep(samples[i], this->winners_[i]);
     ++this->counts_.iterations;
-    if (!isGrowing)
+    if (isGrowing && this->isGrowthDue())
     {
-      continue;
-    }
-    if (this->isAdditionDue())
-    {
-      this->nodeAddition();
-    }
-    if (this->isRemovalDue())
-    {
-      this->nodeRemoval();
-    }
-    if (this->isTopologyDue())
-    {
-      this->learnTopology();
+      this->grow();
+      if (this->hasAllVertices())
+      {
+        break;
+      }
     }
   }
   if (this->mesh_.vertexCount() >= this->nextRenumbering_)
@@ -214,7 +198,8 @@ void Learner::findWinners(std::span<const Vector4> samples)
 
 void Learner::prefetchAhead(std::size_t sample) const
 {
-  if (sample + PrefetchDistance >= this->winners_.size())
+  if (this->mesh_.vertexCount() <= VerticesInNearCache ||
+    sample + PrefetchDistance >= this->winners_.size())
   {
     return;
   }
@@ -247,7 +232,7 @@ void Learner::prepareNoiseFilter(std::size_t batchSize)
   this->observationStride_ = 1 + batchSize / ObservationsPerBatch;
   this->filterThreshold_ = infinity;
   this->observationLimit_ = infinity;
-  this->rejectionLimit_ = infinity;
+  this->squaredRejectionLimit_ = infinity;
   if (this->parameters_.filtersNoise() && this->sampleDistances_.isFull())
   {
     this->filterThreshold_ = float(this->sampleDistances_.mean() +
@@ -256,7 +241,8 @@ void Learner::prepareNoiseFilter(std::size_t batchSize)
       this->mesh_.vertexCount() >= std::size_t(this->parameters_.outlierLimitVertices))
     {
       this->observationLimit_ = ObservationLimit * this->filterThreshold_;
-      this->rejectionLimit_ = float(this->parameters_.outlierLimit) * this->filterThreshold_;
+      const float limit = float(this->parameters_.outlierLimit) * this->filterThreshold_;
+      this->squaredRejectionLimit_ = limit * limit;
     }
   }
 }
@@ -292,7 +278,7 @@ void Learner::basicStep(Vector4 sample, VertexIndex winner)
     this->untilObservation_ = this->observationStride_ - 1;
     this->observe(squaredDistance);
   }
-  if (squaredDistance > this->rejectionLimit_ * this->rejectionLimit_)
+  if (squaredDistance > this->squaredRejectionLimit_)
   {
     ++this->counts_.rejectedSamples;
     this->order_->pass(this->decay_);
@@ -345,226 +331,6 @@ void Learner::smoothNeighbors(VertexIndex winner)
   {
     this->moveVertex(ring[slot], positions[slot]);
   }
-}
-
-// --- Growth --------------------------------------------------------------------------------------
-
-double Learner::patience() const
-{
-  const bool early = this->mesh_.vertexCount() < std::size_t(this->parameters_.earlyVertices);
-  return early ? this->parameters_.earlyPatience : 1.;
-}
-
-bool Learner::isAdditionDue() const { return this->counts_.iterations >= this->nextAddition_; }
-
-void Learner::nodeAddition()
-{
-  this->nextAddition_ += std::max<std::uint64_t>(
-    1, std::uint64_t(this->patience() * this->parameters_.samplesPerAddition));
-
-  for (int attempt = 0; attempt < SplitAttempts; ++attempt)
-  {
-    const VertexIndex v = this->order_->top();
-    const auto plan = this->parameters_.additionOperation == AdditionOperation::EdgeSplit
-      ? planEdgeSplit(this->mesh_, v)
-      : planVertexSplit(this->mesh_, v);
-    if (!plan)
-    {
-      ++this->counts_.illegalOperations;
-      this->order_->demoteTop();
-      continue;
-    }
-    const VertexIndex added = this->mesh_.split(v, plan->first, plan->steps, plan->position);
-    this->grid_.insert(added, plan->position);
-    if (this->topology_)
-    {
-      this->topology_->boundaries().split(v, added);
-    }
-    const double area = restrictedVoronoiArea(this->mesh_, v);
-    const double addedArea = restrictedVoronoiArea(this->mesh_, added);
-    const double share = area + addedArea > 0. ? area / (area + addedArea) : 0.5;
-    this->order_->split(v, added, std::clamp(share, LeastShare, 1. - LeastShare));
-    if (this->featureStrength_)
-    {
-      this->featureStrength_->split(v, added);
-    }
-    if (!this->parameters_.filtersNoise())
-    {
-      this->hasWon_.resize(this->mesh_.indexEnd());
-      this->hasWon_[added] = 1;
-    }
-    if (this->parameters_.edgeFlips)
-    {
-      this->counts_.flips += flipEdgesAround(this->mesh_, v);
-      this->counts_.flips += flipEdgesAround(this->mesh_, added);
-    }
-    ++this->counts_.additions;
-    this->updateDecay();
-    this->enterListIfDue();
-    return;
-  }
-}
-
-bool Learner::isRemovalDue() const
-{
-  return (this->parameters_.filtersNoise() ? this->counts_.additions : this->counts_.iterations) >=
-    this->nextRemoval_;
-}
-
-std::uint64_t Learner::removalInterval() const
-{
-  // Growth depends on the ratio of C_ec to C_vs, (6.18): patience is with both.
-  return this->parameters_.filtersNoise()
-    ? std::uint64_t(this->parameters_.additionsPerRemoval)
-    : std::uint64_t(
-        this->patience() * this->parameters_.removalPatience * double(this->mesh_.vertexCount()));
-}
-
-void Learner::nodeRemoval()
-{
-  if (this->parameters_.filtersNoise())
-  {
-    this->removeVertices();
-  }
-  else
-  {
-    this->removeIdleVertices();
-  }
-  this->nextRemoval_ += this->removalInterval();
-  this->updateDecay();
-}
-
-void Learner::removeIdleVertices()
-{
-  for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
-  {
-    if (this->mesh_.isAlive(v) && !this->hasWon_[v] && !this->removeVertex(v))
-    {
-      ++this->counts_.illegalOperations;
-    }
-    this->hasWon_[v] = 0;
-  }
-}
-
-void Learner::removeVertices()
-{
-  // alpha_n^(C_ec n), with alpha_n of (9.4).
-  const double threshold =
-    std::exp2(-this->parameters_.removalPatience / this->parameters_.counterHalfLife);
-  // n_l of 11.3: how many there are on average, by which a list goes.
-  const double expectedCount = this->parameters_.additionsPerRemoval *
-    this->parameters_.samplesPerAddition * std::exp(-this->parameters_.removalPatience) /
-    this->parameters_.removalPatience;
-  const double limit = this->parameters_.removalLimit > 0.
-    ? std::ceil(this->parameters_.removalLimit * this->parameters_.additionsPerRemoval)
-    : std::numeric_limits<double>::infinity();
-  double tried = 0.;
-  do
-  {
-    if (!this->removeVertex(this->order_->bottom()))
-    {
-      ++this->counts_.illegalOperations;
-      this->order_->promoteBottom();
-    }
-  } while (++tried < limit && this->order_->isBottomBelow(threshold, expectedCount));
-}
-
-bool Learner::removeVertex(VertexIndex v)
-{
-  const VertexIndex kept = bestCollapse(this->mesh_, v);
-  if (kept == NoVertex)
-  {
-    return this->removeStar(v);
-  }
-  if (this->topology_)
-  {
-    this->topology_->boundaries().collapse(v, kept);
-  }
-  const RemovalOperation operation = this->parameters_.removalOperation;
-  if (operation == RemovalOperation::FullEdgeCollapse)
-  {
-    this->moveVertex(kept, positionAfterFullCollapse(this->mesh_, v, kept));
-  }
-  const Ring polygon = this->mesh_.ring(v);
-  this->mesh_.collapse(v, kept);
-  this->grid_.erase(v, this->mesh_.position(v));
-  this->order_->erase(v);
-  if (operation == RemovalOperation::VertexDelete)
-  {
-    this->counts_.flips += triangulateAnew(this->mesh_, polygon, kept);
-  }
-  if (this->parameters_.edgeFlips)
-  {
-    this->counts_.flips += flipEdgesAround(this->mesh_, kept);
-  }
-  ++this->counts_.removals;
-  return true;
-}
-
-// --- Topology learning ---------------------------------------------------------------------------
-
-bool Learner::isTopologyDue() const { return this->counts_.iterations >= this->nextTopology_; }
-
-void Learner::learnTopology()
-{
-  this->follow(this->topology_->learn(this->mesh_));
-  this->nextTopology_ += this->topologyInterval();
-  this->updateDecay();
-}
-
-std::uint64_t Learner::topologyInterval() const
-{
-  return std::uint64_t(this->parameters_.topologyPatience * double(this->mesh_.vertexCount())) + 1;
-}
-
-bool Learner::removeStar(VertexIndex v)
-{
-  if (!this->topology_ || !this->topology_->canRemoveStar(this->mesh_, v))
-  {
-    return false;
-  }
-  this->follow(this->topology_->removeStar(this->mesh_, v));
-  return !this->mesh_.isAlive(v);
-}
-
-void Learner::follow(const TopologyLearning::Result& result)
-{
-  for (const VertexIndex v : result.removedVertices)
-  {
-    this->grid_.erase(v, this->mesh_.position(v));
-    this->order_->erase(v);
-  }
-  this->hasWon_.resize(this->mesh_.indexEnd());
-  this->counts_.removedTriangles += result.removedTriangles;
-  this->counts_.mergedBoundaries += result.mergedBoundaries;
-  this->counts_.filledBoundaries += result.filledBoundaries;
-}
-
-void Learner::enterListIfDue()
-{
-  if (!this->isListDue_ || this->mesh_.vertexCount() < std::size_t(this->parameters_.listVertices))
-  {
-    return;
-  }
-  this->isListDue_ = false;
-  this->winGain_.enterList();
-  std::vector<VertexIndex> laziestFirst(this->mesh_.vertexCount());
-  for (VertexIndex& v : laziestFirst)
-  {
-    v = this->order_->bottom();
-    this->order_->erase(v);
-  }
-  this->order_ = std::make_unique<ListOrder>(
-    laziestFirst, this->parameters_.jumpFraction, this->parameters_.seed);
-  this->order_->reserve(this->capacity_);
-}
-
-void Learner::updateDecay()
-{
-  // (9.4) with the current number of vertices.
-  this->decay_ = this->parameters_.variant == Variant::Basic
-    ? this->parameters_.counterDecay
-    : std::exp2(-1. / (this->parameters_.counterHalfLife * double(this->mesh_.vertexCount())));
 }
 
 // --- Memory --------------------------------------------------------------------------------------

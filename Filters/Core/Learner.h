@@ -99,10 +99,19 @@ private:
   double measureMove(VertexIndex winner, Vector4 position);
   void smoothNeighbors(VertexIndex winner);
 
+  bool isGrowthDue() const
+  {
+    return this->isAdditionDue() || this->isRemovalDue() || this->isTopologyDue();
+  }
+  void grow();
   double patience() const; ///< by which C_vs is multiplied now
-  bool isAdditionDue() const;
+  bool isAdditionDue() const { return this->counts_.iterations >= this->nextAddition_; }
   void nodeAddition();
-  bool isRemovalDue() const;
+  bool isRemovalDue() const
+  {
+    return (this->parameters_.filtersNoise() ? this->counts_.additions
+                                             : this->counts_.iterations) >= this->nextRemoval_;
+  }
   std::uint64_t removalInterval() const; ///< in iterations (basic), additions (noise filtering)
   void nodeRemoval();
   void removeIdleVertices();
@@ -110,7 +119,7 @@ private:
   bool removeVertex(VertexIndex v);
   void enterListIfDue();
 
-  bool isTopologyDue() const;
+  bool isTopologyDue() const { return this->counts_.iterations >= this->nextTopology_; }
   void learnTopology();
   std::uint64_t topologyInterval() const; ///< in iterations
   bool removeStar(VertexIndex v);
@@ -138,7 +147,7 @@ private:
   double decay_ = 1.;
   float filterThreshold_ = 0.f; ///< epsilon_t of (9.2)
   float observationLimit_ = 0.f;
-  float rejectionLimit_ = 0.f;
+  float squaredRejectionLimit_ = 0.f;
   bool isListDue_ = false; ///< as soon as the mesh is large enough
   std::size_t observationStride_ = 1;
   std::size_t untilObservation_ = 0;
