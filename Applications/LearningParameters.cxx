@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 #include <type_traits>
 
@@ -21,7 +22,13 @@ LearningParameter Describe(const char* name, const char* description, double min
   const auto setValue = [set](vtkNeuralMesh* filter, double value)
   { (filter->*set)(static_cast<ValueT>(value)); };
   return { name, description, minimum, maximum, static_cast<double>(defaultValue),
-    std::is_integral_v<ValueT>, setValue };
+    std::is_integral_v<ValueT>, {}, setValue };
+}
+
+LearningParameter WithWords(LearningParameter parameter, std::vector<std::string> words)
+{
+  parameter.Words = std::move(words);
+  return parameter;
 }
 
 std::vector<LearningParameter> MakeParameters()
@@ -38,11 +45,15 @@ std::vector<LearningParameter> MakeParameters()
     PARAMETER(SmoothingRate, "how far its neighbours are smoothed"),
     PARAMETER(SmoothingIterations, "how often they are smoothed for a sample"),
     PARAMETER(CounterDecay, "what a sample leaves of all counters (basic)"),
-    PARAMETER(CounterHalfLife, "samples per vertex that halve a counter (noise)"),
+    PARAMETER(CounterHalfLife, "samples per vertex that halve a counter (noise, normal)"),
     PARAMETER(NoiseTolerance, "deviations from which on samples pull less (noise)"),
     PARAMETER(NoiseWindow, "distances behind mean and deviation"),
     PARAMETER(OutlierLimit, "how far beyond that samples are ignored; 0: never"),
     PARAMETER(OutlierLimitVertices, "... from so many vertices on"),
+    PARAMETER(ChangeWindow, "changes by moves behind their mean"),
+    PARAMETER(GainLimit, "mean changes that a change counts as at most; 0: any"),
+    PARAMETER(FeatureMemory, "what a win leaves of feature strength (--features)"),
+    PARAMETER(FeatureSamples, "samples per vertex for it, after growth (--features)"),
     PARAMETER(SamplesPerAddition, "samples between two new vertices"),
     PARAMETER(EarlyPatience, "how many times more of them at first"),
     PARAMETER(EarlyVertices, "... until there are so many vertices"),
@@ -50,16 +61,24 @@ std::vector<LearningParameter> MakeParameters()
     PARAMETER(RemovalPatience, "samples per vertex without a win until removal"),
     PARAMETER(RemovalLimit, "removals for a new vertex at most; 0: any (noise)"),
     PARAMETER_IN(EdgeFlips, 0, 1, "flips towards valence 6, 1 or 0"),
-    PARAMETER(TopologyRules, "0: with mends, 1: as the thesis has them (topology)"),
+    WithWords(PARAMETER(AdditionOperation, "what adds a vertex"), { "vertex_split", "edge_split" }),
+    WithWords(PARAMETER(RemovalOperation, "what removes a vertex"),
+      { "half_edge_collapse", "full_edge_collapse", "vertex_delete" }),
+    WithWords(PARAMETER(TopologyRules, "by which rules (topology)"), { "mended", "thesis" }),
     PARAMETER(TopologyPatience, "samples per vertex between two calls (topology)"),
     PARAMETER(TriangleRemovalFactor, "mean areas beyond which a triangle goes (topology)"),
     PARAMETER(BoundaryMergingFactor, "how close boundaries are joined (topology)"),
     PARAMETER(JumpFraction, "how far a winner jumps, part of n (list)"),
+    PARAMETER(ConstantWeight, "parts in the weighted jump (list)"),
+    PARAMETER(NormalWeight, "... of the turn of the normal"),
+    PARAMETER(AreaWeight, "... of the change of area"),
+    PARAMETER(VolumeWeight, "... of the change of volume"),
     PARAMETER(ListVertices, "counters until there are so many vertices (list)"),
     PARAMETER(BatchSize, "samples drawn at once at most"),
     PARAMETER(MaximumIterations, "end after so many samples; 0: never"),
     PARAMETER(TargetSampleDistance, "end at this mean distance to winners, part of diagonal"),
     PARAMETER(TargetCloudDistance, "end at this mean distance to the mesh, part of diagonal"),
+    PARAMETER(TargetNormalChange, "end at this mean change of normals, 1 - cosine"),
     PARAMETER(StallPatience, "end after so many samples per vertex without growth"),
   };
 #undef PARAMETER
@@ -71,6 +90,36 @@ std::string Number(double value)
   std::ostringstream text;
   text << std::setprecision(value == std::floor(value) && value < 1e7 ? 7 : 4) << value;
   return text.str();
+}
+
+/** What a parameter may be. */
+std::string DescribeRange(const LearningParameter& parameter)
+{
+  if (parameter.Words.empty())
+  {
+    return (parameter.Integral ? "an integer from " : "a number from ") +
+      Number(parameter.Minimum) + " to " + Number(parameter.Maximum);
+  }
+  std::string words;
+  for (const std::string& word : parameter.Words)
+  {
+    words += (words.empty() ? "" : " or ") + word;
+  }
+  return words;
+}
+
+/** The number that `text` stands for; NaN if that is none. */
+double ValueOf(const LearningParameter& parameter, const std::string& text)
+{
+  const auto word = std::find(parameter.Words.begin(), parameter.Words.end(), text);
+  if (word != parameter.Words.end())
+  {
+    return static_cast<double>(word - parameter.Words.begin());
+  }
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool isNumber = error == std::errc() && end == text.data() + text.size();
+  return isNumber ? value : std::numeric_limits<double>::quiet_NaN();
 }
 }
 
@@ -98,15 +147,11 @@ void SetLearningParameter(vtkNeuralMesh* filter, const std::string& assignment)
     throw UsageError(
       "--set: there is no parameter " + name + "; there are\n" + DescribeLearningParameters());
   }
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool isNumber = error == std::errc() && end == text.data() + text.size();
-  if (!isNumber || !(value >= parameter->Minimum && value <= parameter->Maximum) ||
+  const double value = ValueOf(*parameter, text);
+  if (!(value >= parameter->Minimum && value <= parameter->Maximum) ||
     (parameter->Integral && value != std::floor(value)))
   {
-    throw UsageError("--set " + assignment + ": " + name + " must be " +
-      (parameter->Integral ? "an integer" : "a number") + " from " + Number(parameter->Minimum) +
-      " to " + Number(parameter->Maximum));
+    throw UsageError("--set " + assignment + ": " + name + " must be " + DescribeRange(*parameter));
   }
   parameter->Set(filter, value);
 }
@@ -119,9 +164,18 @@ std::string DescribeLearningParameters()
         << "what it is\n";
   for (const LearningParameter& parameter : GetLearningParameters())
   {
-    const std::string range = Number(parameter.Minimum) + " to " + Number(parameter.Maximum);
-    table << "  " << std::left << std::setw(21) << parameter.Name << std::setw(7)
-          << Number(parameter.Default) << std::setw(18) << range << parameter.Description << "\n";
+    table << "  " << std::left << std::setw(21) << parameter.Name;
+    if (parameter.Words.empty())
+    {
+      const std::string range = Number(parameter.Minimum) + " to " + Number(parameter.Maximum);
+      table << std::setw(7) << Number(parameter.Default) << std::setw(18) << range
+            << parameter.Description << "\n";
+    }
+    else
+    {
+      table << parameter.Description << ": " << DescribeRange(parameter)
+            << "; the first by default\n";
+    }
   }
   return table.str();
 }

@@ -21,6 +21,7 @@ struct LearningParameter
   double Maximum;
   double Default;
   bool Integral;
+  std::vector<std::string> Words; ///< for the values from 0 on; none for numbers
   std::function<void(vtkNeuralMesh*, double)> Set;
 };
 

@@ -2,6 +2,7 @@
 #include "ReconstructCommand.h"
 
 #include "ErrorCollector.h"
+#include "FileExtension.h"
 #include "Interruption.h"
 #include "LearningParameters.h"
 #include "MeshReader.h"
@@ -45,6 +46,8 @@ struct Options
   int Variant = vtkNeuralMesh::NOISE_FILTERING;
   int Order = vtkNeuralMesh::EXACT;
   int Topology = 0;
+  std::string Jump;
+  bool Features = false;
   int Preset = vtkNeuralMesh::DEFAULT;
   std::vector<std::string> Assignments;
   double TimeLimit = 0.0;
@@ -69,9 +72,53 @@ private:
   std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
 };
 
+std::string Joined(const std::map<std::string, int>& choices)
+{
+  std::string names;
+  for (const auto& [word, value] : choices)
+  {
+    names += (names.empty() ? "" : "|") + word;
+  }
+  return names;
+}
+
 long long FieldValue(vtkPolyData* mesh, const char* name)
 {
   return static_cast<long long>(mesh->GetFieldData()->GetArray(name)->GetTuple1(0));
+}
+
+/** The values of Jump by their names on the command line. */
+const std::map<std::string, int> Jumps{ { "constant", vtkNeuralMesh::CONSTANT },
+  { "normal", vtkNeuralMesh::NORMAL_ACTIVITY }, { "area", vtkNeuralMesh::AREA_CHANGE },
+  { "volume", vtkNeuralMesh::VOLUME_CHANGE }, { "weighted", vtkNeuralMesh::WEIGHTED } };
+
+/** Carries out --jump NAME or NAME=FRACTION. */
+void SetJump(vtkNeuralMesh* filter, const std::string& text)
+{
+  const std::string name = text.substr(0, text.find('='));
+  const auto jump = Jumps.find(name);
+  if (jump == Jumps.end())
+  {
+    throw UsageError("--jump: " + name + " is none of " + Joined(Jumps));
+  }
+  filter->SetJump(jump->second);
+  if (name != text)
+  {
+    SetLearningParameter(filter, "JumpFraction" + text.substr(name.size()));
+  }
+}
+
+/** Throws UsageError where options exclude each other. */
+void RequireSoundParameters(vtkNeuralMesh* filter)
+{
+  vtkNew<ErrorCollector> errors;
+  errors->Observe(filter);
+  const bool areSound = filter->CheckParameters();
+  filter->RemoveObserver(errors);
+  if (!areSound)
+  {
+    throw UsageError(errors->GetMessage());
+  }
 }
 
 void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
@@ -81,22 +128,24 @@ void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
   filter->SetVariant(options.Variant);
   filter->SetOrder(options.Order);
   filter->SetTopologyLearning(options.Topology);
+  filter->SetComputeFeatureStrength(options.Features);
   filter->SetPreset(options.Preset);
   filter->SetTimeLimit(options.TimeLimit);
+  if (!options.Jump.empty())
+  {
+    SetJump(filter, options.Jump);
+  }
   for (const std::string& assignment : options.Assignments)
   {
     SetLearningParameter(filter, assignment);
   }
+  RequireSoundParameters(filter);
 }
 
 void AddChoice(CLI::App* command, const std::string& name, int& choice,
   const std::map<std::string, int>& choices, const std::string& description)
 {
-  std::string names;
-  for (const auto& [word, value] : choices)
-  {
-    names += (names.empty() ? "" : "|") + word;
-  }
+  const std::string names = Joined(choices);
   const auto toNumber = [choices, names](std::string& word) -> std::string
   {
     const auto place = choices.find(word);
@@ -163,6 +212,10 @@ int Reconstruct(const Options& options)
   vtkNew<vtkNeuralMesh> filter;
   PrepareFilter(filter, options);
   RequireWritableExtension(options.Output);
+  if (options.Features && FileExtension(options.Output) != ".vtp")
+  {
+    throw UsageError("--features: " + options.Output + " must be a .vtp; no other format keeps it");
+  }
   RequireWritablePlace(options.Output);
   if (!options.Statistics.empty())
   {
@@ -239,20 +292,29 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
       "Start from the triangles of this file: .ply .vtp .vtk .obj .stl")
     ->type_name("FILE");
   AddChoice(command, "--method", options->Variant,
-    { { "basic", vtkNeuralMesh::BASIC }, { "noise", vtkNeuralMesh::NOISE_FILTERING } },
-    "basic: every sample pulls alike; noise (default): samples that are far off pull less");
+    { { "basic", vtkNeuralMesh::BASIC }, { "noise", vtkNeuralMesh::NOISE_FILTERING },
+      { "normal", vtkNeuralMesh::NORMAL_BASED } },
+    "basic: every sample pulls alike; noise (default): samples that are far off pull less; normal: "
+    "dense where the surface bends, sparse where it is flat");
   AddChoice(command, "--preset", options->Preset,
     { { "default", vtkNeuralMesh::DEFAULT }, { "thesis", vtkNeuralMesh::THESIS } },
     "default: what measures best; thesis: Saleem's values of 2004, and nothing that he lacks");
   AddChoice(command, "--order", options->Order,
     { { "exact", vtkNeuralMesh::EXACT }, { "list", vtkNeuralMesh::LIST } },
     "How it is known where to grow; exact (default): counters; list: the activity list");
+  command
+    ->add_option("--jump", options->Jump,
+      "With --order list: how far winners jump; FRACTION of the vertices (default 0.3333) times 1 "
+      "(constant, the default) or the change by the move over the mean change")
+    ->type_name(Joined(Jumps) + "[=FRACTION]");
   AddChoice(command, "--topology", options->Topology, { { "off", 0 }, { "on", 1 } },
     "on: learn handles and openings; off (default): the surface stays a sphere");
   command->add_option("--set", options->Assignments, "Set a parameter of learning, see below")
     ->type_name("NAME=VALUE")
     ->take_all()
     ->allow_extra_args(false);
+  command->add_flag("--features", options->Features,
+    "Give each vertex its FeatureStrength, high at edges and corners; OUTPUT must be .vtp");
   command
     ->add_option("--time-limit", options->TimeLimit,
       "Learn for so many seconds at most, and write the mesh learnt so far")

@@ -37,6 +37,9 @@ RunEstimate EstimateRun(vtkNeuralMesh* filter, vtkPointSet* points)
   const vtkIdType firstVertices = first ? first->GetNumberOfPoints() : 0;
   filter->SetNumberOfVertices(
     std::min(filter->GetNumberOfVertices(), firstVertices + TriedVertices));
+  const double samplesForFeatures =
+    filter->GetComputeFeatureStrength() ? filter->GetFeatureSamples() * vertices : 0.0;
+  filter->ComputeFeatureStrengthOff();
   filter->SetInputData(points);
   filter->Update();
   vtkTable* curve = filter->GetLearningCurve();
@@ -58,7 +61,8 @@ RunEstimate EstimateRun(vtkNeuralMesh* filter, vtkPointSet* points)
   const auto rise = [&](const char* column)
   { return ValueAt(curve, last, column) - ValueAt(curve, middle, column); };
   const double left = std::max(0.0, vertices - ValueAt(curve, last, "Vertices"));
-  const double samplesLeft = left * rise("Iteration") / std::max(1.0, rise("Vertices"));
+  const double samplesLeft =
+    left * rise("Iteration") / std::max(1.0, rise("Vertices")) + samplesForFeatures;
   const double slowdown =
     1.0 + SlowdownPerDoubling * std::max(0.0, std::log2(vertices / VerticesInCache));
   const double secondsLeft = samplesLeft * slowdown * rise("Seconds") / rise("Iteration");

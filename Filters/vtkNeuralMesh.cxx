@@ -35,6 +35,7 @@ vtkStandardNewMacro(vtkNeuralMesh);
   use(MaximumIterations, maximumIterations)                 \
   use(TargetSampleDistance, targetSampleDistance)           \
   use(TargetCloudDistance, targetCloudDistance)             \
+  use(TargetNormalChange, targetNormalChange)               \
   use(TimeLimit, timeLimit)                                 \
   use(StallPatience, stallPatience)
 // clang-format on
@@ -81,6 +82,7 @@ void FillLearningCurve(const std::vector<neuralmesh::LearningCurve::Row>& rows, 
   addNumber("Seconds", [](const Row& row) { return row.seconds; });
   addNumber("SampleDistanceMean", [](const Row& row) { return row.sampleDistanceMean; });
   addNumber("SampleDistanceDeviation", [](const Row& row) { return row.sampleDistanceDeviation; });
+  addNumber("NormalChangeMean", [](const Row& row) { return row.normalChangeMean; });
   addNumber("RegularRatio", [](const Row& row) { return row.regularRatio; });
   addCount("Additions", [](const Row& row) { return row.counts.additions; });
   addCount("Removals", [](const Row& row) { return row.counts.removals; });
@@ -128,12 +130,12 @@ vtkNew<vtkFloatArray> MakeNormals(const std::vector<Eigen::Vector3d>& normals)
   return array;
 }
 
-vtkNew<vtkDoubleArray> MakeActivity(const std::vector<double>& activities)
+vtkNew<vtkDoubleArray> MakeNumbers(const char* name, const std::vector<double>& numbers)
 {
   vtkNew<vtkDoubleArray> array;
-  array->SetName("Activity");
-  array->SetNumberOfValues(static_cast<vtkIdType>(activities.size()));
-  std::copy(activities.begin(), activities.end(), array->GetPointer(0));
+  array->SetName(name);
+  array->SetNumberOfValues(static_cast<vtkIdType>(numbers.size()));
+  std::copy(numbers.begin(), numbers.end(), array->GetPointer(0));
   return array;
 }
 }
@@ -199,6 +201,10 @@ int vtkNeuralMesh::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
   vtkTable* learningCurve = vtkTable::GetData(outputVector, 1);
   this->StopReason = "none";
+  if (!this->CheckParameters())
+  {
+    return 0;
+  }
 
   vtkPointCloudCollector collector;
   collector.Collect(vtkDataObject::GetData(inputVector[0]));
@@ -282,7 +288,11 @@ int vtkNeuralMesh::RequestData(
   output->SetPoints(MakePoints(result.mesh.points, precision));
   output->SetPolys(vtkTriangleMeshCollector::MakeCells(result.mesh));
   output->GetPointData()->SetNormals(MakeNormals(result.normals));
-  output->GetPointData()->AddArray(MakeActivity(result.activities));
+  output->GetPointData()->AddArray(MakeNumbers("Activity", result.activities));
+  if (!result.featureStrengths.empty())
+  {
+    output->GetPointData()->AddArray(MakeNumbers("FeatureStrength", result.featureStrengths));
+  }
 
   AddFieldValue<vtkIdTypeArray>(output, "NumberOfVertices", output->GetNumberOfPoints());
   AddFieldValue<vtkIdTypeArray>(

@@ -28,8 +28,11 @@
  * vtkPolyData with triangles: an oriented 2-manifold without unused points; closed components are
  * oriented outwards. Point data:
  * - `Normals` (float, 3 components): area-weighted unit normals, the active normals;
- * - `Activity` (double): the signal counter of the vertex, in wins; with the activity list, the
- *   place of the vertex in it, above 0 (laziest) up to 1.
+ * - `Activity` (double): the counter of the vertex, in wins, or in the normal-based variant in wins
+ *   of average change; with the activity list, the place of the vertex in it, above 0 (laziest) up
+ *   to 1;
+ * - `FeatureStrength` (double), if ComputeFeatureStrength is on: about 0 where the surface is flat,
+ *   up to GainLimit at edges and corners.
  *
  * Field data, one value each: `NumberOfVertices`, `Iterations` (samples drawn), `Seed`,
  * `StopReason` (a string: see GetStopReason()), `DroppedPoints`.
@@ -37,8 +40,9 @@
  * Output port 1 is a vtkTable, the learning curve: a row for every twentieth more samples and one
  * for the end, with the columns `Iteration`, `Vertices`, `Seconds` (since the start of learning),
  * `SampleDistanceMean` and `SampleDistanceDeviation` (of the distance from sample to winner over
- * the last NoiseWindow observations, in units of the input), `RegularRatio` (of vertices with
- * valence 6, on a boundary 4), and the counts so far: `Additions`, `Removals`, `Flips`,
+ * the last NoiseWindow observations, in units of the input), `NormalChangeMean` (M_delta of (8.2),
+ * over the last ChangeWindow observations), `RegularRatio` (of vertices with valence 6, on a
+ * boundary 4), and the counts so far: `Additions`, `Removals`, `Flips`,
  * `RejectedSamples`, `IllegalOperations` (splits and collapses that were due, but not legal); and
  * of topology learning `RemovedTriangles`, `MergedBoundaries` (pairs) and `FilledBoundaries`.
  *
@@ -165,6 +169,17 @@ public:
 
   ///@{
   /**
+   * Stopping rule: end when M_delta of (8.2), the mean change of the winner's normal (1 - cosine of
+   * the angle by which a move turns it, see ChangeWindow), is at most this; 0 for never. It
+   * falls while the mesh learns, and ever slower; which values occur is told by the learning curve.
+   * Default 0, range 0 to 2.
+   */
+  vtkNeuralMeshSetClampMacro(TargetNormalChange, double, 0.0, 2.0);
+  vtkGetMacro(TargetNormalChange, double);
+  ///@}
+
+  ///@{
+  /**
    * Stopping rule: the number of seconds to learn at most; 0 for any. Results then depend on the
    * machine. Default 0, at least 0.
    */
@@ -198,7 +213,7 @@ public:
 
   /**
    * Why the last run ended: "vertices", "iterations", "sample distance", "cloud distance",
-   * "time limit", "stalled" or "cancelled"; "none" before the first.
+   * "normal change", "time limit", "stalled" or "cancelled"; "none" before the first.
    */
   const char* GetStopReason() const { return this->StopReason; }
 
@@ -220,6 +235,7 @@ private:
   vtkIdType MaximumIterations = 0;
   double TargetSampleDistance = 0.0;
   double TargetCloudDistance = 0.0;
+  double TargetNormalChange = 0.0;
   double TimeLimit = 0.0;
   double StallPatience;
 

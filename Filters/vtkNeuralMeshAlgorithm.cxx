@@ -6,6 +6,16 @@
 #include <algorithm>
 
 // clang-format off
+// The choices that a preset leaves alone, as (name of the property, name in the core).
+#define NEURAL_MESH_FOR_EACH_CHOICE(use)                    \
+  use(Variant, variant)                                     \
+  use(Order, order)                                         \
+  use(TopologyLearning, topologyLearning)                   \
+  use(Jump, jump)                                           \
+  use(AdditionOperation, additionOperation)                 \
+  use(RemovalOperation, removalOperation)                   \
+  use(ComputeFeatureStrength, computeFeatureStrength)
+
 // The parameters that a preset sets, as (name of the property, name in the core).
 #define NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(use)          \
   use(WinnerRate, winnerRate)                               \
@@ -17,6 +27,10 @@
   use(NoiseWindow, noiseWindow)                             \
   use(OutlierLimit, outlierLimit)                           \
   use(OutlierLimitVertices, outlierLimitVertices)           \
+  use(ChangeWindow, changeWindow)                           \
+  use(GainLimit, gainLimit)                                 \
+  use(FeatureMemory, featureMemory)                         \
+  use(FeatureSamples, featureSamples)                       \
   use(SamplesPerAddition, samplesPerAddition)               \
   use(EarlyPatience, earlyPatience)                         \
   use(EarlyVertices, earlyVertices)                         \
@@ -29,6 +43,10 @@
   use(TriangleRemovalFactor, triangleRemovalFactor)         \
   use(BoundaryMergingFactor, boundaryMergingFactor)         \
   use(JumpFraction, jumpFraction)                           \
+  use(ConstantWeight, constantWeight)                       \
+  use(NormalWeight, normalWeight)                           \
+  use(AreaWeight, areaWeight)                               \
+  use(VolumeWeight, volumeWeight)                           \
   use(ListVertices, listVertices)                           \
   use(BatchSize, batchSize)
 // clang-format on
@@ -55,8 +73,7 @@ bool vtkNeuralMeshAlgorithm::ApplyPreset()
 {
   const auto values = neuralmesh::Parameters::of(
     this->Preset == THESIS ? neuralmesh::Preset::Thesis : neuralmesh::Preset::Default,
-    this->Variant == BASIC ? neuralmesh::Variant::Basic : neuralmesh::Variant::NoiseFiltering,
-    this->Order == LIST ? neuralmesh::Order::List : neuralmesh::Order::Exact);
+    static_cast<neuralmesh::Variant>(this->Variant), static_cast<neuralmesh::Order>(this->Order));
   bool changed = false;
 #define SET_PROPERTY(property, parameter)                                                          \
   changed = changed || this->property != static_cast<decltype(this->property)>(values.parameter);  \
@@ -68,24 +85,32 @@ bool vtkNeuralMeshAlgorithm::ApplyPreset()
 
 void vtkNeuralMeshAlgorithm::FillParameters(neuralmesh::Parameters& parameters) const
 {
-  parameters.variant = static_cast<neuralmesh::Variant>(this->Variant);
-  parameters.order = static_cast<neuralmesh::Order>(this->Order);
-  parameters.topologyLearning = this->TopologyLearning != 0;
 #define SET_PARAMETER(property, parameter)                                                         \
   parameters.parameter = static_cast<decltype(parameters.parameter)>(this->property);
+  NEURAL_MESH_FOR_EACH_CHOICE(SET_PARAMETER)
   NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(SET_PARAMETER)
 #undef SET_PARAMETER
+}
+
+bool vtkNeuralMeshAlgorithm::CheckParameters()
+{
+  neuralmesh::Parameters parameters;
+  this->FillParameters(parameters);
+  const std::vector<std::string> errors = parameters.errors();
+  for (const std::string& error : errors)
+  {
+    vtkErrorMacro(<< error);
+  }
+  return errors.empty();
 }
 
 void vtkNeuralMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Variant: " << this->Variant << "\n";
-  os << indent << "Order: " << this->Order << "\n";
-  os << indent << "TopologyLearning: " << this->TopologyLearning << "\n";
   os << indent << "Preset: " << (this->Preset == THESIS ? "Thesis" : "Default") << "\n";
 #define PRINT_PROPERTY(property, parameter)                                                        \
   os << indent << #property ": " << this->property << "\n";
+  NEURAL_MESH_FOR_EACH_CHOICE(PRINT_PROPERTY)
   NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(PRINT_PROPERTY)
 #undef PRINT_PROPERTY
 }

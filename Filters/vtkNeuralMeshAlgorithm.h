@@ -34,7 +34,8 @@ public:
   enum VariantType
   {
     BASIC,
-    NOISE_FILTERING
+    NOISE_FILTERING,
+    NORMAL_BASED
   };
 
   ///@{
@@ -42,12 +43,16 @@ public:
    * Variant of the method. BASIC is Algorithm 1: every sample pulls alike, and vertices that have
    * not won for a while are removed all at once. NOISE_FILTERING (default) is Algorithm 4: samples
    * far from the mesh pull less than their distance would have it, and vertices are removed a few
-   * at a time.
+   * at a time. NORMAL_BASED is Algorithm 3: as BASIC, but the mesh grows where its normals turn, so
+   * that it is dense at edges and where the surface bends, and sparse where it is flat. See
+   * Documentation/NormalBased.md. It has its own RemovalPatience: choose the variant, then the
+   * preset.
    */
-  vtkNeuralMeshSetClampMacro(Variant, int, BASIC, NOISE_FILTERING);
+  vtkNeuralMeshSetClampMacro(Variant, int, BASIC, NORMAL_BASED);
   vtkGetMacro(Variant, int);
   void SetVariantToBasic() { this->SetVariant(BASIC); }
   void SetVariantToNoiseFiltering() { this->SetVariant(NOISE_FILTERING); }
+  void SetVariantToNormalBased() { this->SetVariant(NORMAL_BASED); }
   ///@}
 
   enum OrderType
@@ -80,6 +85,83 @@ public:
   vtkSetMacro(TopologyLearning, vtkTypeBool);
   vtkGetMacro(TopologyLearning, vtkTypeBool);
   vtkBooleanMacro(TopologyLearning, vtkTypeBool);
+  ///@}
+
+  enum JumpType
+  {
+    CONSTANT,
+    NORMAL_ACTIVITY,
+    AREA_CHANGE,
+    VOLUME_CHANGE,
+    WEIGHTED
+  };
+
+  ///@{
+  /**
+   * Jump distance (11.2.1), with Order LIST only: a winner jumps by JumpFraction of the number of
+   * vertices, times what its move changes over what moves change on average. CONSTANT (default): all
+   * jump alike, but in the variant NORMAL_BASED as by NORMAL_ACTIVITY. NORMAL_ACTIVITY: by how far
+   * the normal at the winner turns (8.1); AREA_CHANGE: by how much the area of its triangles grows or
+   * shrinks; VOLUME_CHANGE: by how much the volume does; WEIGHTED: the mean of these four by
+   * ConstantWeight, NormalWeight, AreaWeight and VolumeWeight. See Documentation/ActivityList.md.
+   */
+  vtkNeuralMeshSetClampMacro(Jump, int, CONSTANT, WEIGHTED);
+  vtkGetMacro(Jump, int);
+  void SetJumpToConstant() { this->SetJump(CONSTANT); }
+  void SetJumpToNormalActivity() { this->SetJump(NORMAL_ACTIVITY); }
+  void SetJumpToAreaChange() { this->SetJump(AREA_CHANGE); }
+  void SetJumpToVolumeChange() { this->SetJump(VOLUME_CHANGE); }
+  void SetJumpToWeighted() { this->SetJump(WEIGHTED); }
+  ///@}
+
+  enum AdditionOperationType
+  {
+    VERTEX_SPLIT,
+    EDGE_SPLIT
+  };
+
+  ///@{
+  /**
+   * The operation of Node Addition (Figure 6.6). VERTEX_SPLIT (default) shares the edges of the
+   * vertex with the new one. EDGE_SPLIT halves its longest edge: the new vertex has valence 4, the
+   * old one keeps its own.
+   */
+  vtkNeuralMeshSetClampMacro(AdditionOperation, int, VERTEX_SPLIT, EDGE_SPLIT);
+  vtkGetMacro(AdditionOperation, int);
+  void SetAdditionOperationToVertexSplit() { this->SetAdditionOperation(VERTEX_SPLIT); }
+  void SetAdditionOperationToEdgeSplit() { this->SetAdditionOperation(EDGE_SPLIT); }
+  ///@}
+
+  enum RemovalOperationType
+  {
+    HALF_EDGE_COLLAPSE,
+    FULL_EDGE_COLLAPSE,
+    VERTEX_DELETE
+  };
+
+  ///@{
+  /**
+   * The operation of Node Removal (Figure 6.7), along the edge of the least regularity error (6.7).
+   * HALF_EDGE_COLLAPSE (default) leaves the neighbour where it is. FULL_EDGE_COLLAPSE moves it to
+   * the middle of the edge, unless only one of both ends is on a boundary. VERTEX_DELETE
+   * triangulates the polygon that is left anew, towards regular valences.
+   */
+  vtkNeuralMeshSetClampMacro(RemovalOperation, int, HALF_EDGE_COLLAPSE, VERTEX_DELETE);
+  vtkGetMacro(RemovalOperation, int);
+  void SetRemovalOperationToHalfEdgeCollapse() { this->SetRemovalOperation(HALF_EDGE_COLLAPSE); }
+  void SetRemovalOperationToFullEdgeCollapse() { this->SetRemovalOperation(FULL_EDGE_COLLAPSE); }
+  void SetRemovalOperationToVertexDelete() { this->SetRemovalOperation(VERTEX_DELETE); }
+  ///@}
+
+  ///@{
+  /**
+   * Whether the output has the point data `FeatureStrength`, eta of (8.5), in any variant: how far
+   * the normal of a vertex turns when it wins, over what normals turn by on average; highest at
+   * edges and corners. It takes FeatureSamples more samples, which move the mesh on. Default off.
+   */
+  vtkSetMacro(ComputeFeatureStrength, vtkTypeBool);
+  vtkGetMacro(ComputeFeatureStrength, vtkTypeBool);
+  vtkBooleanMacro(ComputeFeatureStrength, vtkTypeBool);
   ///@}
 
   enum PresetType
@@ -122,8 +204,8 @@ public:
   ///@{
   /**
    * C_L of chapter 6: how often the neighbours of the winner are smoothed for each sample. More
-   * gives rounder triangles, takes time and blurs.
-   * Default 1 (thesis: 5 in the basic variant without the list, else 1), range 0 to 100.
+   * gives rounder triangles, takes time and blurs. Default 1 (thesis: 5 in the basic and the
+   * normal-based variant without the list, else 1), range 0 to 100.
    */
   vtkNeuralMeshSetClampMacro(SmoothingIterations, int, 0, 100);
   vtkGetMacro(SmoothingIterations, int);
@@ -140,8 +222,9 @@ public:
 
   ///@{
   /**
-   * lambda of (9.4), noise-filtering variant: the number of samples per vertex in which a signal
-   * counter falls to its half. Default 6 (thesis 6), range 0.01 to 1000000.
+   * lambda of (9.4), noise-filtering and normal-based variant: the number of samples per vertex in
+   * which a counter falls to its half; alpha_nc of (8.4) follows from it as alpha_n of (9.4).
+   * Default 6 (thesis 6; for the normal-based variant it names none), range 0.01 to 1000000.
    */
   vtkNeuralMeshSetClampMacro(CounterHalfLife, double, 0.01, 1e6);
   vtkGetMacro(CounterHalfLife, double);
@@ -188,6 +271,50 @@ public:
 
   ///@{
   /**
+   * C_delta of (8.2): the number of moves behind M_delta, the mean change of the winner's normal, by
+   * which changes are divided, and likewise behind the means of the changes of area and volume. In
+   * large batches only every so-many-th move is observed, so that they come from everywhere; where
+   * nothing but the learning curve and TargetNormalChange depends on them, every 64th.
+   * Default 1000 (thesis 1000), range 2 to 1000000.
+   */
+  vtkNeuralMeshSetClampMacro(ChangeWindow, int, 2, 1000000);
+  vtkGetMacro(ChangeWindow, int);
+  ///@}
+
+  ///@{
+  /**
+   * A change counts as this multiple of the mean change at most, in the mean, too; 0 for no limit.
+   * A triangle that folds turns a normal a thousand times farther than an edge of the shape does:
+   * without a limit the mesh grows in its folds. Default 10, in both presets (the thesis names
+   * none), range 0 to 1e9.
+   */
+  vtkNeuralMeshSetClampMacro(GainLimit, double, 0.0, 1e9);
+  vtkGetMacro(GainLimit, double);
+  ///@}
+
+  ///@{
+  /**
+   * alpha_fd of (8.5): what is left of the feature strength of a vertex when it wins; the rest is
+   * that of its move. More averages over more wins. Default 0.99 (the thesis names none), range 0 to
+   * 1.
+   */
+  vtkNeuralMeshSetClampMacro(FeatureMemory, double, 0.0, 1.0);
+  vtkGetMacro(FeatureMemory, double);
+  ///@}
+
+  ///@{
+  /**
+   * With ComputeFeatureStrength: the number of samples per vertex that are learnt, without growth,
+   * once the mesh has all its vertices. While it grows vertices are not yet where they will be; 0
+   * takes the strengths as growth leaves them. Default 200, in both presets (thesis: none), range 0
+   * to 1000000.
+   */
+  vtkNeuralMeshSetClampMacro(FeatureSamples, double, 0.0, 1e6);
+  vtkGetMacro(FeatureSamples, double);
+  ///@}
+
+  ///@{
+  /**
    * C_vs of chapter 6: the number of samples between two vertex splits. The time is in proportion.
    * More follows the cloud closer; less makes misplaced vertices more frequent, of which the
    * maximum of the distances tells sooner than the mean.
@@ -228,7 +355,7 @@ public:
   /**
    * C_ec of chapters 6 and 9: the number of samples per vertex in which a vertex must win so as not
    * to be removed. Growth needs C_ec > exp(-C_ec) C_vs (6.18); less gives a warning, and maybe a
-   * mesh that stalls. Default 10 (thesis 10), range 0.01 to 1000000.
+   * mesh that stalls. Default 10, 20 in the normal-based variant (thesis 10), range 0.01 to 1000000.
    */
   vtkNeuralMeshSetClampMacro(RemovalPatience, double, 0.01, 1e6);
   vtkGetMacro(RemovalPatience, double);
@@ -312,6 +439,21 @@ public:
 
   ///@{
   /**
+   * Parts of the four figures in the WEIGHTED Jump, which divides by their sum: one must be above 0.
+   * Defaults 1, range 0 to 1000.
+   */
+  vtkNeuralMeshSetClampMacro(ConstantWeight, double, 0.0, 1000.0);
+  vtkGetMacro(ConstantWeight, double);
+  vtkNeuralMeshSetClampMacro(NormalWeight, double, 0.0, 1000.0);
+  vtkGetMacro(NormalWeight, double);
+  vtkNeuralMeshSetClampMacro(AreaWeight, double, 0.0, 1000.0);
+  vtkGetMacro(AreaWeight, double);
+  vtkNeuralMeshSetClampMacro(VolumeWeight, double, 0.0, 1000.0);
+  vtkGetMacro(VolumeWeight, double);
+  ///@}
+
+  ///@{
+  /**
    * With the list: exact counters count until the mesh has so many vertices.
    * Default 1000 (thesis 1000), at least 4.
    */
@@ -329,6 +471,13 @@ public:
   vtkNeuralMeshSetClampMacro(BatchSize, int, 1, 1048576);
   vtkGetMacro(BatchSize, int);
   ///@}
+
+  /**
+   * Whether the properties go together. If not, an error says what does, as it does when the filter
+   * is executed: a Jump other than CONSTANT needs Order LIST, and TopologyLearning another variant
+   * than NORMAL_BASED.
+   */
+  bool CheckParameters();
 
 protected:
   vtkNeuralMeshAlgorithm();
@@ -350,6 +499,10 @@ private:
   int Variant = NOISE_FILTERING;
   int Order = EXACT;
   vtkTypeBool TopologyLearning = 0;
+  int Jump = CONSTANT;
+  int AdditionOperation = VERTEX_SPLIT;
+  int RemovalOperation = HALF_EDGE_COLLAPSE;
+  vtkTypeBool ComputeFeatureStrength = 0;
   int Preset = DEFAULT;
 
   // What a preset sets; the values are those of the core's presets.
@@ -362,6 +515,10 @@ private:
   int NoiseWindow = 0;
   double OutlierLimit = 0;
   int OutlierLimitVertices = 0;
+  int ChangeWindow = 0;
+  double GainLimit = 0;
+  double FeatureMemory = 0;
+  double FeatureSamples = 0;
   int SamplesPerAddition = 0;
   double EarlyPatience = 0;
   int EarlyVertices = 0;
@@ -374,6 +531,10 @@ private:
   double TriangleRemovalFactor = 0;
   double BoundaryMergingFactor = 0;
   double JumpFraction = 0;
+  double ConstantWeight = 0;
+  double NormalWeight = 0;
+  double AreaWeight = 0;
+  double VolumeWeight = 0;
   int ListVertices = 0;
   int BatchSize = 0;
 };

@@ -31,21 +31,22 @@ std::vector<std::string> Parameters::errors() const
   std::vector<std::string> errors;
   if (this->jump != Jump::Constant && this->order == Order::Exact)
   {
-    errors.push_back("Jump is about the activity list, and Order is EXACT: a Jump other than "
-                     "CONSTANT needs Order LIST. With counters, NORMAL_BASED is the variant that "
-                     "grows by normal activity.");
+    errors.push_back("Jump tells how far winners jump in the activity list, and with exact counters "
+                     "there is none. What goes together: any jump with the order list; the order "
+                     "exact with the jump constant.");
   }
-  if (this->jump == Jump::Weighted &&
-    this->constantWeight + this->normalWeight + this->areaWeight + this->volumeWeight <= 0.)
+  const double weights =
+    this->constantWeight + this->normalWeight + this->areaWeight + this->volumeWeight;
+  if (this->jump == Jump::Weighted && weights <= 0.)
   {
-    errors.push_back("All weights of the WEIGHTED Jump are 0: one of ConstantWeight, NormalWeight, "
-                     "AreaWeight and VolumeWeight must be above it.");
+    errors.push_back("The weighted jump needs a weight above 0: ConstantWeight, NormalWeight, "
+                     "AreaWeight or VolumeWeight.");
   }
   if (this->topologyLearning && this->variant == Variant::NormalBased)
   {
-    errors.push_back("TopologyLearning takes large triangles for openings, and NORMAL_BASED makes "
-                     "large triangles where the surface is flat: TopologyLearning needs the Variant "
-                     "NOISE_FILTERING or BASIC.");
+    errors.push_back("Topology learning takes large triangles for openings, and the normal-based "
+                     "variant makes them where the surface is flat. What goes together: topology "
+                     "learning with the variants noise_filtering and basic.");
   }
   return errors;
 }

@@ -24,7 +24,7 @@ int TestNeuralMeshLearningCurve(int, char*[])
   filter->Update();
   vtkTable* curve = filter->GetLearningCurve();
   CHECK(curve && curve == filter->GetOutputDataObject(1));
-  CHECK(curve->GetNumberOfColumns() == 14);
+  CHECK(curve->GetNumberOfColumns() == 15);
   CHECK(curve->GetNumberOfRows() > 30);
 
   vtkPolyData* mesh = filter->GetOutput();
@@ -44,6 +44,6 @@ int TestNeuralMeshLearningCurve(int, char*[])
   filter->SetInputData(empty);
   filter->Update();
   CHECK(filter->GetLearningCurve()->GetNumberOfRows() == 0);
-  CHECK(filter->GetLearningCurve()->GetNumberOfColumns() == 14);
+  CHECK(filter->GetLearningCurve()->GetNumberOfColumns() == 15);
   return EXIT_SUCCESS;
 }

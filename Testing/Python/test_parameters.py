@@ -102,8 +102,8 @@ class Errors(unittest.TestCase):
             "vertices must be an integer from 4 to 1000000000, not 50.5": {"vertices": 50.5},
             "seed must be an integer from 0 to 2147483647, not -1": {"seed": -1},
             "edge_flips must be True or False, not 2": {"edge_flips": 2},
-            "variant must be 'basic' or 'noise_filtering', not 'noisy'": {"variant": "noisy"},
-            "variant must be 'basic' or 'noise_filtering', not ''": {"variant": ""},
+            "variant must be 'basic' or 'noise_filtering' or 'normal_based', not 'noisy'": {"variant": "noisy"},
+            "variant must be 'basic' or 'noise_filtering' or 'normal_based', not ''": {"variant": ""},
             "preset must be 'default' or 'thesis', not 1": {"preset": 1},
         }
         for message, parameters in messages.items():

@@ -42,8 +42,8 @@ def reconstruct(
         vertices: The number of vertices of the mesh, from 4 to 1000000000.
         seed: Seed of the random numbers, from 0 to 2147483647. The same points and seed give the
             same bytes; another seed gives another mesh of the same quality.
-        variant: "noise_filtering", by which points far from the mesh pull less; or "basic".
-            Names may be shortened.
+        variant: "noise_filtering", by which points far from the mesh pull less; "basic"; or
+            "normal_based", dense where the surface bends. Names may be shortened.
         order: How it is known where to grow: "exact" by counters, or "list" by the activity list.
         preset: "default", what measures best; or "thesis", the values of the thesis.
         first_mesh: Triangles to start from instead of a tetrahedron, in the coordinates of the
@@ -66,7 +66,8 @@ def reconstruct(
         `DroppedPoints`. No pipeline is behind it.
 
     Raises:
-        ValueError: A parameter is out of its range, which the message names; or there are no
+        ValueError: A parameter is out of its range, which the message names; parameters do not go
+            together, and the message tells what does; or there are no
             points, none that is finite, or none that differs from the others; or first_mesh is no
             vtkPolyData, or its triangles are no oriented manifold: the message names the points.
         TypeError: There is no such parameter.
