@@ -263,7 +263,7 @@ int vtkNeuralMesh::RequestData(
     return !this->GetAbortExecute();
   };
   const neuralmesh::Reconstruction result =
-    neuralmesh::reconstruct(cloud, parameters, progress, std::move(first));
+    neuralmesh::reconstruct(cloud, parameters, progress, first);
   this->StopReason = neuralmesh::name(result.stopReason).data();
   this->AbortExecute = 0;
   if (result.stopReason == neuralmesh::StopReason::Stalled)

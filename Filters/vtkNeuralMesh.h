@@ -100,7 +100,7 @@ public:
    * triangles; two triangles that run along their edge in the same direction; triangles at a point
    * that are not one fan; a triangle that is there twice or uses a point twice, or a point that
    * does not exist; a point that is not finite, or farther from the cloud than 10^6 times its size.
-   * vtkCleanPolyData, vtkPolyDataNormals and vtkPolyDataConnectivityFilter mend most of that.
+   * vtkCleanPolyData and vtkPolyDataNormals mend some of that.
    *
    * Polygons become fans of triangles and strips are taken apart; vtkTriangleFilter does it better
    * for polygons that are not convex. Lines, vertices, attributes and points that no triangle uses

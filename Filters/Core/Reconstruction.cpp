@@ -60,11 +60,10 @@ TriangleMesh toInput(const Mesh& mesh, const PointCloud& cloud)
 }
 
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
-  const Progress& progress, std::optional<Mesh> first)
+  const Progress& progress, const std::optional<Mesh>& first)
 {
   Reconstruction result;
-  Learner learner =
-    first ? Learner(cloud, parameters, std::move(*first)) : Learner(cloud, parameters);
+  Learner learner = first ? Learner(cloud, parameters, *first) : Learner(cloud, parameters);
   result.stopReason = learn(learner, cloud, parameters, result.curve, progress);
   result.counts = learner.counts();
 
