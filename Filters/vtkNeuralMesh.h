@@ -80,6 +80,7 @@
 #include "vtkNeuralMeshAlgorithm.h"
 
 class vtkTable;
+struct vtkNeuralMeshRun;
 
 class VTKFILTERSNEURALMESH_EXPORT vtkNeuralMesh : public vtkNeuralMeshAlgorithm
 {
@@ -210,6 +211,13 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+
+  /**
+   * Called by RequestData before learning: puts the mesh to start from, if there is one, into
+   * `run`; here it is that of input port 1. Throws std::runtime_error if it is none to start from.
+   */
+  virtual void PrepareRun(
+    vtkNeuralMeshRun& run, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
 private:
   vtkNeuralMesh(const vtkNeuralMesh&) = delete;
