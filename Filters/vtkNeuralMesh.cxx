@@ -3,6 +3,7 @@
 
 #include "MeshBuilder.h"
 #include "Reconstruction.h"
+#include "vtkNeuralMeshRun.h"
 #include "vtkPointCloudCollector.h"
 #include "vtkTriangleMeshCollector.h"
 
@@ -14,14 +15,11 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <algorithm>
-#include <chrono>
-#include <optional>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkNeuralMesh);
@@ -42,11 +40,6 @@ vtkStandardNewMacro(vtkNeuralMesh);
 
 namespace
 {
-/// Progress is reported in steps of this size, and at least so often: whoever wants to abort does
-/// so when told of progress.
-constexpr double ProgressStep = 0.01;
-constexpr std::chrono::milliseconds ProgressInterval(50);
-
 template <typename ArrayT, typename ValueT>
 void AddFieldValue(vtkPolyData* output, const char* name, ValueT value)
 {
@@ -92,29 +85,6 @@ void FillLearningCurve(const std::vector<neuralmesh::LearningCurve::Row>& rows, 
   addCount("RemovedTriangles", [](const Row& row) { return row.counts.removedTriangles; });
   addCount("MergedBoundaries", [](const Row& row) { return row.counts.mergedBoundaries; });
   addCount("FilledBoundaries", [](const Row& row) { return row.counts.filledBoundaries; });
-}
-
-/// Throws std::runtime_error if there is a first mesh that is none to learn on.
-std::optional<neuralmesh::Mesh> MakeFirstMesh(
-  vtkPolyData* data, const neuralmesh::PointCloud& cloud)
-{
-  if (!data)
-  {
-    return {};
-  }
-  return neuralmesh::buildMesh(vtkTriangleMeshCollector::Collect(data), cloud);
-}
-
-vtkNew<vtkPoints> MakePoints(const std::vector<Eigen::Vector3d>& positions, int precision)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataType(precision == vtkAlgorithm::DOUBLE_PRECISION ? VTK_DOUBLE : VTK_FLOAT);
-  points->SetNumberOfPoints(static_cast<vtkIdType>(positions.size()));
-  for (std::size_t i = 0; i < positions.size(); ++i)
-  {
-    points->SetPoint(static_cast<vtkIdType>(i), positions[i].data());
-  }
-  return points;
 }
 
 vtkNew<vtkFloatArray> MakeNormals(const std::vector<Eigen::Vector3d>& normals)
@@ -185,7 +155,7 @@ void vtkNeuralMesh::SetFirstMeshData(vtkPolyData* mesh) { this->SetInputData(1, 
 
 vtkPolyData* vtkNeuralMesh::GetFirstMesh()
 {
-  return this->GetNumberOfInputConnections(1) > 0
+  return this->GetNumberOfInputPorts() > 1 && this->GetNumberOfInputConnections(1) > 0
     ? vtkPolyData::SafeDownCast(this->GetInputDataObject(1, 0))
     : nullptr;
 }
@@ -227,49 +197,39 @@ int vtkNeuralMesh::RequestData(
     return 0;
   }
 
-  neuralmesh::Parameters parameters;
-  this->FillParameters(parameters);
+  int precision = this->OutputPointsPrecision;
+  if (precision == DEFAULT_PRECISION)
+  {
+    precision = collector.HasDoublePoints() ? DOUBLE_PRECISION : SINGLE_PRECISION;
+  }
+  vtkNeuralMeshRun run{ cloud, {}, precision, vtkNeuralMeshProgress(this), {} };
+  this->FillParameters(run.Parameters);
 #define SET_PARAMETER(property, parameter)                                                         \
-  parameters.parameter = static_cast<decltype(parameters.parameter)>(this->property);
+  run.Parameters.parameter = static_cast<decltype(run.Parameters.parameter)>(this->property);
   NEURAL_MESH_FOR_EACH_PARAMETER(SET_PARAMETER)
 #undef SET_PARAMETER
-  std::optional<neuralmesh::Mesh> first;
+  for (const std::string& warning : run.Parameters.warnings(cloud.points().size()))
+  {
+    vtkWarningMacro(<< warning);
+  }
   try
   {
-    first = MakeFirstMesh(vtkPolyData::GetData(inputVector[1]), cloud);
+    this->PrepareRun(run, inputVector, outputVector);
   }
   catch (const std::runtime_error& error)
   {
     vtkErrorMacro(<< "Learning cannot start from the first mesh: " << error.what() << ".");
     return 0;
   }
-  if (first && first->vertexCount() > parameters.numberOfVertices)
+  if (run.FirstMesh && run.FirstMesh->vertexCount() > run.Parameters.numberOfVertices)
   {
-    vtkWarningMacro(<< "The first mesh has " << first->vertexCount() << " vertices, more than "
-                    << this->NumberOfVertices << ": it comes out as it is.");
+    vtkWarningMacro(<< "The mesh to start from has " << run.FirstMesh->vertexCount()
+                    << " vertices, more than " << this->NumberOfVertices
+                    << ": it comes out as it is.");
   }
-  for (const std::string& warning : parameters.warnings(cloud.points().size()))
-  {
-    vtkWarningMacro(<< warning);
-  }
-
-  using Clock = std::chrono::steady_clock;
-  double reported = 0.0;
-  Clock::time_point reportTime = Clock::now();
-  const auto progress = [&](double fraction)
-  {
-    const Clock::time_point now = Clock::now();
-    if (fraction >= reported + ProgressStep || now >= reportTime + ProgressInterval)
-    {
-      reported = fraction;
-      reportTime = now;
-      this->UpdateProgress(fraction);
-    }
-    // Not CheckAbort(): it would have the executive throw away the mesh learnt so far.
-    return !this->GetAbortExecute();
-  };
-  const neuralmesh::Reconstruction result =
-    neuralmesh::reconstruct(cloud, parameters, progress, std::move(first));
+  const neuralmesh::Reconstruction result = neuralmesh::reconstruct(
+    cloud, run.Parameters, [&run](double fraction) { return run.Progress.Report(fraction); },
+    run.FirstMesh);
   this->StopReason = neuralmesh::name(result.stopReason).data();
   this->AbortExecute = 0;
   if (result.stopReason == neuralmesh::StopReason::Stalled)
@@ -280,12 +240,7 @@ int vtkNeuralMesh::RequestData(
   }
   FillLearningCurve(result.curve.rows(), learningCurve);
 
-  int precision = this->OutputPointsPrecision;
-  if (precision == DEFAULT_PRECISION)
-  {
-    precision = collector.HasDoublePoints() ? DOUBLE_PRECISION : SINGLE_PRECISION;
-  }
-  output->SetPoints(MakePoints(result.mesh.points, precision));
+  output->SetPoints(vtkTriangleMeshCollector::MakePoints(result.mesh, precision));
   output->SetPolys(vtkTriangleMeshCollector::MakeCells(result.mesh));
   output->GetPointData()->SetNormals(MakeNormals(result.normals));
   output->GetPointData()->AddArray(MakeNumbers("Activity", result.activities));
@@ -302,6 +257,15 @@ int vtkNeuralMesh::RequestData(
   AddFieldValue<vtkIdTypeArray>(
     output, "DroppedPoints", static_cast<vtkIdType>(cloud.droppedCount()));
   return 1;
+}
+
+void vtkNeuralMesh::PrepareRun(
+  vtkNeuralMeshRun& run, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  if (vtkPolyData* first = vtkPolyData::GetData(inputVector[1]))
+  {
+    run.FirstMesh = neuralmesh::buildMesh(vtkTriangleMeshCollector::Collect(first), run.Cloud);
+  }
 }
 
 void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)

@@ -84,6 +84,7 @@
 #include "vtkNeuralMeshAlgorithm.h"
 
 class vtkTable;
+struct vtkNeuralMeshRun;
 
 class VTKFILTERSNEURALMESH_EXPORT vtkNeuralMesh : public vtkNeuralMeshAlgorithm
 {
@@ -104,7 +105,7 @@ public:
    * triangles; two triangles that run along their edge in the same direction; triangles at a point
    * that are not one fan; a triangle that is there twice or uses a point twice, or a point that
    * does not exist; a point that is not finite, or farther from the cloud than 10^6 times its size.
-   * vtkCleanPolyData, vtkPolyDataNormals and vtkPolyDataConnectivityFilter mend most of that.
+   * vtkCleanPolyData and vtkPolyDataNormals mend some of that.
    *
    * Polygons become fans of triangles and strips are taken apart; vtkTriangleFilter does it better
    * for polygons that are not convex. Lines, vertices, attributes and points that no triangle uses
@@ -225,6 +226,13 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+
+  /**
+   * Called by RequestData before learning: puts the mesh to start from, if there is one, into
+   * `run`; here it is that of input port 1. Throws std::runtime_error if it is none to start from.
+   */
+  virtual void PrepareRun(
+    vtkNeuralMeshRun& run, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
 private:
   vtkNeuralMesh(const vtkNeuralMesh&) = delete;

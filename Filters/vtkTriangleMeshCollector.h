@@ -11,10 +11,12 @@
 
 #include "TriangleMesh.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
@@ -64,6 +66,19 @@ public:
         }
       });
     return mesh;
+  }
+
+  /** The points, in double precision if `precision` is vtkAlgorithm::DOUBLE_PRECISION, else single. */
+  static vtkNew<vtkPoints> MakePoints(const neuralmesh::TriangleMesh& mesh, int precision)
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataType(precision == vtkAlgorithm::DOUBLE_PRECISION ? VTK_DOUBLE : VTK_FLOAT);
+    points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    {
+      points->SetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
+    }
+    return points;
   }
 
   /** The triangles as cells, with the same point ids. */

@@ -38,25 +38,31 @@ double squaredDistanceToTriangle(const Eigen::Vector3d& point, const Eigen::Vect
     squaredDistanceToSegment(point, c, a) });
 }
 
+ClosestTriangle closestTriangle(const Eigen::Vector3d& point, const Mesh& mesh, VertexIndex v)
+{
+  ClosestTriangle best{ 0, std::numeric_limits<double>::infinity() };
+  const Ring& ring = mesh.ring(v);
+  const Eigen::Vector3d corner = mesh.position(v).toDouble();
+  for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+  {
+    const double squared = squaredDistanceToTriangle(point, corner,
+      mesh.position(ring[slot]).toDouble(), mesh.position(ring[ring.after(slot)]).toDouble());
+    if (squared < best.squaredDistance)
+    {
+      best = { slot, squared };
+    }
+  }
+  return best;
+}
+
 double distanceToSurface(Vector4 point, const Mesh& mesh, const VertexGrid& grid)
 {
   const Eigen::Vector3d p = point.toDouble();
-  double best = std::numeric_limits<double>::infinity();
-  const auto lookAtStar = [&](VertexIndex v)
-  {
-    const Ring& ring = mesh.ring(v);
-    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
-    {
-      best = std::min(best,
-        squaredDistanceToTriangle(p, mesh.position(v).toDouble(),
-          mesh.position(ring[slot]).toDouble(), mesh.position(ring[ring.after(slot)]).toDouble()));
-    }
-  };
   const VertexIndex closest = grid.closest(point, mesh.positions());
-  lookAtStar(closest);
+  double best = closestTriangle(p, mesh, closest).squaredDistance;
   for (const VertexIndex neighbor : mesh.ring(closest))
   {
-    lookAtStar(neighbor);
+    best = std::min(best, closestTriangle(p, mesh, neighbor).squaredDistance);
   }
   return std::sqrt(best);
 }

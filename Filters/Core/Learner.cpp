@@ -90,7 +90,7 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters)
   this->isListDue_ = parameters.order == Order::List;
 }
 
-Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh)
+Learner::Learner(const PointCloud& cloud, const Parameters& parameters, const Mesh& mesh)
   : Learner(cloud, parameters, mesh, orderAfterOneWin(mesh.indexEnd()))
 {
   this->isListDue_ = parameters.order == Order::List;

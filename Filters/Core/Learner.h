@@ -46,7 +46,7 @@ public:
     std::unique_ptr<ActivityOrder> order);
   /// Starts from `mesh` with exact counters, as if each vertex had just won once; with the list,
   /// the counters are dropped as soon as the mesh is large enough.
-  Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh);
+  Learner(const PointCloud& cloud, const Parameters& parameters, const Mesh& mesh);
   /// Starts from a tetrahedron in the middle of the cloud.
   Learner(const PointCloud& cloud, const Parameters& parameters);
 

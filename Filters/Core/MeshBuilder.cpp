@@ -259,4 +259,20 @@ Mesh buildMesh(TriangleMesh triangles, const PointCloud& cloud)
     }
   }
 }
+
+TriangleMesh trianglesOf(const Mesh& mesh, const PointCloud& cloud)
+{
+  TriangleMesh result;
+  result.points.reserve(mesh.vertexCount());
+  result.triangles.reserve(mesh.triangleCount());
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    result.points.push_back(cloud.toInput(mesh.position(v)));
+  }
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+      result.triangles.push_back({ a, b, c });
+    });
+  return result;
+}
 }

@@ -18,4 +18,7 @@ namespace neuralmesh
 ///
 /// Takes O(n log n) for n triangles.
 Mesh buildMesh(TriangleMesh triangles, const PointCloud& cloud);
+
+/// The way back. No vertex may be erased, so that indices are those of the mesh.
+TriangleMesh trianglesOf(const Mesh& mesh, const PointCloud& cloud);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Reconstruction.h"
 
+#include "MeshBuilder.h"
 #include "Orientation.h"
 
 #include <algorithm>
@@ -20,11 +21,8 @@ StopReason learn(Learner& learner, const PointCloud& cloud, const Parameters& pa
   StoppingRules rules(cloud, parameters, learner.mesh().vertexCount());
   for (;;)
   {
-    StopReason reason = rules.check(learner);
-    if (reason == StopReason::None && !progress(rules.progress(learner)))
-    {
-      reason = StopReason::Cancelled;
-    }
+    const StopReason reason =
+      progress(rules.progress(learner)) ? rules.check(learner) : StopReason::Cancelled;
     if (reason != StopReason::None || curve.isRowDue(learner))
     {
       curve.add(learner, cloud.unit(), rules.seconds());
@@ -41,37 +39,20 @@ StopReason learn(Learner& learner, const PointCloud& cloud, const Parameters& pa
     learner.learn(samples);
   }
 }
-
-TriangleMesh toInput(const Mesh& mesh, const PointCloud& cloud)
-{
-  TriangleMesh result;
-  result.points.reserve(mesh.vertexCount());
-  result.triangles.reserve(mesh.triangleCount());
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    result.points.push_back(cloud.toInput(mesh.position(v)));
-  }
-  mesh.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
-      result.triangles.push_back({ a, b, c });
-    });
-  return result;
-}
 }
 
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
-  const Progress& progress, std::optional<Mesh> first)
+  const Progress& progress, const std::optional<Mesh>& first)
 {
   Reconstruction result;
-  Learner learner =
-    first ? Learner(cloud, parameters, std::move(*first)) : Learner(cloud, parameters);
+  Learner learner = first ? Learner(cloud, parameters, *first) : Learner(cloud, parameters);
   result.stopReason = learn(learner, cloud, parameters, result.curve, progress);
   result.counts = learner.counts();
 
   learner.renumber();
   Mesh mesh = learner.mesh();
   orientOutwards(mesh);
-  result.mesh = toInput(mesh, cloud);
+  result.mesh = trianglesOf(mesh, cloud);
   result.normals = pointNormals(result.mesh);
   result.activities.reserve(mesh.vertexCount());
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)

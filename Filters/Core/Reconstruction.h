@@ -29,5 +29,5 @@ struct Reconstruction
 /// Grows a mesh over a cloud that has an extent: from `first`, or a tetrahedron if there is none,
 /// until a stopping rule is met, then oriented outwards.
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
-  const Progress& progress, std::optional<Mesh> first = {});
+  const Progress& progress, const std::optional<Mesh>& first = {});
 }

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Ensemble.h"
+
+#include "DepthBufferVoxelizer.h"
+#include "MeshBuilder.h"
+#include "PhantomTriangles.h"
+#include "Random.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr std::uint64_t SamplesPerRound = 5000;
+/// The stream of random numbers that the seeds of the members come from.
+constexpr std::uint64_t SeedStream = 10;
+constexpr std::size_t LeastVertices = 50;
+
+Parameters memberParameters(const PointCloud& cloud, const EnsembleParameters& parameters)
+{
+  // A closed mesh has two triangles a vertex.
+  const std::size_t most = std::max(LeastVertices, cloud.points().size() / (2 * PointsPerTriangle));
+  Parameters result;
+  result.numberOfVertices = std::min(parameters.verticesPerMember, most);
+  result.samplesPerAddition = parameters.memberSamplesPerAddition;
+  result.removalPatience = parameters.memberRemovalPatience;
+  return result;
+}
+}
+
+Ensemble::Member::Member(const PointCloud& cloud, const Parameters& parameters)
+  : learner(cloud, parameters)
+  , rules(cloud, parameters)
+{
+}
+
+Ensemble::Ensemble(const PointCloud& cloud, const EnsembleParameters& parameters)
+  : cloud_(cloud)
+  , parameters_(parameters)
+  , memberParameters_(memberParameters(cloud, parameters))
+{
+  Random seeds(parameters.seed, SeedStream);
+  for (unsigned i = 0; i < parameters.numberOfMembers; ++i)
+  {
+    Parameters ofMember = this->memberParameters_;
+    ofMember.seed = seeds.next();
+    this->members_.push_back(std::make_unique<Member>(cloud, ofMember));
+  }
+}
+
+// --- Population ----------------------------------------------------------------------------------
+
+void Ensemble::learn(std::size_t index)
+{
+  Member& member = *this->members_[index];
+  if (member.isLearnt)
+  {
+    return;
+  }
+  member.learner.learn(std::max<std::uint64_t>(SamplesPerRound, member.learner.batchSize()));
+  member.progress = member.rules.progress(member.learner);
+  member.isLearnt = member.rules.check(member.learner) != StopReason::None;
+}
+
+bool Ensemble::isLearnt() const
+{
+  return std::all_of(this->members_.begin(), this->members_.end(),
+    [](const auto& member) { return member->isLearnt; });
+}
+
+double Ensemble::progress() const
+{
+  double sum = 0.;
+  for (const auto& member : this->members_)
+  {
+    sum += member->isLearnt ? 1. : member->progress;
+  }
+  return sum / double(this->size());
+}
+
+double Ensemble::expectedSamples() const
+{
+  const Parameters& parameters = this->memberParameters_;
+  const auto vertices = double(parameters.numberOfVertices);
+  const double early = std::min(vertices, double(parameters.earlyVertices));
+  return double(this->size()) * parameters.samplesPerAddition *
+    (vertices + early * (parameters.earlyPatience - 1.));
+}
+
+// --- Averaging -----------------------------------------------------------------------------------
+
+void Ensemble::findPhantoms(std::size_t index)
+{
+  Member& member = *this->members_[index];
+  member.learner.renumber();
+  const Mesh& mesh = member.learner.mesh();
+  member.isPhantom = neuralmesh::findPhantoms(this->cloud_, mesh, member.learner.grid());
+  member.triangles = trianglesOf(mesh, this->cloud_);
+}
+
+std::size_t Ensemble::gridCount(unsigned resolution)
+{
+  // From centre to centre, and a layer at either side that is outside.
+  return std::size_t(resolution) + 1 + 2;
+}
+
+void Ensemble::makeGrid()
+{
+  // What more than half of the members can hold at all.
+  const std::size_t others = this->size() / 2;
+  Eigen::Vector3d low, high;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+  {
+    std::vector<double> lows, highs;
+    for (const auto& member : this->members_)
+    {
+      const auto [least, most] =
+        std::minmax_element(member->triangles.points.begin(), member->triangles.points.end(),
+          [axis](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a[axis] < b[axis]; });
+      lows.push_back((*least)[axis]);
+      highs.push_back((*most)[axis]);
+    }
+    std::sort(lows.begin(), lows.end());
+    std::sort(highs.rbegin(), highs.rend());
+    low[axis] = lows[others];
+    high[axis] = highs[others];
+  }
+  // There may be no room that more than half of them share.
+  const double longest = (high - low).maxCoeff();
+  this->grid_.width =
+    (longest > 0. ? longest : this->cloud_.unit()) / this->parameters_.gridResolution;
+  const std::size_t count = gridCount(this->parameters_.gridResolution);
+  this->grid_.counts = { count, count, count };
+  this->grid_.first =
+    0.5 * (low + high - Eigen::Vector3d::Constant(this->grid_.width * double(count - 1)));
+}
+
+void Ensemble::voxelize(std::size_t index)
+{
+  Member& member = *this->members_[index];
+  member.voxels = neuralmesh::voxelize(member.triangles, this->grid_, member.isPhantom);
+}
+
+VoxelVotes Ensemble::votes() const
+{
+  VoxelVotes result{ this->grid_, unsigned(this->size()),
+    std::vector<std::uint8_t>(this->grid_.size(), 0) };
+  for (const auto& member : this->members_)
+  {
+    std::transform(member->voxels.begin(), member->voxels.end(), result.votes.begin(),
+      result.votes.begin(), std::plus<std::uint8_t>());
+  }
+  return result;
+}
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNeuralMeshRun.h"
+
+#include "vtkAlgorithm.h"
+
+namespace
+{
+/// Progress is reported in steps of this size, and at least so often: whoever wants to abort does
+/// so when told of progress.
+constexpr double ProgressStep = 0.01;
+constexpr std::chrono::milliseconds ProgressInterval(50);
+}
+
+void vtkNeuralMeshProgress::EnterPart(double begin, double end, const char* text)
+{
+  this->Begin = begin;
+  this->End = end;
+  this->Filter->SetProgressText(text);
+}
+
+bool vtkNeuralMeshProgress::Report(double fraction)
+{
+  const double done = this->Begin + fraction * (this->End - this->Begin);
+  const Clock::time_point now = Clock::now();
+  if (done >= this->Reported + ProgressStep || now >= this->ReportTime + ProgressInterval)
+  {
+    this->Reported = done;
+    this->ReportTime = now;
+    this->Filter->UpdateProgress(done);
+  }
+  // Not CheckAbort(): it would have the executive throw away the mesh learnt so far.
+  return !this->Filter->GetAbortExecute();
+}
+
+double vtkNeuralMeshProgress::GetSeconds() const
+{
+  return std::chrono::duration<double>(Clock::now() - this->Start).count();
+}

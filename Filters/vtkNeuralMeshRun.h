@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkNeuralMeshRun
+ * @brief   what vtkNeuralMesh and its subclasses share while they execute
+ *
+ * Internal to the module.
+ */
+
+#ifndef vtkNeuralMeshRun_h
+#define vtkNeuralMeshRun_h
+
+#include "Mesh.h"
+#include "Parameters.h"
+#include "PointCloud.h"
+
+#include <chrono>
+#include <optional>
+
+class vtkAlgorithm;
+
+/// Reports the progress of a filter, not too often, and asks whether to go on.
+class vtkNeuralMeshProgress
+{
+public:
+  explicit vtkNeuralMeshProgress(vtkAlgorithm* filter)
+    : Filter(filter)
+  {
+  }
+
+  /** From now on, fractions count within this part of the whole; `text` says what is done there. */
+  void EnterPart(double begin, double end, const char* text);
+  /** How much of the part is done, 0 to 1. Returns false if the filter was told to abort. */
+  bool Report(double fraction);
+  /** Since the start. */
+  double GetSeconds() const;
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  vtkAlgorithm* Filter;
+  double Begin = 0.0;
+  double End = 1.0;
+  double Reported = 0.0;
+  Clock::time_point Start = Clock::now();
+  Clock::time_point ReportTime = Start;
+};
+
+struct vtkNeuralMeshRun
+{
+  const neuralmesh::PointCloud& Cloud;
+  neuralmesh::Parameters Parameters;
+  int PointsPrecision; ///< of the output
+  vtkNeuralMeshProgress Progress;
+  std::optional<neuralmesh::Mesh> FirstMesh;
+};
+
+#endif
