@@ -14,12 +14,14 @@
 #include "WholeFile.h"
 
 #include "vtkNeuralMesh.h"
+#include "vtkNeuralMeshEnsemble.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkTable.h"
 
 #include <CLI/CLI.hpp>
@@ -36,6 +38,9 @@ namespace
 /// What shells give for a process that Ctrl-C has ended.
 constexpr int InterruptedStatus = 128 + SIGINT;
 
+/** Topology learning as the filter has it by default: off, but on in the refinement of an ensemble. */
+constexpr int TopologyAsUsual = -1;
+
 struct Options
 {
   std::string Input;
@@ -45,7 +50,8 @@ struct Options
   int Seed = 1;
   int Variant = vtkNeuralMesh::NOISE_FILTERING;
   int Order = vtkNeuralMesh::EXACT;
-  int Topology = 0;
+  int Topology = TopologyAsUsual;
+  int EnsembleMembers = 0; ///< 0 = a single run
   std::string Jump;
   bool Features = false;
   int Preset = vtkNeuralMesh::DEFAULT;
@@ -121,13 +127,36 @@ void RequireSoundParameters(vtkNeuralMesh* filter)
   }
 }
 
+vtkSmartPointer<vtkNeuralMesh> MakeFilter(const Options& options)
+{
+  if (options.EnsembleMembers == 0)
+  {
+    return vtkSmartPointer<vtkNeuralMesh>::New();
+  }
+  if (!options.Initial.empty())
+  {
+    throw UsageError(
+      "--ensemble and --initial exclude each other: an ensemble makes its first mesh");
+  }
+  if (options.DryRun)
+  {
+    throw UsageError("--dry-run estimates single runs, without --ensemble");
+  }
+  const auto ensemble = vtkSmartPointer<vtkNeuralMeshEnsemble>::New();
+  ensemble->SetNumberOfMembers(options.EnsembleMembers);
+  return ensemble;
+}
+
 void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
 {
   filter->SetNumberOfVertices(options.Vertices);
   filter->SetSeed(options.Seed);
   filter->SetVariant(options.Variant);
   filter->SetOrder(options.Order);
-  filter->SetTopologyLearning(options.Topology);
+  if (options.Topology != TopologyAsUsual)
+  {
+    filter->SetTopologyLearning(options.Topology);
+  }
   filter->SetComputeFeatureStrength(options.Features);
   filter->SetPreset(options.Preset);
   filter->SetTimeLimit(options.TimeLimit);
@@ -209,7 +238,7 @@ void Learn(vtkNeuralMesh* filter, vtkPointSet* points, const Options& options)
 
 int Reconstruct(const Options& options)
 {
-  vtkNew<vtkNeuralMesh> filter;
+  const auto filter = MakeFilter(options);
   PrepareFilter(filter, options);
   RequireWritableExtension(options.Output);
   if (options.Features && FileExtension(options.Output) != ".vtp")
@@ -308,7 +337,12 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
       "(constant, the default) or the change by the move over the mean change")
     ->type_name(Joined(Jumps) + "[=FRACTION]");
   AddChoice(command, "--topology", options->Topology, { { "off", 0 }, { "on", 1 } },
-    "on: learn handles and openings; off (default): the surface stays a sphere");
+    "on: learn handles and openings; off (default without --ensemble): keep the topology");
+  command
+    ->add_option("--ensemble", options->EnsembleMembers,
+      "Start from the average of so many coarse meshes, 1 to 255: for shapes with handles")
+    ->check(CLI::Range(1, 255).description(""))
+    ->type_name("MEMBERS");
   command->add_option("--set", options->Assignments, "Set a parameter of learning, see below")
     ->type_name("NAME=VALUE")
     ->take_all()

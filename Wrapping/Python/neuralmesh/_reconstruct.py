@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkP
 from ._execution import Progress, execute
 from ._parameters import assign, parameters_of, refuse_unknown, table
 from ._points import as_dataset
-from .vtkFiltersNeuralMesh import vtkNeuralMesh
+from .vtkFiltersNeuralMesh import vtkNeuralMesh, vtkNeuralMeshEnsemble
 
 # Those that have names or places of their own in the signature.
 _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
@@ -17,6 +17,12 @@ _PARAMETERS = {
     name: parameter
     for name, parameter in parameters_of(vtkNeuralMesh).items()
     if name not in _NAMED
+}
+
+_ENSEMBLE_PARAMETERS = {
+    name: parameter
+    for name, parameter in parameters_of(vtkNeuralMeshEnsemble).items()
+    if name not in (*_NAMED, "number_of_members")
 }
 
 
@@ -29,6 +35,7 @@ def reconstruct(
     order: str = "exact",
     preset: str = "default",
     first_mesh: vtkPolyData | None = None,
+    ensemble: int | None = None,
     progress: Progress | None = None,
     **parameters: float | bool | str,
 ) -> vtkPolyData:
@@ -49,6 +56,9 @@ def reconstruct(
         first_mesh: Triangles to start from instead of a tetrahedron, in the coordinates of the
             points: an oriented 2-manifold, with or without boundary, whose topology the result then
             has. One of as many vertices as are asked for, or more, comes out as it is.
+        ensemble: The number of members, from 1 to 255, to start from the average of so many coarse
+            meshes, as vtkNeuralMeshEnsemble does: for shapes with handles. Topology is learnt then,
+            unless topology_learning is False. Its other properties are parameters, too.
         progress: A function that is called now and then with the fraction that is done, from 0 to
             1. If it returns False, the mesh learnt so far is the result. An exception that it
             raises ends the run and comes out of this function.
@@ -84,8 +94,13 @@ def reconstruct(
         >>> mesh.GetNumberOfPoints()
         5000
     """
-    refuse_unknown("reconstruct", parameters, _PARAMETERS)
-    mesh = vtkNeuralMesh()
+    known = _PARAMETERS if ensemble is None else _ENSEMBLE_PARAMETERS
+    refuse_unknown("reconstruct", parameters, known)
+    mesh = vtkNeuralMesh() if ensemble is None else vtkNeuralMeshEnsemble()
+    if ensemble is not None:
+        assign(mesh, "number_of_members", ensemble, shown_name="ensemble")
+        if first_mesh is not None:
+            raise ValueError("ensemble and first_mesh exclude each other: it makes its first mesh")
     assign(mesh, "number_of_vertices", vertices, shown_name="vertices")
     assign(mesh, "seed", seed)
     # A preset sets parameters, and to what depends on variant and order.
