@@ -47,3 +47,9 @@ def write_ply(path, points):
         file.write(b"ply\nformat binary_little_endian 1.0\nelement vertex %d\n" % len(points))
         file.write(b"property float x\nproperty float y\nproperty float z\nend_header\n")
         file.write(points.astype("<f4").tobytes())
+
+
+def write_obj(path, points, triangles):
+    with open(path, "w", encoding="ascii") as file:
+        file.writelines("v %.9g %.9g %.9g\n" % tuple(point) for point in points)
+        file.writelines("f %d %d %d\n" % tuple(triangle) for triangle in triangles + 1)
