@@ -59,6 +59,7 @@ def scene(data, up, azimuth, elevation, scalars=None, zoom=1.25):
     if scalars is not None:
         data.GetPointData().SetActiveScalars(scalars)
         mapper.SetScalarRange(data.GetPointData().GetArray(scalars).GetRange())
+        mapper.GetLookupTable().SetHueRange(2 / 3, 0)  # from blue to red
         looks.EdgeVisibilityOff()
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
@@ -116,7 +117,28 @@ def topology():
             for learnt in (False, True)]
 
 
-PICTURES = {"growth": growth, "noise": noise, "topology": topology}
+def normals():
+    points = clouds.cube(200000)
+    basic, normal_based = (neuralmesh.reconstruct(points, 2000, variant=variant)
+                           for variant in ("basic", "normal_based"))
+    strength = neuralmesh.reconstruct(points, 2000, compute_feature_strength=True)
+    return [scene(basic, "z", 30, 25), scene(normal_based, "z", 30, 25),
+            scene(strength, "z", 30, 25, "FeatureStrength")]
+
+
+def ensemble():
+    points = clouds.sample(*clouds.cgal_mesh("eight"), 200000)
+    algorithm = neuralmesh.vtkNeuralMeshEnsemble()
+    algorithm.SetInputData(cloud_data(points))
+    algorithm.SetNumberOfVertices(5000)
+    algorithm.Update()
+    member = neuralmesh.reconstruct(points, 2000)
+    return [scene(mesh, "y", 20, 30)
+            for mesh in (member, algorithm.GetAverageMesh(), algorithm.GetOutput())]
+
+
+PICTURES = {"growth": growth, "noise": noise, "topology": topology, "normals": normals,
+            "ensemble": ensemble}
 
 
 def main():

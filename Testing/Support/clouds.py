@@ -20,6 +20,14 @@ def torus(count, tube=0.4, seed=1):
     return np.column_stack((radius * np.cos(around), radius * np.sin(around), tube * np.sin(along)))
 
 
+def cube(count, seed=1):
+    """Points evenly on the axis-parallel cube of side 1 around the origin."""
+    random = np.random.default_rng(seed)
+    points = random.uniform(-0.5, 0.5, (count, 3))
+    points[np.arange(count), random.integers(0, 3, count)] = random.choice((-0.5, 0.5), count)
+    return points
+
+
 def cgal_mesh(name):
     """Vertices and triangles of meshes/NAME.off in CGAL's data."""
     with tarfile.open(CGAL_DATA) as archive:
