@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LearningParameters.h"
 
-#include "vtkNeuralMesh.h"
+#include "vtkNeuralMeshEnsemble.h"
 
 #include "vtkNew.h"
 
@@ -15,12 +15,22 @@
 
 namespace
 {
+/// Of the column of names in the table.
+constexpr int NameWidth = 25;
+
 template <typename OwnerT, typename ValueT>
 LearningParameter Describe(const char* name, const char* description, double minimum,
   double maximum, ValueT defaultValue, void (OwnerT::*set)(ValueT))
 {
-  const auto setValue = [set](vtkNeuralMesh* filter, double value)
-  { (filter->*set)(static_cast<ValueT>(value)); };
+  const auto setValue = [name, set](vtkNeuralMesh* filter, double value)
+  {
+    auto* owner = dynamic_cast<OwnerT*>(filter);
+    if (!owner)
+    {
+      throw UsageError(std::string("--set ") + name + " goes with --ensemble");
+    }
+    (owner->*set)(static_cast<ValueT>(value));
+  };
   return { name, description, minimum, maximum, static_cast<double>(defaultValue),
     std::is_integral_v<ValueT>, {}, setValue };
 }
@@ -33,10 +43,10 @@ LearningParameter WithWords(LearningParameter parameter, std::vector<std::string
 
 std::vector<LearningParameter> MakeParameters()
 {
-  vtkNew<vtkNeuralMesh> defaults;
+  vtkNew<vtkNeuralMeshEnsemble> defaults;
 #define PARAMETER_IN(property, minimum, maximum, description)                                      \
   Describe(#property, description, static_cast<double>(minimum), static_cast<double>(maximum),     \
-    defaults->Get##property(), &vtkNeuralMesh::Set##property)
+    defaults->Get##property(), &vtkNeuralMeshEnsemble::Set##property)
 #define PARAMETER(property, description)                                                           \
   PARAMETER_IN(property, defaults->Get##property##MinValue(), defaults->Get##property##MaxValue(), \
     description)
@@ -80,6 +90,10 @@ std::vector<LearningParameter> MakeParameters()
     PARAMETER(TargetCloudDistance, "end at this mean distance to the mesh, part of diagonal"),
     PARAMETER(TargetNormalChange, "end at this mean change of normals, 1 - cosine"),
     PARAMETER(StallPatience, "end after so many samples per vertex without growth"),
+    PARAMETER(VerticesPerMember, "vertices of a member (ensemble)"),
+    PARAMETER(MemberSamplesPerAddition, "its samples between two new vertices (ensemble)"),
+    PARAMETER(MemberRemovalPatience, "its samples per vertex until removal (ensemble)"),
+    PARAMETER(GridResolution, "voxels along the longest side (ensemble)"),
   };
 #undef PARAMETER
 #undef PARAMETER_IN
@@ -159,12 +173,12 @@ void SetLearningParameter(vtkNeuralMesh* filter, const std::string& assignment)
 std::string DescribeLearningParameters()
 {
   std::ostringstream table;
-  table << "  " << std::left << std::setw(21) << "name" << std::setw(7) << "default"
+  table << "  " << std::left << std::setw(NameWidth) << "name" << std::setw(7) << "default"
         << " " << std::setw(17) << "range"
         << "what it is\n";
   for (const LearningParameter& parameter : GetLearningParameters())
   {
-    table << "  " << std::left << std::setw(21) << parameter.Name;
+    table << "  " << std::left << std::setw(NameWidth) << parameter.Name;
     if (parameter.Words.empty())
     {
       const std::string range = Number(parameter.Minimum) + " to " + Number(parameter.Maximum);

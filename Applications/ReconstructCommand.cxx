@@ -38,8 +38,8 @@ namespace
 /// What shells give for a process that Ctrl-C has ended.
 constexpr int InterruptedStatus = 128 + SIGINT;
 
-/** Topology learning as the filter has it by default: off, but on in the refinement of an ensemble. */
-constexpr int TopologyAsUsual = -1;
+/// Off, or with an ensemble on.
+constexpr int DefaultTopology = -1;
 
 struct Options
 {
@@ -50,8 +50,8 @@ struct Options
   int Seed = 1;
   int Variant = vtkNeuralMesh::NOISE_FILTERING;
   int Order = vtkNeuralMesh::EXACT;
-  int Topology = TopologyAsUsual;
-  int EnsembleMembers = 0; ///< 0 = a single run
+  int Topology = DefaultTopology;
+  int Members = 0; ///< of an ensemble; 0 for none
   std::string Jump;
   bool Features = false;
   int Preset = vtkNeuralMesh::DEFAULT;
@@ -129,21 +129,12 @@ void RequireSoundParameters(vtkNeuralMesh* filter)
 
 vtkSmartPointer<vtkNeuralMesh> MakeFilter(const Options& options)
 {
-  if (options.EnsembleMembers == 0)
+  if (options.Members == 0)
   {
     return vtkSmartPointer<vtkNeuralMesh>::New();
   }
-  if (!options.Initial.empty())
-  {
-    throw UsageError(
-      "--ensemble and --initial exclude each other: an ensemble makes its first mesh");
-  }
-  if (options.DryRun)
-  {
-    throw UsageError("--dry-run estimates single runs, without --ensemble");
-  }
-  const auto ensemble = vtkSmartPointer<vtkNeuralMeshEnsemble>::New();
-  ensemble->SetNumberOfMembers(options.EnsembleMembers);
+  vtkNew<vtkNeuralMeshEnsemble> ensemble;
+  ensemble->SetNumberOfMembers(options.Members);
   return ensemble;
 }
 
@@ -153,7 +144,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
   filter->SetSeed(options.Seed);
   filter->SetVariant(options.Variant);
   filter->SetOrder(options.Order);
-  if (options.Topology != TopologyAsUsual)
+  if (options.Topology != DefaultTopology)
   {
     filter->SetTopologyLearning(options.Topology);
   }
@@ -238,7 +229,7 @@ void Learn(vtkNeuralMesh* filter, vtkPointSet* points, const Options& options)
 
 int Reconstruct(const Options& options)
 {
-  const auto filter = MakeFilter(options);
+  const vtkSmartPointer<vtkNeuralMesh> filter = MakeFilter(options);
   PrepareFilter(filter, options);
   RequireWritableExtension(options.Output);
   if (options.Features && FileExtension(options.Output) != ".vtp")
@@ -316,10 +307,17 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
       "Seed of the random numbers, from 0 on (default 1): the same seed, the same mesh")
     ->check(CLI::Range(0, VTK_INT_MAX).description(""))
     ->type_name("N");
+  CLI::Option* const initial =
+    command
+      ->add_option("--initial", options->Initial,
+        "Start from the triangles of this file: .ply .vtp .vtk .obj .stl")
+      ->type_name("FILE");
   command
-    ->add_option("--initial", options->Initial,
-      "Start from the triangles of this file: .ply .vtp .vtk .obj .stl")
-    ->type_name("FILE");
+    ->add_option("--ensemble", options->Members,
+      "Start from the average of so many coarse meshes, 1 to 255, 9 say: handles come out right")
+    ->check(CLI::Range(1, 255).description(""))
+    ->excludes(initial)
+    ->type_name("MEMBERS");
   AddChoice(command, "--method", options->Variant,
     { { "basic", vtkNeuralMesh::BASIC }, { "noise", vtkNeuralMesh::NOISE_FILTERING },
       { "normal", vtkNeuralMesh::NORMAL_BASED } },
@@ -337,12 +335,8 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
       "(constant, the default) or the change by the move over the mean change")
     ->type_name(Joined(Jumps) + "[=FRACTION]");
   AddChoice(command, "--topology", options->Topology, { { "off", 0 }, { "on", 1 } },
-    "on: learn handles and openings; off (default without --ensemble): keep the topology");
-  command
-    ->add_option("--ensemble", options->EnsembleMembers,
-      "Start from the average of so many coarse meshes, 1 to 255: for shapes with handles")
-    ->check(CLI::Range(1, 255).description(""))
-    ->type_name("MEMBERS");
+    "on: learn handles and openings (default with --ensemble); off (default without): the surface "
+    "keeps the topology of its start, a sphere");
   command->add_option("--set", options->Assignments, "Set a parameter of learning, see below")
     ->type_name("NAME=VALUE")
     ->take_all()

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RunEstimate.h"
 
-#include "vtkNeuralMesh.h"
+#include "vtkNeuralMeshEnsemble.h"
 
 #include "vtkPointSet.h"
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace
@@ -23,6 +24,9 @@ constexpr double BytesPerVertex = 400.0;
 /// the time of a sample, averaged over the run; see the table of growth in the README.
 constexpr double VerticesInCache = 32768.0;
 constexpr double SlowdownPerDoubling = 0.35;
+
+/// The rest of the vertices are those of the average mesh.
+constexpr double PartLearntByEnsemble = 0.75;
 
 double ValueAt(vtkTable* curve, vtkIdType row, const char* column)
 {
@@ -41,7 +45,10 @@ RunEstimate EstimateRun(vtkNeuralMesh* filter, vtkPointSet* points)
     filter->GetComputeFeatureStrength() ? filter->GetFeatureSamples() * vertices : 0.0;
   filter->ComputeFeatureStrengthOff();
   filter->SetInputData(points);
+  const auto start = std::chrono::steady_clock::now();
   filter->Update();
+  const double seconds =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   vtkTable* curve = filter->GetLearningCurve();
 
   RunEstimate estimate{};
@@ -60,13 +67,15 @@ RunEstimate EstimateRun(vtkNeuralMesh* filter, vtkPointSet* points)
   }
   const auto rise = [&](const char* column)
   { return ValueAt(curve, last, column) - ValueAt(curve, middle, column); };
-  const double left = std::max(0.0, vertices - ValueAt(curve, last, "Vertices"));
+  const bool isEnsemble = vtkNeuralMeshEnsemble::SafeDownCast(filter) != nullptr;
+  const double left = (isEnsemble ? PartLearntByEnsemble : 1.0) *
+    std::max(0.0, vertices - ValueAt(curve, last, "Vertices"));
   const double samplesLeft =
     left * rise("Iteration") / std::max(1.0, rise("Vertices")) + samplesForFeatures;
   const double slowdown =
     1.0 + SlowdownPerDoubling * std::max(0.0, std::log2(vertices / VerticesInCache));
   const double secondsLeft = samplesLeft * slowdown * rise("Seconds") / rise("Iteration");
   estimate.Samples = ValueAt(curve, last, "Iteration") + samplesLeft;
-  estimate.Seconds = ValueAt(curve, last, "Seconds") + secondsLeft;
+  estimate.Seconds = (isEnsemble ? seconds : ValueAt(curve, last, "Seconds")) + secondsLeft;
   return estimate;
 }

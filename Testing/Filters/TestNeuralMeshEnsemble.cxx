@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Promises: an ensemble gives a torus its handle, with the average mesh and the votes beside it; the
+// same bytes at any number of threads; empty input is quiet; an abort leaves a valid mesh.
+#include "FilterTesting.h"
+#include "VTKThreads.h"
+
+#include "vtkNeuralMeshEnsemble.h"
+
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+#include "vtkTable.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace
+{
+vtkNew<vtkPolyData> TorusCloud()
+{
+  vtkNew<vtkPoints> points;
+  constexpr int Around = 400;
+  constexpr int Along = 120;
+  for (int i = 0; i < Around; ++i)
+  {
+    for (int j = 0; j < Along; ++j)
+    {
+      // Neighbouring rows are shifted against each other.
+      const double u = 2.0 * 3.14159265358979 * (i + 0.37 * j) / Around;
+      const double v = 2.0 * 3.14159265358979 * j / Along;
+      const double r = 1.0 + 0.4 * std::cos(v);
+      points->InsertNextPoint(r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v));
+    }
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  return cloud;
+}
+
+vtkNew<vtkNeuralMeshEnsemble> Run(vtkPolyData* cloud)
+{
+  vtkNew<vtkNeuralMeshEnsemble> filter;
+  filter->SetNumberOfMembers(5);
+  filter->SetVerticesPerMember(1500);
+  filter->SetNumberOfVertices(3000);
+  filter->SetInputData(cloud);
+  filter->Update();
+  return filter;
+}
+
+bool SamePoints(vtkPolyData* a, vtkPolyData* b)
+{
+  vtkDataArray* first = a->GetPoints()->GetData();
+  vtkDataArray* second = b->GetPoints()->GetData();
+  return first->GetNumberOfValues() == second->GetNumberOfValues() &&
+    std::memcmp(first->GetVoidPointer(0), second->GetVoidPointer(0),
+      static_cast<std::size_t>(first->GetNumberOfValues() * first->GetDataTypeSize())) == 0;
+}
+
+/** Of closed meshes: 2 for a sphere, 0 for a torus. */
+vtkIdType EulerCharacteristic(vtkPolyData* mesh)
+{
+  return mesh->GetNumberOfPoints() - mesh->GetNumberOfPolys() / 2;
+}
+}
+
+int TestNeuralMeshEnsemble(int, char*[])
+{
+  const auto cloud = TorusCloud();
+  SetNumberOfVTKThreads(1);
+  const auto first = Run(cloud);
+  CHECK(first->GetTopologyLearning());
+  CHECK(first->GetOutput()->GetNumberOfPoints() == 3000);
+  CHECK(EulerCharacteristic(first->GetOutput()) == 0);
+  CHECK(EulerCharacteristic(first->GetAverageMesh()) == 0);
+  CHECK(first->GetLearningCurve()->GetNumberOfColumns() > 0);
+
+  vtkDataArray* votes = first->GetVotes()->GetPointData()->GetArray("Votes");
+  CHECK(votes && votes->GetRange()[0] == 0.0 && votes->GetRange()[1] == 1.0);
+  double bounds[6];
+  first->GetVotes()->GetBounds(bounds);
+  CHECK(bounds[0] < -1.3 && bounds[1] > 1.3 && bounds[4] < -0.35 && bounds[5] > 0.35);
+
+  for (const int threads : { 2, 3, 8 })
+  {
+    SetNumberOfVTKThreads(threads);
+    const auto other = Run(cloud);
+    CHECK(SamePoints(first->GetOutput(), other->GetOutput()));
+    CHECK(SamePoints(first->GetAverageMesh(), other->GetAverageMesh()));
+  }
+
+  vtkNew<vtkPolyData> empty;
+  const auto quiet = Run(empty);
+  CHECK(quiet->GetOutput()->GetNumberOfPoints() == 0);
+
+  vtkNew<vtkNeuralMeshEnsemble> aborted;
+  aborted->SetInputData(cloud);
+  aborted->SetAbortExecute(1);
+  aborted->Update();
+  CHECK(aborted->GetOutput()->GetNumberOfPoints() >= 4);
+  CHECK(std::string(aborted->GetStopReason()) == "cancelled");
+  return EXIT_SUCCESS;
+}
