@@ -45,8 +45,7 @@ public:
    * far from the mesh pull less than their distance would have it, and vertices are removed a few
    * at a time. NORMAL_BASED is Algorithm 3: as BASIC, but the mesh grows where its normals turn, so
    * that it is dense at edges and where the surface bends, and sparse where it is flat. See
-   * Documentation/NormalBased.md. It has its own RemovalPatience: choose the variant, then the
-   * preset.
+   * Documentation/NormalBased.md.
    */
   vtkNeuralMeshSetClampMacro(Variant, int, BASIC, NORMAL_BASED);
   vtkGetMacro(Variant, int);
@@ -355,7 +354,7 @@ public:
   /**
    * C_ec of chapters 6 and 9: the number of samples per vertex in which a vertex must win so as not
    * to be removed. Growth needs C_ec > exp(-C_ec) C_vs (6.18); less gives a warning, and maybe a
-   * mesh that stalls. Default 10, 20 in the normal-based variant (thesis 10), range 0.01 to 1000000.
+   * mesh that stalls. Default 10 (thesis 10), range 0.01 to 1000000.
    */
   vtkNeuralMeshSetClampMacro(RemovalPatience, double, 0.01, 1e6);
   vtkGetMacro(RemovalPatience, double);

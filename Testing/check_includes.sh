@@ -16,10 +16,11 @@ forbid()
 }
 
 forbid 'vtk|pq|paraview' Filters/Core/*.h Filters/Core/*.cpp
-forbid 'vtkPV|vtkSM|vtkSI|pq|CLI/|ErrorCollector|LearningParameters|MeshWriter|PointReader' \
+forbid 'vtkPV|vtkSM([^P]|P[^T])|vtkSI|pq|CLI/|ErrorCollector|LearningParameters|MeshWriter|PointReader' \
   Filters/*.h Filters/*.cxx
 # The header of a public class is installed; the core is not.
-for header in Filters/vtkNeuralMesh.h Filters/vtkNeuralMeshComparison.h; do
+for header in Filters/vtkNeuralMesh.h Filters/vtkNeuralMeshAlgorithm.h \
+  Filters/vtkNeuralMeshEnsemble.h Filters/vtkNeuralMeshComparison.h; do
   if grep -nE '^ *# *include +"[^v]' "$header"; then
     failed=1
   fi
