@@ -31,9 +31,10 @@ std::vector<std::string> Parameters::errors() const
   std::vector<std::string> errors;
   if (this->jump != Jump::Constant && this->order == Order::Exact)
   {
-    errors.push_back("Jump tells how far winners jump in the activity list, and with exact counters "
-                     "there is none. What goes together: any jump with the order list; the order "
-                     "exact with the jump constant.");
+    errors.push_back(
+      "Jump tells how far winners jump in the activity list, and with exact counters "
+      "there is none. What goes together: any jump with the order list; the order "
+      "exact with the jump constant.");
   }
   const double weights =
     this->constantWeight + this->normalWeight + this->areaWeight + this->volumeWeight;

@@ -63,6 +63,8 @@ enum class RemovalOperation
 /// All parameters of a run, with the product's defaults. Equation and section numbers are those of
 /// W. Saleem, A flexible framework for learning-based surface reconstruction, 2004. Ranges stand
 /// with the properties of vtkNeuralMeshAlgorithm and vtkNeuralMesh, which are named alike.
+// By concept, not by size: there is one of it in a run.
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding)
 struct Parameters
 {
   Variant variant = Variant::NoiseFiltering;

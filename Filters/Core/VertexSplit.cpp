@@ -32,9 +32,7 @@ unsigned firstOfHalfStar(const Mesh& mesh, const Ring& ring, unsigned longest, u
   const unsigned first = ring.before(longest, steps / 2);
   const unsigned earlier = ring.before(first);
   const auto excess = [&](unsigned slot)
-  {
-    return mesh.valenceExcess(ring[slot]) + mesh.valenceExcess(ring[ring.after(slot, steps)]);
-  };
+  { return mesh.valenceExcess(ring[slot]) + mesh.valenceExcess(ring[ring.after(slot, steps)]); };
   return steps % 2 == 1 && excess(earlier) < excess(first) ? earlier : first;
 }
 
@@ -69,8 +67,8 @@ std::optional<VertexSplit> planSplit(
   {
     return std::nullopt;
   }
-  const VertexSplit split = isBoundary ? planBoundarySplit(mesh, v, boundarySteps)
-                                       : planInnerSplit(mesh, v, innerSteps);
+  const VertexSplit split =
+    isBoundary ? planBoundarySplit(mesh, v, boundarySteps) : planInnerSplit(mesh, v, innerSteps);
   if (!mesh.canSplit(v, split.first, split.steps))
   {
     return std::nullopt;
