@@ -294,8 +294,8 @@ public:
   ///@{
   /**
    * alpha_fd of (8.5): what is left of the feature strength of a vertex when it wins; the rest is
-   * that of its move. More averages over more wins. Default 0.99 (the thesis names none), range 0 to
-   * 1.
+   * that of its move. More averages over more wins. Default 0.995 (the thesis names none), range 0
+   * to 1.
    */
   vtkNeuralMeshSetClampMacro(FeatureMemory, double, 0.0, 1.0);
   vtkGetMacro(FeatureMemory, double);
@@ -305,7 +305,7 @@ public:
   /**
    * With ComputeFeatureStrength: the number of samples per vertex that are learnt, without growth,
    * once the mesh has all its vertices. While it grows vertices are not yet where they will be; 0
-   * takes the strengths as growth leaves them. Default 200, in both presets (thesis: none), range 0
+   * takes the strengths as growth leaves them. Default 400, in both presets (thesis: none), range 0
    * to 1000000.
    */
   vtkNeuralMeshSetClampMacro(FeatureSamples, double, 0.0, 1e6);

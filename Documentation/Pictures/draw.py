@@ -137,8 +137,15 @@ def ensemble():
             for mesh in (member, algorithm.GetAverageMesh(), algorithm.GetOutput())]
 
 
+def first_mesh():
+    coarse = neuralmesh.reconstruct(clouds.torus(50000), 300, ensemble=9)
+    points = clouds.torus(200000) * (1, 1, 1.5)
+    return [scene(mesh, "z", 20, 40)
+            for mesh in (coarse, neuralmesh.reconstruct(points, 3000, first_mesh=coarse))]
+
+
 PICTURES = {"growth": growth, "noise": noise, "topology": topology, "normals": normals,
-            "ensemble": ensemble}
+            "ensemble": ensemble, "first_mesh": first_mesh}
 
 
 def main():

@@ -86,8 +86,8 @@ struct Parameters
   int changeWindow = 1000;             ///< C_delta (8.2), observations
   double gainLimit = 10.;              ///< of a change over its mean; 0 = none
   bool computeFeatureStrength = false; ///< eta (8.5)
-  double featureMemory = 0.99;         ///< alpha_fd (8.5)
-  double featureSamples = 200.;        ///< samples per vertex for it once M has all its vertices
+  double featureMemory = 0.995;        ///< alpha_fd (8.5)
+  double featureSamples = 400.;        ///< samples per vertex for it once M has all its vertices
 
   // Growth
   int samplesPerAddition = 50;  ///< C_vs

@@ -167,6 +167,44 @@ test_initial()
   [ ! -e other.ply ] || fail "a mesh was written"
 }
 
+# Promise: --features, --jump, --topology and --ensemble have an effect, or say why they cannot.
+test_variants()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz plain.vtp --vertices 400
+  expect 0 "$neuralmesh" reconstruct cloud.xyz features.vtp --vertices 400 --features
+  grep -aq 'Name="FeatureStrength"' features.vtp || fail "there is no feature strength"
+  ! grep -aq 'Name="FeatureStrength"' plain.vtp || fail "there is feature strength unasked"
+  expect 2 "$neuralmesh" reconstruct cloud.xyz features.ply --vertices 400 --features
+  grep -q 'vtp' err || fail "the message does not name the format that keeps feature strength"
+
+  local jump
+  for jump in constant normal area volume weighted constant=0.1; do
+    expect 0 "$neuralmesh" reconstruct cloud.xyz "$jump.ply" --vertices 400 --order list \
+      --set ListVertices=100 --jump "$jump"
+    [ "$jump" = constant ] || ! cmp -s constant.ply "$jump.ply" || fail "--jump $jump changed nothing"
+  done
+  expect 2 "$neuralmesh" reconstruct cloud.xyz other.ply --jump area
+  grep -q 'with the order list' err || fail "the message does not tell what goes together"
+  expect 2 "$neuralmesh" reconstruct cloud.xyz other.ply --method normal --topology on
+  grep -q 'noise_filtering and basic' err || fail "the message does not tell what goes together"
+  [ ! -e other.ply ] || fail "a mesh was written"
+
+  # A torus of radii 1 and 0.4.
+  awk 'BEGIN { for (i = 0; i < 40000; ++i) { v = 6.2831853 * i / 40000; u = 2.39996 * i;
+    r = 1 + 0.4 * cos(v); printf "%.9f %.9f %.9f\n", r * cos(u), r * sin(u), 0.4 * sin(v) } }' \
+    > torus.xyz
+  local way
+  for way in '--topology on' '--ensemble 5 --set VerticesPerMember=1500'; do
+    # shellcheck disable=SC2086
+    expect 0 "$neuralmesh" reconstruct torus.xyz torus.ply --vertices 2000 $way
+    expect 0 "$neuralmesh" info torus.ply
+    grep -Eq '^ +genus +1( |$)' out || { cat out; fail "$way gave another genus than 1"; }
+  done
+  expect 0 "$neuralmesh" reconstruct torus.xyz torus.ply --vertices 2000
+  expect 0 "$neuralmesh" info torus.ply
+  grep -Eq '^ +genus +0( |$)' out || fail "there is a handle without topology learning"
+}
+
 # Promise: a dry run says what it will take, and writes nothing.
 test_dry_run()
 {

@@ -58,6 +58,28 @@ inline vtkNew<vtkPolyData> SphereCloud(int count)
   return cloud;
 }
 
+/** Points on a torus with the radii 1 and 0.4. */
+inline vtkNew<vtkPolyData> TorusCloud()
+{
+  vtkNew<vtkPoints> points;
+  constexpr int Around = 400;
+  constexpr int Along = 120;
+  for (int i = 0; i < Around; ++i)
+  {
+    for (int j = 0; j < Along; ++j)
+    {
+      // Neighbouring rows are shifted against each other.
+      const double u = 2.0 * 3.14159265358979 * (i + 0.37 * j) / Around;
+      const double v = 2.0 * 3.14159265358979 * j / Along;
+      const double r = 1.0 + 0.4 * std::cos(v);
+      points->InsertNextPoint(r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v));
+    }
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  return cloud;
+}
+
 /** What the independent check finds in the triangles of a mesh. */
 inline neuralmesh::testing::ManifoldReport Manifold(vtkPolyData* mesh)
 {
@@ -77,6 +99,12 @@ inline neuralmesh::testing::ManifoldReport Manifold(vtkPolyData* mesh)
   }
   return neuralmesh::testing::checkManifold(
     static_cast<std::size_t>(mesh->GetNumberOfPoints()), triangles);
+}
+
+/** Of closed meshes: 2 for a sphere, 0 for a torus. */
+inline vtkIdType EulerCharacteristic(vtkPolyData* mesh)
+{
+  return mesh->GetNumberOfPoints() - mesh->GetNumberOfPolys() / 2;
 }
 
 inline double FieldValue(vtkPolyData* mesh, const char* name)

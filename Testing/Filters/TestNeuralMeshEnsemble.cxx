@@ -16,26 +16,7 @@
 
 namespace
 {
-vtkNew<vtkPolyData> TorusCloud()
-{
-  vtkNew<vtkPoints> points;
-  constexpr int Around = 400;
-  constexpr int Along = 120;
-  for (int i = 0; i < Around; ++i)
-  {
-    for (int j = 0; j < Along; ++j)
-    {
-      // Neighbouring rows are shifted against each other.
-      const double u = 2.0 * 3.14159265358979 * (i + 0.37 * j) / Around;
-      const double v = 2.0 * 3.14159265358979 * j / Along;
-      const double r = 1.0 + 0.4 * std::cos(v);
-      points->InsertNextPoint(r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v));
-    }
-  }
-  vtkNew<vtkPolyData> cloud;
-  cloud->SetPoints(points);
-  return cloud;
-}
+using namespace FilterTesting;
 
 vtkNew<vtkNeuralMeshEnsemble> Run(vtkPolyData* cloud)
 {
@@ -57,11 +38,6 @@ bool SamePoints(vtkPolyData* a, vtkPolyData* b)
       static_cast<std::size_t>(first->GetNumberOfValues() * first->GetDataTypeSize())) == 0;
 }
 
-/** Of closed meshes: 2 for a sphere, 0 for a torus. */
-vtkIdType EulerCharacteristic(vtkPolyData* mesh)
-{
-  return mesh->GetNumberOfPoints() - mesh->GetNumberOfPolys() / 2;
-}
 }
 
 int TestNeuralMeshEnsemble(int, char*[])

@@ -156,6 +156,62 @@ class FirstMesh(unittest.TestCase):
         self.assertEqual(mesh.GetNumberOfPoints(), 100)
 
 
+class Variants(unittest.TestCase):
+    # Promise: what is asked for by keyword reaches the filter, words included.
+    def test_same_as_filter(self):
+        cloud = support.sphere()
+        algorithm = neuralmesh.vtkNeuralMesh()
+        algorithm.SetInputData(support.point_set(cloud))
+        algorithm.SetNumberOfVertices(300)
+        algorithm.SetVariantToNormalBased()
+        algorithm.SetOrderToList()
+        algorithm.SetPresetToDefault()
+        algorithm.SetListVertices(50)
+        algorithm.SetJumpToVolumeChange()
+        algorithm.SetJumpFraction(0.1)
+        algorithm.ComputeFeatureStrengthOn()
+        algorithm.Update()
+        mesh = neuralmesh.reconstruct(
+            cloud,
+            300,
+            variant="normal",
+            order="list",
+            list_vertices=50,
+            jump="volume_change",
+            jump_fraction=0.1,
+            compute_feature_strength=True,
+        )
+        self.assertEqual(support.arrays_of(mesh), support.arrays_of(algorithm.GetOutput()))
+        self.assertTrue(mesh.GetPointData().HasArray("FeatureStrength"))
+
+    # Promise: topology learning and ensembles give a torus its handle; nothing else does.
+    def test_topology(self):
+        u, v = 2 * np.pi * np.random.default_rng(1).random((2, 40000))
+        r = 1 + 0.4 * np.cos(v)
+        torus = np.stack((r * np.cos(u), r * np.sin(u), 0.4 * np.sin(v)), axis=1)
+        ways = {
+            "topology": {"topology_learning": True},
+            "ensemble": {"ensemble": 5, "vertices_per_member": 1500},
+            "neither": {},
+        }
+        for way, parameters in ways.items():
+            with self.subTest(way):
+                mesh = neuralmesh.reconstruct(torus, 2000, **parameters)
+                self.assertTrue(support.is_closed_manifold(mesh))
+                euler = mesh.GetNumberOfPoints() - mesh.GetNumberOfPolys() // 2
+                self.assertEqual(euler, 2 if way == "neither" else 0)
+
+    # Promise: what does not go together is a ValueError that tells what does.
+    def test_without_sense(self):
+        cloud = support.sphere()
+        with self.assertRaisesRegex(ValueError, "with the order list"):
+            neuralmesh.reconstruct(cloud, 300, jump="area_change")
+        with self.assertRaisesRegex(ValueError, "noise_filtering and basic"):
+            neuralmesh.reconstruct(cloud, 300, variant="normal", topology_learning=True)
+        with self.assertRaisesRegex(ValueError, "ensemble"):
+            neuralmesh.reconstruct(cloud, 300, ensemble=0)
+
+
 class BadPoints(unittest.TestCase):
     # Promise: where there is no cloud, a ValueError says so, and VTK prints nothing.
     def test_no_cloud(self):
