@@ -29,6 +29,17 @@ vtkNew<vtkNeuralMeshEnsemble> Run(vtkPolyData* cloud)
   return filter;
 }
 
+/** Aborts a run as soon as it begins. */
+class Aborter : public vtkCommand
+{
+public:
+  static Aborter* New() { return new Aborter; }
+  void Execute(vtkObject* caller, unsigned long, void*) override
+  {
+    static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+  }
+};
+
 bool SamePoints(vtkPolyData* a, vtkPolyData* b)
 {
   vtkDataArray* first = a->GetPoints()->GetData();
@@ -37,7 +48,6 @@ bool SamePoints(vtkPolyData* a, vtkPolyData* b)
     std::memcmp(first->GetVoidPointer(0), second->GetVoidPointer(0),
       static_cast<std::size_t>(first->GetNumberOfValues() * first->GetDataTypeSize())) == 0;
 }
-
 }
 
 int TestNeuralMeshEnsemble(int, char*[])
@@ -71,7 +81,8 @@ int TestNeuralMeshEnsemble(int, char*[])
 
   vtkNew<vtkNeuralMeshEnsemble> aborted;
   aborted->SetInputData(cloud);
-  aborted->SetAbortExecute(1);
+  vtkNew<Aborter> aborter;
+  aborted->AddObserver(vtkCommand::ProgressEvent, aborter);
   aborted->Update();
   CHECK(aborted->GetOutput()->GetNumberOfPoints() >= 4);
   CHECK(std::string(aborted->GetStopReason()) == "cancelled");
