@@ -259,6 +259,21 @@ void Mesh::releaseErased()
   this->erased_.clear();
 }
 
+std::vector<VertexIndex> Mesh::dropErased()
+{
+  std::vector<VertexIndex> alive;
+  alive.reserve(this->vertexCount());
+  for (VertexIndex v = 0; v < this->indexEnd(); ++v)
+  {
+    if (this->isAlive(v))
+    {
+      alive.push_back(v);
+    }
+  }
+  this->renumber(alive);
+  return alive;
+}
+
 void Mesh::renumber(std::span<const VertexIndex> order)
 {
   assert(order.size() == this->vertexCount());

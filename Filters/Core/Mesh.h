@@ -117,6 +117,9 @@ public:
   void reserve(std::size_t count);
   /// Lets the indices of erased vertices be used again.
   void releaseErased();
+  /// Closes the gaps in the indices that erased vertices leave; vertices keep their order. Returns
+  /// the old index of each.
+  std::vector<VertexIndex> dropErased();
   /// Gives the vertex `order[i]` the index i, for all vertices; erased ones vanish.
   void renumber(std::span<const VertexIndex> order);
 

@@ -12,6 +12,8 @@ Parameters Parameters::of(Preset preset, Variant variant, Order order)
   parameters.order = order;
   if (preset == Preset::Thesis)
   {
+    parameters.start = Start::Tetrahedron;
+    parameters.fitRounds = 0;
     parameters.smoothingRate = order == Order::List ? 0.2 : 0.05;
     parameters.smoothingIterations =
       variant != Variant::NoiseFiltering && order == Order::Exact ? 5 : 1;

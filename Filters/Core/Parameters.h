@@ -60,6 +60,20 @@ enum class RemovalOperation
   VertexDelete
 };
 
+/// What learning starts from, where no first mesh is given.
+enum class Start
+{
+  Tetrahedron,  ///< as in the thesis
+  OccupiedSpace ///< a coarse surface of the space that the cloud occupies or encloses
+};
+
+/// What becomes of gaps in the scan.
+enum class Boundaries
+{
+  Keep, ///< the mesh ends where the data ends
+  Close ///< the mesh is closed
+};
+
 /// All parameters of a run, with the product's defaults. Equation and section numbers are those of
 /// W. Saleem, A flexible framework for learning-based surface reconstruction, 2004. Ranges stand
 /// with the properties of vtkNeuralMeshAlgorithm and vtkNeuralMesh, which are named alike.
@@ -70,6 +84,10 @@ struct Parameters
   Variant variant = Variant::NoiseFiltering;
   Order order = Order::Exact;
   std::uint64_t seed = 1;
+
+  // Start
+  Start start = Start::OccupiedSpace;
+  Boundaries boundaries = Boundaries::Keep;
 
   // Geometry learning
   double winnerRate = 0.1;         ///< alpha_w (6.1), (9.1)
@@ -116,6 +134,11 @@ struct Parameters
   double areaWeight = 1.;
   double volumeWeight = 1.;
   int listVertices = 1000; ///< exact counters until M has so many vertices
+
+  // Finish
+  int fitRounds = 3;         ///< of the least-squares fit; 0 = none
+  double fitSmoothness = 0.; ///< lambda; 0 = by the noise and the shape
+  double fitSamples = 10.;   ///< samples per vertex
 
   // Samples
   int batchSize = 65536; ///< samples whose winners are searched at once, at most

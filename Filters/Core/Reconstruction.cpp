@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Reconstruction.h"
 
+#include "FirstSurface.h"
 #include "MeshBuilder.h"
 #include "Orientation.h"
 
@@ -14,11 +15,38 @@ namespace
 /// cut for it.
 constexpr std::uint64_t SamplesPerCheck = 4096;
 
-/// Learns until a stopping rule is met; returns which.
-StopReason learn(Learner& learner, const PointCloud& cloud, const Parameters& parameters,
-  LearningCurve& curve, const Progress& progress)
+/// The first surface has so many vertices less than the mesh.
+constexpr std::uint64_t VerticesPerFirstVertex = 4;
+
+// Where the parts of a run end, as fractions of its time.
+constexpr double EndOfStart = 0.15;
+constexpr double EndOfLearning = 0.65;
+
+/// Reports a part of a run as a part of the whole.
+class PartialProgress
 {
-  StoppingRules rules(cloud, parameters, learner.mesh().vertexCount());
+public:
+  PartialProgress(const Progress& whole, double begin, double end)
+    : whole_(whole)
+    , begin_(begin)
+    , end_(end)
+  {
+  }
+  bool operator()(double fraction) const
+  {
+    return this->whole_(this->begin_ + fraction * (this->end_ - this->begin_));
+  }
+
+private:
+  const Progress& whole_;
+  double begin_;
+  double end_;
+};
+
+/// Learns until a stopping rule is met; returns which.
+StopReason learn(Learner& learner, StoppingRules& rules, const PointCloud& cloud,
+  const Parameters& parameters, LearningCurve& curve, const PartialProgress& progress)
+{
   for (;;)
   {
     const StopReason reason =
@@ -39,28 +67,67 @@ StopReason learn(Learner& learner, const PointCloud& cloud, const Parameters& pa
     learner.learn(samples);
   }
 }
+
+bool isTimeLeft(StopReason reason)
+{
+  return reason != StopReason::Cancelled && reason != StopReason::TimeLimit;
+}
 }
 
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
   const Progress& progress, const std::optional<Mesh>& first)
 {
   Reconstruction result;
-  Learner learner = first ? Learner(cloud, parameters, *first) : Learner(cloud, parameters);
-  result.stopReason = learn(learner, cloud, parameters, result.curve, progress);
+  std::optional<Mesh> start = first;
+  const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
+  if (startsFromSpace)
+  {
+    const PartialProgress starting(progress, 0., EndOfStart);
+    auto surface =
+      firstSurface(cloud, std::size_t(parameters.numberOfVertices / VerticesPerFirstVertex),
+        parameters.boundaries, [&] { return starting(0.5); });
+    if (surface)
+    {
+      start = std::move(surface->mesh);
+    }
+  }
+  Learner learner = start ? Learner(cloud, parameters, *start) : Learner(cloud, parameters);
+  const double endOfStart = startsFromSpace ? EndOfStart : 0.;
+  const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
+  StoppingRules rules(cloud, parameters, learner.mesh().vertexCount());
+  result.stopReason = learn(learner, rules, cloud, parameters, result.curve,
+    PartialProgress(progress, endOfStart, endOfLearning));
   result.counts = learner.counts();
 
   learner.renumber();
   Mesh mesh = learner.mesh();
+  const bool opensGaps = startsFromSpace && start && parameters.boundaries == Boundaries::Keep;
+  Finish finish(cloud, mesh, parameters, opensGaps);
+  if (parameters.fitRounds > 0 && isTimeLeft(result.stopReason) && result.counts.iterations > 0)
+  {
+    const PartialProgress finishing(progress, endOfLearning, 1.);
+    const bool isDone = finish.run(
+      [&]
+      {
+        const bool isTimeOver =
+          parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
+        return finishing(0.5) && !isTimeOver;
+      });
+    if (isDone)
+    {
+      result.finish = finish.report();
+    }
+  }
   orientOutwards(mesh);
   result.mesh = trianglesOf(mesh, cloud);
   result.normals = pointNormals(result.mesh);
   result.activities.reserve(mesh.vertexCount());
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  for (const VertexIndex learnt : finish.origins())
   {
-    result.activities.push_back(learner.order().activity(v));
+    result.activities.push_back(learner.order().activity(learnt));
     if (learner.featureStrength())
     {
-      result.featureStrengths.push_back(double((*learner.featureStrength())[v]));
+      result.featureStrengths.push_back(double((*learner.featureStrength())[learnt]));
     }
   }
   return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Finish.h"
 #include "LearningCurve.h"
 #include "StoppingRules.h"
 #include "TriangleMesh.h"
@@ -24,10 +25,13 @@ struct Reconstruction
   RunCounts counts;
   LearningCurve curve;
   StopReason stopReason = StopReason::None;
+  /// Nothing if the mesh was not finished.
+  std::optional<FinishReport> finish;
 };
 
-/// Grows a mesh over a cloud that has an extent: from `first`, or a tetrahedron if there is none,
-/// until a stopping rule is met, then oriented outwards.
+/// Grows a mesh over a cloud that has an extent: from `first`, or what the parameters have it start
+/// from if there is none, until a stopping rule is met. Then finishes it, unless there is no time
+/// left, or nothing was learnt; and orients it outwards.
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
   const Progress& progress, const std::optional<Mesh>& first = {});
 }

@@ -96,15 +96,6 @@ private:
 void simplify(Mesh& mesh, std::size_t count)
 {
   Simplifier(mesh).simplify(count);
-  std::vector<VertexIndex> alive;
-  alive.reserve(mesh.vertexCount());
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    if (mesh.isAlive(v))
-    {
-      alive.push_back(v);
-    }
-  }
-  mesh.renumber(alive);
+  mesh.dropErased();
 }
 }

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DataGaps.h"
+
+#include "DisjointSets.h"
+#include "VertexGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace neuralmesh
+{
+namespace
+{
+/// A piece can be a gap if so many samples should lie in it.
+constexpr double LeastExpectedSamples = 10.;
+/// It is one if a triangle of it is so many times the distance between samples away from all
+/// points. Where points are spread by chance, such a place is one of e^28.
+constexpr double LeastSpacings = 3.;
+/// ... and so many times the median distance between samples and mesh: points with noise do not lie
+/// on it.
+constexpr double LeastMedians = 5.;
+
+/// The triangles of a mesh, numbered.
+class NumberedTriangles
+{
+public:
+  explicit NumberedTriangles(const Mesh& mesh)
+    : mesh_(mesh)
+    , first_(mesh.indexEnd() + 1, 0)
+  {
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      this->first_[v + 1] = this->first_[v] + mesh.ring(v).triangleCount();
+    }
+    this->numbers_.resize(this->first_.back());
+    mesh.forEachTriangle(
+      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+      {
+        const auto number = std::uint32_t(this->triangles_.size());
+        this->triangles_.push_back({ a, b, c });
+        this->numbers_[this->place(a, b)] = number;
+        this->numbers_[this->place(b, c)] = number;
+        this->numbers_[this->place(c, a)] = number;
+      });
+  }
+
+  const std::vector<Triangle>& all() const { return this->triangles_; }
+  /// The triangle at `v` that follows its neighbour `next`.
+  std::uint32_t number(VertexIndex v, VertexIndex next) const
+  {
+    return this->numbers_[this->place(v, next)];
+  }
+  std::span<const std::uint32_t> at(VertexIndex v) const
+  {
+    return std::span(this->numbers_)
+      .subspan(this->first_[v], this->first_[v + 1] - this->first_[v]);
+  }
+
+private:
+  std::size_t place(VertexIndex v, VertexIndex next) const
+  {
+    return this->first_[v] + this->mesh_.ring(v).find(next);
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::size_t> first_;
+  std::vector<std::uint32_t> numbers_;
+  std::vector<Triangle> triangles_;
+};
+
+double areaOf(const Mesh& mesh, const Triangle& triangle)
+{
+  const Vector4 a = mesh.position(triangle[0]);
+  return 0.5 *
+    std::sqrt(
+      double(squaredNorm(cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a))));
+}
+
+/// A piece of triangles without samples.
+struct Piece
+{
+  std::vector<std::uint32_t> triangles;
+  double area = 0.;
+  double areaAround = 0.; ///< of the triangles that touch it
+  double samplesAround = 0.;
+
+  double density() const
+  {
+    return this->areaAround > 0. ? this->samplesAround / this->areaAround : 0.;
+  }
+};
+
+/// Finds pieces, connected by vertices.
+std::vector<Piece> findPieces(
+  const Mesh& mesh, const NumberedTriangles& triangles, std::span<const std::uint32_t> samples)
+{
+  DisjointSets sets(samples.size());
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    const auto around = triangles.at(v);
+    const auto isEmpty = [&](std::uint32_t t) { return samples[t] == 0; };
+    const auto first = std::find_if(around.begin(), around.end(), isEmpty);
+    for (const std::uint32_t t : around)
+    {
+      if (isEmpty(t))
+      {
+        sets.join(t, *first);
+      }
+    }
+  }
+  std::vector<Piece> pieces;
+  std::vector<std::uint32_t> pieceOf(samples.size(), 0);
+  const auto pieceWith = [&](std::uint32_t t) -> Piece&
+  {
+    std::uint32_t& number = pieceOf[sets.root(t)];
+    if (number == 0)
+    {
+      pieces.emplace_back();
+      number = std::uint32_t(pieces.size());
+    }
+    return pieces[number - 1];
+  };
+  for (std::uint32_t t = 0; t < samples.size(); ++t)
+  {
+    const double area = areaOf(mesh, triangles.all()[t]);
+    if (samples[t] == 0)
+    {
+      Piece& piece = pieceWith(t);
+      piece.area += area;
+      piece.triangles.push_back(t);
+      continue;
+    }
+    std::vector<std::size_t> touched;
+    for (const VertexIndex v : triangles.all()[t])
+    {
+      for (const std::uint32_t other : triangles.at(v))
+      {
+        const std::size_t root = sets.root(other);
+        if (samples[other] == 0 && std::find(touched.begin(), touched.end(), root) == touched.end())
+        {
+          touched.push_back(root);
+          Piece& piece = pieceWith(other);
+          piece.areaAround += area;
+          piece.samplesAround += samples[t];
+        }
+      }
+    }
+  }
+  return pieces;
+}
+
+/// Some points of a cloud, for the distance to the closest of them.
+class SomePoints
+{
+public:
+  SomePoints(const PointCloud& cloud, std::size_t count)
+  {
+    const std::size_t all = cloud.points().size();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->points_.push_back(cloud.points()[i * all / count]);
+    }
+    const Vector4 size = cloud.bulkMax() - cloud.bulkMin();
+    const float cell = 2.f * std::sqrt(squaredNorm(size) / float(count));
+    this->grid_.reset(cloud.bulkMin(), cloud.bulkMax(), cell, count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->grid_.insert(VertexIndex(i), this->points_[i]);
+    }
+  }
+
+  double distance(Vector4 point) const
+  {
+    const VertexIndex closest = this->grid_.closest(point, this->points_);
+    return std::sqrt(double(squaredNorm(this->points_[closest] - point)));
+  }
+
+private:
+  std::vector<Vector4> points_;
+  VertexGrid grid_;
+};
+}
+
+std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
+  std::span<const PlaceOnMesh> places, float medianDistance)
+{
+  const NumberedTriangles triangles(mesh);
+  std::vector<std::uint32_t> samples(triangles.all().size(), 0);
+  for (const PlaceOnMesh& place : places)
+  {
+    ++samples[triangles.number(place.triangle[0], place.triangle[1])];
+  }
+  std::vector<Piece> pieces = findPieces(mesh, triangles, samples);
+  std::erase_if(
+    pieces, [](const Piece& piece) { return piece.area * piece.density() < LeastExpectedSamples; });
+  std::vector<Triangle> gaps;
+  if (pieces.empty())
+  {
+    return gaps;
+  }
+  const SomePoints points(cloud, places.size());
+  for (const Piece& piece : pieces)
+  {
+    const double spacing = 1. / std::sqrt(piece.density());
+    const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
+    const auto isFar = [&](std::uint32_t t)
+    {
+      const auto& [a, b, c] = triangles.all()[t];
+      return points.distance(1.f / 3.f * (mesh.position(a) + mesh.position(b) + mesh.position(c))) >
+        reach;
+    };
+    if (std::any_of(piece.triangles.begin(), piece.triangles.end(), isFar))
+    {
+      for (const std::uint32_t t : piece.triangles)
+      {
+        gaps.push_back(triangles.all()[t]);
+      }
+    }
+  }
+  return gaps;
+}
+}

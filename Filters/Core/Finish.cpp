@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Finish.h"
+
+#include "DataGaps.h"
+#include "EdgeFlips.h"
+#include "Refinement.h"
+#include "SmallPieces.h"
+
+#include <numeric>
+
+namespace neuralmesh
+{
+Finish::Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters, bool opensGaps)
+  : cloud_(cloud)
+  , mesh_(mesh)
+  , parameters_(parameters)
+  , opensGaps_(opensGaps)
+  , vertexCount_(mesh.vertexCount())
+  , origins_(mesh.vertexCount())
+{
+  std::iota(this->origins_.begin(), this->origins_.end(), VertexIndex(0));
+}
+
+bool Finish::run(const GoOn& goOn)
+{
+  const auto samples =
+    std::size_t(this->parameters_.fitSamples * double(this->mesh_.vertexCount()));
+  std::optional<SurfaceFit> surfaceFit(std::in_place, this->cloud_, this->mesh_, samples);
+  double smoothness = this->parameters_.fitSmoothness;
+  for (int round = 0; round < this->parameters_.fitRounds; ++round)
+  {
+    if (!this->fit(*surfaceFit, smoothness, goOn))
+    {
+      return false;
+    }
+    if (round == 0)
+    {
+      smoothness = this->report_.smoothness;
+      if (this->opensGaps_ && this->openGaps(*surfaceFit))
+      {
+        surfaceFit.emplace(this->cloud_, this->mesh_, samples);
+      }
+      this->flipEdges();
+    }
+  }
+  return true;
+}
+
+bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const GoOn& goOn)
+{
+  if (!surfaceFit.findPlaces(goOn) || !surfaceFit.moveVertices(smoothness, goOn))
+  {
+    return false;
+  }
+  this->report_.noise = surfaceFit.noise();
+  this->report_.smoothness = surfaceFit.smoothness();
+  this->report_.outlierShare = surfaceFit.outlierShare();
+  return true;
+}
+
+bool Finish::openGaps(const SurfaceFit& surfaceFit)
+{
+  const std::vector<Triangle> gaps =
+    findDataGaps(this->cloud_, this->mesh_, surfaceFit.places(), surfaceFit.medianDistance());
+  if (gaps.empty())
+  {
+    return false;
+  }
+  this->report_.gapTriangles = gaps.size();
+  this->mesh_.removeTriangles(gaps);
+  this->mesh_.removeTriangles(findSmallPieces(this->mesh_));
+  this->origins_ = this->mesh_.dropErased();
+  for (const VertexIndex origin : refine(this->mesh_, this->vertexCount_))
+  {
+    this->origins_.push_back(this->origins_[origin]);
+  }
+  return true;
+}
+
+/// Towards regular valences. On a surface that is fitted more flips are possible than on the learnt
+/// one, where noise bends it.
+void Finish::flipEdges()
+{
+  for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
+  {
+    flipEdgesAround(this->mesh_, v);
+  }
+}
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh.h"
+#include "Parameters.h"
+#include "PointCloud.h"
+#include "SurfaceFit.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace neuralmesh
+{
+/// What is known of a mesh once it is finished.
+struct FinishReport
+{
+  double noise = 0.;            ///< of the cloud, see SurfaceFit::noise(), in units of the cloud
+  double smoothness = 0.;       ///< lambda of the fit
+  double outlierShare = 0.;     ///< of the samples
+  std::size_t gapTriangles = 0; ///< taken away where there is no data
+};
+
+/// What is done with a mesh once it is learnt: it is fitted to the cloud, opened where the scan has
+/// no data if `opensGaps`, and made more regular. It keeps its number of vertices. No vertex may be
+/// erased, and none is in the end.
+class Finish
+{
+public:
+  Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters, bool opensGaps);
+
+  /// Returns false if it was ended before its end; then the mesh is valid all the same.
+  bool run(const GoOn& goOn);
+
+  const FinishReport& report() const { return this->report_; }
+  /// For each vertex, the index of the vertex of the learnt mesh that it is or was split from.
+  const std::vector<VertexIndex>& origins() const { return this->origins_; }
+
+private:
+  bool fit(SurfaceFit& surfaceFit, double smoothness, const GoOn& goOn);
+  bool openGaps(const SurfaceFit& surfaceFit);
+  void flipEdges();
+
+  const PointCloud& cloud_;
+  Mesh& mesh_;
+  const Parameters& parameters_;
+  bool opensGaps_;
+  std::size_t vertexCount_;
+  std::vector<VertexIndex> origins_;
+  FinishReport report_;
+};
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FitSystem.h"
+
+#include <algorithm>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr int MostIterations = 300;
+constexpr int IterationsPerCheck = 4;
+
+double dotOf(std::span<const Vector4> a, std::span<const Vector4> b)
+{
+  double sum = 0.;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    sum += double(dot(a[i], b[i]));
+  }
+  return sum;
+}
+}
+
+FitSystem::FitSystem(const Mesh& mesh, double slip)
+  : mesh_(mesh)
+  , slip_(float(slip))
+  , diagonal_(mesh.indexEnd())
+  , rightSide_(mesh.indexEnd())
+{
+  this->rowBegin_.reserve(mesh.indexEnd() + 1);
+  this->rowBegin_.push_back(0);
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    this->rowBegin_.push_back(this->rowBegin_.back() + mesh.valence(v));
+  }
+  this->others_.resize(this->rowBegin_.back());
+}
+
+void FitSystem::add(const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight)
+{
+  const float squared = squaredNorm(normal);
+  const float along = squared > 0.f ? weight * this->slip_ : weight;
+  const float across = squared > 0.f ? weight * (1.f - this->slip_) / squared : 0.f;
+  const Block metric{ Vector4(along, along, along) + across * (normal * normal),
+    across * (normal * rotated(normal)) };
+  const Vector4 pull = metric * sample;
+  for (unsigned i = 0; i < 3; ++i)
+  {
+    const VertexIndex v = place.triangle[i];
+    const float share = place.weights[int(i)];
+    this->diagonal_[v] += share * share * metric;
+    this->rightSide_[v] += share * pull;
+    const Ring& ring = this->mesh_.ring(v);
+    for (const unsigned j : { (i + 1) % 3, (i + 2) % 3 })
+    {
+      const std::uint32_t entry = this->rowBegin_[v] + ring.find(place.triangle[j]);
+      this->others_[entry] += share * place.weights[int(j)] * metric;
+    }
+  }
+}
+
+void FitSystem::applyLaplacian(std::span<const Vector4> x, std::span<Vector4> result) const
+{
+  for (VertexIndex v = 0; v < x.size(); ++v)
+  {
+    const Ring& ring = this->mesh_.ring(v);
+    if (ring.isOpen())
+    {
+      result[v] = 0.5f * (x[ring.front()] + x[ring.back()]) - x[v];
+      continue;
+    }
+    Vector4 sum;
+    for (const VertexIndex neighbor : ring)
+    {
+      sum += x[neighbor];
+    }
+    result[v] = 1.f / float(ring.size()) * sum - x[v];
+  }
+}
+
+void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vector4> laplacian,
+  std::span<Vector4> result) const
+{
+  this->applyLaplacian(x, laplacian);
+  const auto smooth = float(lambda);
+  for (VertexIndex v = 0; v < x.size(); ++v)
+  {
+    const Ring& ring = this->mesh_.ring(v);
+    Vector4 sum = this->diagonal_[v] * x[v] - smooth * laplacian[v];
+    for (unsigned slot = 0; slot < ring.size(); ++slot)
+    {
+      const VertexIndex neighbor = ring[slot];
+      sum += this->others_[this->rowBegin_[v] + slot] * x[neighbor];
+      const Ring& other = this->mesh_.ring(neighbor);
+      if (!other.isOpen())
+      {
+        sum += smooth / float(other.size()) * laplacian[neighbor];
+      }
+      else if (other.front() == v || other.back() == v)
+      {
+        sum += 0.5f * smooth * laplacian[neighbor];
+      }
+    }
+    result[v] = sum;
+  }
+}
+
+std::vector<Vector4> FitSystem::inverseDiagonal(double lambda) const
+{
+  std::vector<Vector4> result(this->diagonal_.size());
+  for (VertexIndex v = 0; v < result.size(); ++v)
+  {
+    float squares = 1.f;
+    for (const VertexIndex neighbor : this->mesh_.ring(v))
+    {
+      const auto valence = float(this->mesh_.valence(neighbor));
+      squares += 1.f / (valence * valence);
+    }
+    const float smooth = float(lambda) * squares;
+    const Vector4 data = this->diagonal_[v].diagonal;
+    result[v] =
+      Vector4(1.f / (data[0] + smooth), 1.f / (data[1] + smooth), 1.f / (data[2] + smooth));
+  }
+  return result;
+}
+
+bool FitSystem::solve(
+  double lambda, double tolerance, std::span<Vector4> x, const std::function<bool()>& goOn) const
+{
+  const std::size_t n = x.size();
+  const std::vector<Vector4> inverse = this->inverseDiagonal(lambda);
+  std::vector<Vector4> residual(n), direction(n), product(n), laplacian(n);
+  const auto squaredResidual = [&]
+  {
+    double sum = 0.;
+    for (std::size_t v = 0; v < n; ++v)
+    {
+      sum += double(dot(inverse[v] * residual[v], residual[v]));
+    }
+    return sum;
+  };
+  this->apply(lambda, x, laplacian, product);
+  for (std::size_t v = 0; v < n; ++v)
+  {
+    residual[v] = this->rightSide_[v] - product[v];
+    direction[v] = inverse[v] * residual[v];
+  }
+  double squared = squaredResidual();
+  const double end = tolerance * tolerance * squared;
+  for (int i = 0; i < MostIterations && squared > end; ++i)
+  {
+    if (i % IterationsPerCheck == 0 && !goOn())
+    {
+      return false;
+    }
+    this->apply(lambda, direction, laplacian, product);
+    const double curvature = dotOf(direction, product);
+    if (!(curvature > 0.))
+    {
+      break;
+    }
+    const auto step = float(squared / curvature);
+    for (std::size_t v = 0; v < n; ++v)
+    {
+      x[v] += step * direction[v];
+      residual[v] += -step * product[v];
+    }
+    const double before = squared;
+    squared = squaredResidual();
+    for (std::size_t v = 0; v < n; ++v)
+    {
+      direction[v] = inverse[v] * residual[v] + float(squared / before) * direction[v];
+    }
+  }
+  return true;
+}
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh.h"
+#include "PlaceOnMesh.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// The linear system of a fit, (B^T W B + lambda L^T L) x = B^T W p, for the positions x of all
+/// vertices of a mesh: B are the barycentric coordinates of the places of samples p, W how much they
+/// weigh in each direction, L is the umbrella Laplacian (of a vertex on a boundary, that along it).
+/// Solved by conjugate gradients; the matrices are kept beside the rings. About 300 bytes a vertex.
+class FitSystem
+{
+public:
+  /// How much a sample weighs along the normal of its triangle is 1; along the triangle, `slip`: if
+  /// it is below 1, the surface may slide below its samples.
+  FitSystem(const Mesh& mesh, double slip);
+
+  /// Adds a sample whose place is on a triangle with this normal (of any length).
+  void add(const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight);
+
+  /// Improves `x` until the residual is `tolerance` times what it was, and calls `goOn` now and then: if that returns false,
+  /// ends early. Returns false then.
+  bool solve(
+    double lambda, double tolerance, std::span<Vector4> x, const std::function<bool()>& goOn) const;
+
+  /// L x.
+  void applyLaplacian(std::span<const Vector4> x, std::span<Vector4> result) const;
+
+private:
+  /// A symmetric matrix of 3 x 3.
+  struct Block
+  {
+    Vector4 diagonal; ///< xx, yy, zz
+    Vector4 others;   ///< xy, yz, zx
+
+    Block& operator+=(const Block& b)
+    {
+      this->diagonal += b.diagonal;
+      this->others += b.others;
+      return *this;
+    }
+    friend Block operator*(float s, const Block& b) { return { s * b.diagonal, s * b.others }; }
+    friend Vector4 operator*(const Block& b, Vector4 x)
+    {
+      return b.diagonal * x + b.others * rotated(x) + rotated(rotated(b.others * x));
+    }
+  };
+
+  void apply(double lambda, std::span<const Vector4> x, std::span<Vector4> laplacian,
+    std::span<Vector4> result) const;
+  std::vector<Vector4> inverseDiagonal(double lambda) const;
+
+  const Mesh& mesh_;
+  float slip_;
+  std::vector<std::uint32_t> rowBegin_;
+  std::vector<Block> diagonal_;
+  std::vector<Block> others_; ///< for each slot of the ring of each vertex
+  std::vector<Vector4> rightSide_;
+};
+}

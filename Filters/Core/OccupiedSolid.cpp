@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OccupiedSolid.h"
+
+#include "VoxelMajority.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+using Voxels = std::vector<std::uint8_t>;
+
+/// Layers around the bulk: closing needs one, and what is outside must have one around all.
+constexpr std::size_t Margin = 3;
+/// A voxel is occupied from this part of the usual number of points on: the median of the fuller
+/// half of all voxels with points.
+constexpr double LeastPartOfUsual = 0.15;
+/// Pieces with less than this part of all occupied voxels are stray points.
+constexpr double LeastPartOfPiece = 0.02;
+
+VoxelGrid gridAround(const PointCloud& cloud, unsigned resolution)
+{
+  const Eigen::Vector3d low = cloud.bulkMin().toDouble(), high = cloud.bulkMax().toDouble();
+  VoxelGrid grid;
+  grid.width = (high - low).maxCoeff() / resolution;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+  {
+    const auto count = std::size_t(std::ceil((high - low)[axis] / grid.width)) + 2 * Margin;
+    grid.counts[std::size_t(axis)] = count;
+    grid.first[axis] = 0.5 * (low[axis] + high[axis]) - 0.5 * grid.width * (double(count) - 1.);
+  }
+  return grid;
+}
+
+std::vector<std::uint32_t> countPoints(const PointCloud& cloud, const VoxelGrid& grid)
+{
+  std::vector<std::uint32_t> counts(grid.size(), 0);
+  const auto strides = grid.strides();
+  const Eigen::Vector3f first = grid.first.cast<float>();
+  const auto inverse = float(1. / grid.width);
+  for (const Vector4 point : cloud.points())
+  {
+    std::size_t voxel = 0;
+    bool isIn = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const float place = (point.lanes[axis] - first[Eigen::Index(axis)]) * inverse + 0.5f;
+      isIn = isIn && place >= float(Margin) && place < float(grid.counts[axis] - Margin);
+      voxel += isIn ? std::size_t(place) * strides[axis] : 0;
+    }
+    if (isIn)
+    {
+      ++counts[voxel];
+    }
+  }
+  return counts;
+}
+
+Voxels occupied(const std::vector<std::uint32_t>& counts)
+{
+  std::vector<std::uint32_t> found;
+  std::copy_if(counts.begin(), counts.end(), std::back_inserter(found),
+    [](std::uint32_t count) { return count > 0; });
+  Voxels result(counts.size(), 0);
+  if (found.empty())
+  {
+    return result;
+  }
+  // Where noise and outliers reach there are many voxels with a point or two: by voxels the usual
+  // would be theirs, by points it is not.
+  std::sort(found.begin(), found.end());
+  const std::uint32_t usual = found[found.size() * 3 / 4];
+  const double least = std::max(1., LeastPartOfUsual * usual);
+  std::transform(counts.begin(), counts.end(), result.begin(),
+    [&](std::uint32_t count) { return std::uint8_t(double(count) >= least); });
+  return result;
+}
+
+/// Calls `use` for the neighbours of a voxel that is not in the outermost layer, by side, edge or
+/// corner.
+template <typename Use>
+void forEachNeighbor(const VoxelGrid& grid, std::size_t voxel, Use use)
+{
+  const auto strides = grid.strides();
+  for (int z = -1; z <= 1; ++z)
+  {
+    for (int y = -1; y <= 1; ++y)
+    {
+      for (int x = -1; x <= 1; ++x)
+      {
+        if (x != 0 || y != 0 || z != 0)
+        {
+          use(std::size_t(std::ptrdiff_t(voxel) + x * std::ptrdiff_t(strides[0]) +
+            y * std::ptrdiff_t(strides[1]) + z * std::ptrdiff_t(strides[2])));
+        }
+      }
+    }
+  }
+}
+
+void dropStrayPieces(const VoxelGrid& grid, Voxels& inside)
+{
+  std::vector<std::vector<std::size_t>> pieces;
+  Voxels isNew = inside;
+  std::size_t all = 0;
+  for (std::size_t first = 0; first < inside.size(); ++first)
+  {
+    if (!isNew[first])
+    {
+      continue;
+    }
+    std::vector<std::size_t> piece{ first };
+    isNew[first] = 0;
+    for (std::size_t i = 0; i < piece.size(); ++i)
+    {
+      forEachNeighbor(grid, piece[i],
+        [&](std::size_t neighbor)
+        {
+          if (isNew[neighbor] != 0)
+          {
+            isNew[neighbor] = 0;
+            piece.push_back(neighbor);
+          }
+        });
+    }
+    all += piece.size();
+    pieces.push_back(std::move(piece));
+  }
+  for (const auto& piece : pieces)
+  {
+    if (double(piece.size()) < LeastPartOfPiece * double(all))
+    {
+      for (const std::size_t voxel : piece)
+      {
+        inside[voxel] = 0;
+      }
+    }
+  }
+}
+
+/// Adds all neighbours of the voxels of a kind to them, by side, edge and corner; but none of the
+/// outermost layer.
+void grow(const VoxelGrid& grid, Voxels& voxels, std::uint8_t kind)
+{
+  const auto strides = grid.strides();
+  const std::size_t first = strides[0] + strides[1] + strides[2];
+  Voxels before;
+  for (const std::size_t stride : strides)
+  {
+    before = voxels;
+    for (std::size_t i = first; i + first < voxels.size(); ++i)
+    {
+      const bool isBeside = before[i - stride] == kind || before[i + stride] == kind;
+      voxels[i] = isBeside ? kind : voxels[i];
+    }
+  }
+}
+
+/// Sets all voxels of the outermost layer.
+void setBorder(const VoxelGrid& grid, Voxels& voxels, std::uint8_t value)
+{
+  const auto& [nx, ny, nz] = grid.counts;
+  for (std::size_t z = 0; z < nz; ++z)
+  {
+    for (std::size_t y = 0; y < ny; ++y)
+    {
+      std::uint8_t* row = voxels.data() + (z * ny + y) * nx;
+      if (z == 0 || z + 1 == nz || y == 0 || y + 1 == ny)
+      {
+        std::fill(row, row + nx, value);
+      }
+      row[0] = row[nx - 1] = value;
+    }
+  }
+}
+
+/// Adds what cannot be reached from the outermost layer by sides of voxels outside.
+void fillEnclosed(const VoxelGrid& grid, Voxels& inside)
+{
+  constexpr std::uint8_t Border = 2;
+  const auto [sx, sy, sz] = grid.strides();
+  Voxels isEnclosed(inside.size());
+  std::transform(inside.begin(), inside.end(), isEnclosed.begin(),
+    [](std::uint8_t isInside) { return std::uint8_t(isInside == 0); });
+  setBorder(grid, isEnclosed, Border);
+  std::vector<std::size_t> open{ sx + sy + sz };
+  isEnclosed[open.back()] = 0;
+  while (!open.empty())
+  {
+    const std::size_t voxel = open.back();
+    open.pop_back();
+    for (const std::size_t next :
+      { voxel - sx, voxel + sx, voxel - sy, voxel + sy, voxel - sz, voxel + sz })
+    {
+      if (isEnclosed[next] == 1)
+      {
+        isEnclosed[next] = 0;
+        open.push_back(next);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < inside.size(); ++i)
+  {
+    inside[i] = inside[i] | std::uint8_t(isEnclosed[i] == 1);
+  }
+}
+}
+
+OccupiedSolid occupiedSolid(const PointCloud& cloud, unsigned resolution)
+{
+  OccupiedSolid solid;
+  solid.grid = gridAround(cloud, resolution);
+  VoxelVotes votes{ solid.grid, 1, occupied(countPoints(cloud, solid.grid)) };
+  dropStrayPieces(solid.grid, votes.votes);
+  solid.occupiedCount = std::size_t(std::count(votes.votes.begin(), votes.votes.end(), 1));
+
+  Voxels reached = votes.votes;
+  grow(solid.grid, reached, 1);
+  solid.inside = reached;
+  fillEnclosed(solid.grid, solid.inside);
+  for (std::size_t i = 0; i < reached.size(); ++i)
+  {
+    solid.interiorCount += solid.inside[i] - reached[i];
+  }
+  grow(solid.grid, solid.inside, 0);
+  for (std::size_t i = 0; i < reached.size(); ++i)
+  {
+    solid.inside[i] = solid.inside[i] | votes.votes[i];
+  }
+  fillContacts(votes, solid.inside);
+  fillEnclosed(solid.grid, solid.inside);
+  return solid;
+}
+}

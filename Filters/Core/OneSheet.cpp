@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OneSheet.h"
+
+#include "BoundaryFilling.h"
+#include "SmallPieces.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <queue>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+/// In thicknesses: the neighbourhood that tells the plane of the sheet,
+constexpr float PlaneRadius = 2.f;
+/// how far behind a triangle those of the other side are at most,
+constexpr float OtherSideDepth = 2.f;
+/// and how far aside.
+constexpr float OtherSideWidth = 1.f;
+/// The cosine between the normals of both sides, at most.
+constexpr float OtherSideCosine = -0.4f;
+/// Holes are filled up to edges of so many thicknesses.
+constexpr double LongestFilledEdge = 3.;
+
+class SheetFlood
+{
+public:
+  SheetFlood(const Mesh& skin, float thickness)
+    : skin_(skin)
+    , thickness_(thickness)
+    , firstOf_(skin.indexEnd() + 1, 0)
+  {
+    for (VertexIndex v = 0; v < skin.indexEnd(); ++v)
+    {
+      this->firstOf_[v + 1] = this->firstOf_[v] + skin.ring(v).triangleCount();
+    }
+    this->numberOf_.resize(this->firstOf_.back());
+    skin.forEachTriangle(
+      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+      {
+        const auto number = std::uint32_t(this->triangles_.size());
+        this->triangles_.push_back({ a, b, c });
+        this->numberOf_[this->place(a, b)] = number;
+        this->numberOf_[this->place(b, c)] = number;
+        this->numberOf_[this->place(c, a)] = number;
+        const Vector4 p = skin.position(a), q = skin.position(b), r = skin.position(c);
+        const Vector4 normal = cross(q - p, r - p);
+        const float length = std::sqrt(squaredNorm(normal));
+        this->normals_.push_back(length > 0.f ? 1.f / length * normal : Vector4());
+        this->centers_.push_back(1.f / 3.f * (p + q + r));
+        this->cells_[this->cellOf(this->centers_.back())].push_back(number);
+      });
+    this->findSteepness();
+  }
+
+  /// The triangles that do not belong to the side that is kept.
+  std::vector<Triangle> otherSide()
+  {
+    std::vector<std::uint32_t> byFlatness(this->triangles_.size());
+    for (std::uint32_t t = 0; t < byFlatness.size(); ++t)
+    {
+      byFlatness[t] = t;
+    }
+    std::sort(byFlatness.begin(), byFlatness.end(),
+      [&](std::uint32_t a, std::uint32_t b)
+      { return std::tie(this->steepness_[a], a) < std::tie(this->steepness_[b], b); });
+    this->sides_.assign(this->triangles_.size(), Side::Unknown);
+    for (const std::uint32_t seed : byFlatness)
+    {
+      if (this->sides_[seed] == Side::Unknown)
+      {
+        this->flood(seed);
+      }
+    }
+    std::vector<Triangle> result;
+    for (std::size_t t = 0; t < this->triangles_.size(); ++t)
+    {
+      if (this->sides_[t] != Side::Kept)
+      {
+        result.push_back(this->triangles_[t]);
+      }
+    }
+    return result;
+  }
+
+private:
+  enum class Side : std::uint8_t
+  {
+    Unknown,
+    Kept,
+    Other
+  };
+
+  std::size_t place(VertexIndex v, VertexIndex next) const
+  {
+    return this->firstOf_[v] + this->skin_.ring(v).find(next);
+  }
+
+  static std::uint64_t key(int x, int y, int z)
+  {
+    constexpr int Bits = 21, Middle = 1 << (Bits - 1);
+    return std::uint64_t(x + Middle) << 2 * Bits | std::uint64_t(y + Middle) << Bits |
+      std::uint64_t(z + Middle);
+  }
+  std::array<int, 3> cellPlace(Vector4 point) const
+  {
+    const float inverse = 1.f / (PlaneRadius * this->thickness_);
+    return { int(std::floor(point[0] * inverse)), int(std::floor(point[1] * inverse)),
+      int(std::floor(point[2] * inverse)) };
+  }
+  std::uint64_t cellOf(Vector4 point) const
+  {
+    const auto [x, y, z] = this->cellPlace(point);
+    return key(x, y, z);
+  }
+
+  /// Calls `use` for the triangles whose centres are closer than PlaneRadius.
+  template <typename Use>
+  void forEachNear(Vector4 point, Use use) const
+  {
+    const float radius = PlaneRadius * this->thickness_;
+    const auto [x, y, z] = this->cellPlace(point);
+    for (int k = z - 1; k <= z + 1; ++k)
+    {
+      for (int j = y - 1; j <= y + 1; ++j)
+      {
+        for (int i = x - 1; i <= x + 1; ++i)
+        {
+          const auto cell = this->cells_.find(key(i, j, k));
+          if (cell == this->cells_.end())
+          {
+            continue;
+          }
+          for (const std::uint32_t t : cell->second)
+          {
+            if (squaredNorm(this->centers_[t] - point) <= radius * radius)
+            {
+              use(t);
+            }
+          }
+        }
+      }
+    }
+  }
+
+  /// How far a triangle is from lying in the plane of the sheet around it: 0 on a flat side, 1 on
+  /// its rim. Both sides together tell that plane.
+  void findSteepness()
+  {
+    this->steepness_.resize(this->triangles_.size());
+    for (std::size_t t = 0; t < this->triangles_.size(); ++t)
+    {
+      Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      double count = 0.;
+      this->forEachNear(this->centers_[t],
+        [&](std::uint32_t near)
+        {
+          const Eigen::Vector3d offset = (this->centers_[near] - this->centers_[t]).toDouble();
+          covariance += offset * offset.transpose();
+          sum += offset;
+          count += 1.;
+        });
+      covariance -= sum * sum.transpose() / count;
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+      const Eigen::Vector3d across = solver.eigenvectors().col(0);
+      this->steepness_[t] = float(1. - std::abs(across.dot(this->normals_[t].toDouble())));
+    }
+  }
+
+  void flood(std::uint32_t seed)
+  {
+    using Entry = std::pair<float, std::uint32_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    open.emplace(this->steepness_[seed], seed);
+    while (!open.empty())
+    {
+      const std::uint32_t t = open.top().second;
+      open.pop();
+      if (this->sides_[t] != Side::Unknown)
+      {
+        continue;
+      }
+      this->sides_[t] = Side::Kept;
+      this->markOtherSide(t);
+      const auto& [a, b, c] = this->triangles_[t];
+      for (const auto& [from, to] : { std::pair(a, b), std::pair(b, c), std::pair(c, a) })
+      {
+        // The triangle on the other side of the edge.
+        const std::uint32_t next = this->numberOf_[this->place(to, from)];
+        if (this->sides_[next] == Side::Unknown)
+        {
+          open.emplace(this->steepness_[next], next);
+        }
+      }
+    }
+  }
+
+  void markOtherSide(std::uint32_t t)
+  {
+    const Vector4 center = this->centers_[t], normal = this->normals_[t];
+    const float width = OtherSideWidth * this->thickness_;
+    this->forEachNear(center,
+      [&](std::uint32_t other)
+      {
+        const Vector4 offset = this->centers_[other] - center;
+        const float depth = -dot(offset, normal);
+        const float aside = squaredNorm(offset) - depth * depth;
+        if (this->sides_[other] == Side::Unknown && depth > 0.f &&
+          depth < OtherSideDepth * this->thickness_ && aside < width * width &&
+          dot(this->normals_[other], normal) < OtherSideCosine)
+        {
+          this->sides_[other] = Side::Other;
+        }
+      });
+  }
+
+  const Mesh& skin_;
+  float thickness_;
+  std::vector<std::size_t> firstOf_;
+  std::vector<std::uint32_t> numberOf_; ///< of the triangle after each slot of each ring
+  std::vector<Triangle> triangles_;
+  std::vector<Vector4> normals_;
+  std::vector<Vector4> centers_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  std::vector<float> steepness_;
+  std::vector<Side> sides_;
+};
+}
+
+bool keepOneSheet(Mesh& skin, float thickness)
+{
+  skin.removeTriangles(SheetFlood(skin, thickness).otherSide());
+  skin.removeTriangles(findSmallPieces(skin));
+  BoundaryManager boundaries(skin);
+  fillBoundaries(skin, boundaries, LongestFilledEdge * double(thickness));
+  skin.dropErased();
+  return skin.vertexCount() > 3;
+}
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refinement.h"
+
+#include "EdgeFlips.h"
+#include "VertexSplit.h"
+
+#include <algorithm>
+#include <queue>
+
+namespace neuralmesh
+{
+namespace
+{
+/// A vertex, by its longest edge.
+struct Candidate
+{
+  float squaredLength;
+  VertexIndex vertex;
+  auto operator<=>(const Candidate&) const = default;
+};
+
+Candidate candidate(const Mesh& mesh, VertexIndex v)
+{
+  float longest = 0.f;
+  for (const VertexIndex neighbor : mesh.ring(v))
+  {
+    longest = std::max(longest, squaredNorm(mesh.position(neighbor) - mesh.position(v)));
+  }
+  return { longest, v };
+}
+}
+
+std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count)
+{
+  std::vector<VertexIndex> origins;
+  std::priority_queue<Candidate> candidates;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    candidates.push(candidate(mesh, v));
+  }
+  while (mesh.vertexCount() < count && !candidates.empty())
+  {
+    const Candidate longest = candidates.top();
+    const VertexIndex v = longest.vertex;
+    candidates.pop();
+    // Edges become shorter, or longer by flips: then the vertex comes again.
+    if (const Candidate now = candidate(mesh, v); now != longest)
+    {
+      if (now < longest)
+      {
+        candidates.push(now);
+      }
+      continue;
+    }
+    const auto plan = planEdgeSplit(mesh, v);
+    if (!plan)
+    {
+      continue;
+    }
+    const VertexIndex added = mesh.split(v, plan->first, plan->steps, plan->position);
+    origins.push_back(v);
+    flipEdgesAround(mesh, added);
+    candidates.push(candidate(mesh, v));
+    candidates.push(candidate(mesh, added));
+    for (const VertexIndex neighbor : mesh.ring(added))
+    {
+      candidates.push(candidate(mesh, neighbor));
+    }
+  }
+  return origins;
+}
+}

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceFit.h"
+
+#include "VertexGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+/// What a distance along the surface counts, against one across it.
+constexpr double Slip = 0.01;
+/// Samples farther than so many median distances are outliers, but none closer than a mean edge:
+/// without noise the median tells nothing of where the mesh does not fit yet.
+constexpr float OutlierMedians = 5.f;
+constexpr float EdgesPerCell = 2.f;
+constexpr std::size_t SamplesPerCheck = 16384;
+/// Of the residual of the equations, against that at the start.
+constexpr double Tolerance = 3e-3;
+constexpr double ToleranceOfChoice = 3e-2;
+
+// The choice of lambda
+constexpr double FirstSmoothness = 100.;
+constexpr double LeastSmoothness = 0.03;
+constexpr double MostSmoothness = 1e4;
+/// The roughness is measured where noise is still in it, at least a bit.
+constexpr double SmoothnessFactor = 1.5;
+constexpr int MostChoices = 5;
+
+Vector4 normalAt(const PlaceOnMesh& place, std::span<const Vector4> positions)
+{
+  const Vector4 a = positions[place.triangle[0]];
+  return cross(positions[place.triangle[1]] - a, positions[place.triangle[2]] - a);
+}
+}
+
+SurfaceFit::SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount)
+  : cloud_(cloud)
+  , mesh_(mesh)
+{
+  const std::size_t points = cloud.points().size();
+  const std::size_t count = std::min(points, sampleCount);
+  this->samples_.reserve(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    this->samples_.push_back(cloud.points()[i * points / count]);
+  }
+  this->places_.resize(count);
+}
+
+double SurfaceFit::meanEdge() const
+{
+  double sum = 0.;
+  std::size_t count = 0;
+  for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
+  {
+    for (const VertexIndex neighbor : this->mesh_.ring(v))
+    {
+      sum +=
+        std::sqrt(double(squaredNorm(this->mesh_.position(neighbor) - this->mesh_.position(v))));
+      ++count;
+    }
+  }
+  return sum / double(count);
+}
+
+bool SurfaceFit::findPlaces(const GoOn& goOn)
+{
+  const auto meanEdge = float(this->meanEdge());
+  VertexGrid grid;
+  if (!this->hasPlaces_)
+  {
+    grid.reset(this->cloud_.bulkMin(), this->cloud_.bulkMax(), EdgesPerCell * meanEdge,
+      this->mesh_.indexEnd());
+    for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
+    {
+      grid.insert(v, this->mesh_.position(v));
+    }
+  }
+  std::vector<float> distances(this->samples_.size());
+  for (std::size_t i = 0; i < this->samples_.size(); ++i)
+  {
+    if (i % SamplesPerCheck == 0 && !goOn())
+    {
+      return false;
+    }
+    PlaceOnMesh& place = this->places_[i];
+    place = this->hasPlaces_ ? closestPlaceFrom(this->samples_[i], this->mesh_, place.triangle[0])
+                             : closestPlace(this->samples_[i], this->mesh_, grid);
+    distances[i] = place.squaredDistance;
+  }
+  this->hasPlaces_ = true;
+  const auto median = distances.begin() + std::ptrdiff_t(distances.size() / 2);
+  std::nth_element(distances.begin(), median, distances.end());
+  this->medianDistance_ = std::sqrt(*median);
+  this->outlierDistance_ = std::max(meanEdge, OutlierMedians * this->medianDistance_);
+  this->fillSystem();
+  return true;
+}
+
+void SurfaceFit::fillSystem()
+{
+  // Anew, as edges may have been flipped.
+  this->system_.emplace(this->mesh_, Slip);
+  this->usedCount_ = 0;
+  for (std::size_t i = 0; i < this->samples_.size(); ++i)
+  {
+    const PlaceOnMesh& place = this->places_[i];
+    if (this->isUsed(place))
+    {
+      // Beyond a boundary the distance along the surface counts in full: there is no other place.
+      const Vector4 normal =
+        isOnBoundary(place, this->mesh_) ? Vector4() : normalAt(place, this->mesh_.positions());
+      this->system_->add(place, this->samples_[i], normal, 1.f);
+      ++this->usedCount_;
+    }
+  }
+}
+
+bool SurfaceFit::moveVertices(double lambda, const GoOn& goOn)
+{
+  this->smoothness_ = lambda;
+  if (lambda <= 0. && !this->chooseSmoothness(goOn))
+  {
+    return false;
+  }
+  std::vector<Vector4> positions(this->mesh_.positions().begin(), this->mesh_.positions().end());
+  if (!this->system_->solve(this->smoothness_, Tolerance, positions, goOn))
+  {
+    return false;
+  }
+  this->noise_ = std::sqrt(this->residualVariance(positions, this->smoothness_));
+  for (VertexIndex v = 0; v < positions.size(); ++v)
+  {
+    this->mesh_.setPosition(v, positions[v]);
+  }
+  return true;
+}
+
+/// With Gaussian noise of variance s^2 and a surface whose L x has the variance r^2 across it, the
+/// most probable positions are those for lambda = s^2 / r^2. Both are measured, beginning with a
+/// smooth surface: on a rough one, noise would pass for shape.
+bool SurfaceFit::chooseSmoothness(const GoOn& goOn)
+{
+  this->smoothness_ = FirstSmoothness;
+  std::vector<Vector4> positions(this->mesh_.positions().begin(), this->mesh_.positions().end());
+  for (int i = 0; i < MostChoices; ++i)
+  {
+    if (!this->system_->solve(this->smoothness_, ToleranceOfChoice, positions, goOn))
+    {
+      return false;
+    }
+    const double rough = this->roughness(positions);
+    const double ratio =
+      rough > 0. ? this->residualVariance(positions, this->smoothness_) / rough : MostSmoothness;
+    const double before = this->smoothness_;
+    this->smoothness_ = std::clamp(SmoothnessFactor * ratio, LeastSmoothness, MostSmoothness);
+    if (this->smoothness_ > 0.5 * before)
+    {
+      break;
+    }
+  }
+  return true;
+}
+
+double SurfaceFit::residualVariance(std::span<const Vector4> positions, double lambda) const
+{
+  double sum = 0.;
+  for (std::size_t i = 0; i < this->samples_.size(); ++i)
+  {
+    const PlaceOnMesh& place = this->places_[i];
+    if (this->isUsed(place))
+    {
+      const Vector4 normal = normalAt(place, positions);
+      const Vector4 offset = this->samples_[i] - positions[place.triangle[0]];
+      const float across = dot(offset, normal);
+      const float squared = squaredNorm(normal);
+      sum += squared > 0.f ? double(across * across / squared) : double(squaredNorm(offset));
+    }
+  }
+  // Vertices follow noise, the less the smoother they are held: so many of them do (a curve through
+  // traces of the solution, measured for 2 to 20 samples a vertex).
+  const auto vertices = double(positions.size());
+  const auto samples = double(std::max<std::size_t>(1, this->usedCount_));
+  const double followers = vertices / (1. + std::pow(2. * lambda * vertices / samples, 0.75));
+  return sum / std::max(0.25 * samples, samples - followers);
+}
+
+double SurfaceFit::roughness(std::span<const Vector4> positions) const
+{
+  std::vector<Vector4> laplacian(positions.size());
+  this->system_->applyLaplacian(positions, laplacian);
+  double sum = 0.;
+  for (VertexIndex v = 0; v < positions.size(); ++v)
+  {
+    const Ring& ring = this->mesh_.ring(v);
+    Vector4 normal;
+    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+    {
+      normal += cross(
+        positions[ring[slot]] - positions[v], positions[ring[ring.after(slot)]] - positions[v]);
+    }
+    const float across = dot(laplacian[v], normal);
+    const float squared = squaredNorm(normal);
+    sum += squared > 0.f ? double(across * across / squared) : 0.;
+  }
+  return sum / double(positions.size());
+}
+
+double SurfaceFit::outlierShare() const
+{
+  return 1. - double(this->usedCount_) / double(this->samples_.size());
+}
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "FitSystem.h"
+#include "Mesh.h"
+#include "PlaceOnMesh.h"
+#include "PointCloud.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace neuralmesh
+{
+/// Asked so often that work can be ended at once; ends it by returning false.
+using GoOn = std::function<bool()>;
+
+/// Moves all vertices of a mesh to where the surface is closest to its cloud: to the positions x
+/// that minimise
+///
+///   sum over samples p of w_p |p - b_p x|^2  +  lambda sum over vertices |L x|^2
+///
+/// where b_p x is the place on the mesh that is closest to p, w_p is 0 for outliers, and L is the
+/// umbrella Laplacian. A distance along the surface counts little, as another place is then closer.
+/// Places change with the positions, so that it takes rounds of finding places and solving for
+/// positions. The topology stays as it is.
+class SurfaceFit
+{
+public:
+  /// Takes so many points of the cloud, evenly picked, as samples. No vertex may be erased.
+  SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount);
+
+  /// Finds the places of the samples on the mesh as it is now.
+  bool findPlaces(const GoOn& goOn);
+  /// Moves the vertices. With `lambda` 0 chooses it first: see chosenSmoothness().
+  bool moveVertices(double lambda, const GoOn& goOn);
+  /// The lambda of the last moveVertices().
+  double smoothness() const { return this->smoothness_; }
+
+  /// Of samples in use, to the planes of their triangles, root of the mean square, with what the
+  /// vertices have followed of it added: the noise of the cloud, and what the triangles are too
+  /// coarse for.
+  double noise() const { return this->noise_; }
+  /// Part of the samples that are outliers.
+  double outlierShare() const;
+  /// Beyond this distance a sample is an outlier.
+  float outlierDistance() const { return this->outlierDistance_; }
+  /// Of the samples to the mesh.
+  float medianDistance() const { return this->medianDistance_; }
+  /// Of the samples, at the last findPlaces().
+  std::span<const PlaceOnMesh> places() const { return this->places_; }
+
+private:
+  bool isUsed(const PlaceOnMesh& place) const
+  {
+    return place.squaredDistance <= this->outlierDistance_ * this->outlierDistance_;
+  }
+  void fillSystem();
+  double meanEdge() const;
+  bool chooseSmoothness(const GoOn& goOn);
+  double residualVariance(std::span<const Vector4> positions, double lambda) const;
+  double roughness(std::span<const Vector4> positions) const;
+
+  const PointCloud& cloud_;
+  Mesh& mesh_;
+  std::optional<FitSystem> system_;
+  std::vector<Vector4> samples_;
+  std::vector<PlaceOnMesh> places_;
+  bool hasPlaces_ = false;
+  std::size_t usedCount_ = 0;
+  float outlierDistance_ = 0.f;
+  float medianDistance_ = 0.f;
+  double smoothness_ = 0.;
+  double noise_ = 0.;
+};
+}
