@@ -51,6 +51,7 @@ struct Options
   int Variant = vtkNeuralMesh::NOISE_FILTERING;
   int Order = vtkNeuralMesh::EXACT;
   int Topology = DefaultTopology;
+  int Boundaries = vtkNeuralMesh::KEEP;
   int Members = 0; ///< of an ensemble; 0 for none
   std::string Jump;
   bool Features = false;
@@ -148,6 +149,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
   {
     filter->SetTopologyLearning(options.Topology);
   }
+  filter->SetBoundaries(options.Boundaries);
   filter->SetComputeFeatureStrength(options.Features);
   filter->SetPreset(options.Preset);
   filter->SetTimeLimit(options.TimeLimit);
@@ -227,6 +229,14 @@ void Learn(vtkNeuralMesh* filter, vtkPointSet* points, const Options& options)
   RequireResult(filter, *errors, options);
 }
 
+void PrintPhases(vtkNeuralMesh* filter)
+{
+  const double cloud = filter->GetCloudTime(), start = filter->GetStartTime();
+  const double learning = filter->GetLearningTime(), finish = filter->GetFinishTime();
+  std::printf("phases     %.2f CPU s (cloud %.2f, start %.2f, learning %.2f, finish %.2f)\n",
+    cloud + start + learning + finish, cloud, start, learning, finish);
+}
+
 int Reconstruct(const Options& options)
 {
   const vtkSmartPointer<vtkNeuralMesh> filter = MakeFilter(options);
@@ -276,6 +286,7 @@ int Reconstruct(const Options& options)
     std::printf("triangles  %lld\n", static_cast<long long>(mesh->GetNumberOfPolys()));
     std::printf(
       "samples    %lld, ended by: %s\n", FieldValue(mesh, "Iterations"), filter->GetStopReason());
+    PrintPhases(filter);
     std::printf("time       %.2f s (reading %.2f, learning %.2f, writing %.2f)\n",
       reading + learning + writing, reading, learning, writing);
   }
@@ -336,7 +347,10 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     ->type_name(Joined(Jumps) + "[=FRACTION]");
   AddChoice(command, "--topology", options->Topology, { { "off", 0 }, { "on", 1 } },
     "on: learn handles and openings (default with --ensemble); off (default without): the surface "
-    "keeps the topology of its start, a sphere");
+    "keeps the topology of its start");
+  AddChoice(command, "--boundaries", options->Boundaries,
+    { { "keep", vtkNeuralMesh::KEEP }, { "close", vtkNeuralMesh::CLOSE } },
+    "Gaps in the scan; keep (default): the mesh ends where the data ends; close: it is watertight");
   command->add_option("--set", options->Assignments, "Set a parameter of learning, see below")
     ->type_name("NAME=VALUE")
     ->take_all()

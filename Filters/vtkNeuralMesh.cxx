@@ -188,7 +188,9 @@ int vtkNeuralMesh::RequestData(
     FillLearningCurve({}, learningCurve);
     return 1;
   }
+  const double cloudBegin = neuralmesh::cpuSeconds();
   const neuralmesh::PointCloud cloud(collector.GetPoints());
+  this->CloudTime = neuralmesh::cpuSeconds() - cloudBegin;
   collector.ReleasePoints();
   if (!cloud.hasExtent())
   {
@@ -231,6 +233,9 @@ int vtkNeuralMesh::RequestData(
     cloud, run.Parameters, [&run](double fraction) { return run.Progress.Report(fraction); },
     run.FirstMesh);
   this->StopReason = neuralmesh::name(result.stopReason).data();
+  this->StartTime = result.startSeconds;
+  this->LearningTime = result.learningSeconds;
+  this->FinishTime = result.finishSeconds;
   this->AbortExecute = 0;
   if (result.stopReason == neuralmesh::StopReason::Stalled)
   {
@@ -277,4 +282,8 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
 #undef PRINT_PROPERTY
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "StopReason: " << this->StopReason << "\n";
+  os << indent << "CloudTime: " << this->CloudTime << "\n";
+  os << indent << "StartTime: " << this->StartTime << "\n";
+  os << indent << "LearningTime: " << this->LearningTime << "\n";
+  os << indent << "FinishTime: " << this->FinishTime << "\n";
 }

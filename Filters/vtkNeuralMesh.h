@@ -218,6 +218,17 @@ public:
    */
   const char* GetStopReason() const { return this->StopReason; }
 
+  ///@{
+  /**
+   * CPU seconds of the process that the last run spent on making the cloud ready, finding what to
+   * start from, learning, and the finish. They stand nowhere in the output.
+   */
+  double GetCloudTime() const { return this->CloudTime; }
+  double GetStartTime() const { return this->StartTime; }
+  double GetLearningTime() const { return this->LearningTime; }
+  double GetFinishTime() const { return this->FinishTime; }
+  ///@}
+
 protected:
   vtkNeuralMesh();
   ~vtkNeuralMesh() override;
@@ -249,6 +260,10 @@ private:
 
   int OutputPointsPrecision = DEFAULT_PRECISION;
   const char* StopReason = "none";
+  double CloudTime = 0.0;
+  double StartTime = 0.0;
+  double LearningTime = 0.0;
+  double FinishTime = 0.0;
 };
 
 #endif

@@ -12,6 +12,7 @@
   use(Order, order)                                         \
   use(TopologyLearning, topologyLearning)                   \
   use(Jump, jump)                                           \
+  use(Boundaries, boundaries)                               \
   use(AdditionOperation, additionOperation)                 \
   use(RemovalOperation, removalOperation)                   \
   use(ComputeFeatureStrength, computeFeatureStrength)
@@ -48,7 +49,11 @@
   use(AreaWeight, areaWeight)                               \
   use(VolumeWeight, volumeWeight)                           \
   use(ListVertices, listVertices)                           \
-  use(BatchSize, batchSize)
+  use(BatchSize, batchSize)                                 \
+  use(Start, start)                                         \
+  use(FitRounds, fitRounds)                                 \
+  use(FitSmoothness, fitSmoothness)                         \
+  use(FitSamples, fitSamples)
 // clang-format on
 
 vtkNeuralMeshAlgorithm::vtkNeuralMeshAlgorithm() { this->ApplyPreset(); }

@@ -86,6 +86,43 @@ public:
   vtkBooleanMacro(TopologyLearning, vtkTypeBool);
   ///@}
 
+  enum StartType
+  {
+    OCCUPIED_SPACE,
+    TETRAHEDRON
+  };
+
+  ///@{
+  /**
+   * What learning starts from, where no first mesh is given. OCCUPIED_SPACE (default): a coarse
+   * surface of the space that the cloud occupies or encloses, which has the handles and pieces of
+   * the shape, or is one open sheet. TETRAHEDRON, as the thesis has it (its preset sets it), and for
+   * clouds of less than 500 points: topology is that of a sphere, unless TopologyLearning is on. See
+   * Documentation/Start.md.
+   */
+  vtkNeuralMeshSetClampMacro(Start, int, OCCUPIED_SPACE, TETRAHEDRON);
+  vtkGetMacro(Start, int);
+  void SetStartToOccupiedSpace() { this->SetStart(OCCUPIED_SPACE); }
+  void SetStartToTetrahedron() { this->SetStart(TETRAHEDRON); }
+  ///@}
+
+  enum BoundariesType
+  {
+    KEEP,
+    CLOSE
+  };
+
+  ///@{
+  /**
+   * With Start OCCUPIED_SPACE, what becomes of gaps in the scan. KEEP (default): the mesh ends where
+   * the data ends, nothing is invented. CLOSE: the mesh is watertight. See Documentation/Start.md.
+   */
+  vtkNeuralMeshSetClampMacro(Boundaries, int, KEEP, CLOSE);
+  vtkGetMacro(Boundaries, int);
+  void SetBoundariesToKeep() { this->SetBoundaries(KEEP); }
+  void SetBoundariesToClose() { this->SetBoundaries(CLOSE); }
+  ///@}
+
   enum JumpType
   {
     CONSTANT,
@@ -161,6 +198,21 @@ public:
   vtkSetMacro(ComputeFeatureStrength, vtkTypeBool);
   vtkGetMacro(ComputeFeatureStrength, vtkTypeBool);
   vtkBooleanMacro(ComputeFeatureStrength, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * The finish: rounds of a least-squares fit of all vertices to the cloud once they are learnt.
+   * FitRounds: 0 for none; default 3 (thesis: 0), range 0 to 100. FitSmoothness: lambda, how smooth
+   * the mesh is held; 0 (default) chooses it by the noise of the cloud and the shape, range 0 to
+   * 1000000. FitSamples: samples per vertex; default 10, range 1 to 1000. See Documentation/Fit.md.
+   */
+  vtkNeuralMeshSetClampMacro(FitRounds, int, 0, 100);
+  vtkGetMacro(FitRounds, int);
+  vtkNeuralMeshSetClampMacro(FitSmoothness, double, 0.0, 1e6);
+  vtkGetMacro(FitSmoothness, double);
+  vtkNeuralMeshSetClampMacro(FitSamples, double, 1.0, 1000.0);
+  vtkGetMacro(FitSamples, double);
   ///@}
 
   enum PresetType
@@ -498,6 +550,7 @@ private:
   int Variant = NOISE_FILTERING;
   int Order = EXACT;
   vtkTypeBool TopologyLearning = 0;
+  int Boundaries = KEEP;
   int Jump = CONSTANT;
   int AdditionOperation = VERTEX_SPLIT;
   int RemovalOperation = HALF_EDGE_COLLAPSE;
@@ -536,6 +589,10 @@ private:
   double VolumeWeight = 0;
   int ListVertices = 0;
   int BatchSize = 0;
+  int Start = 0;
+  int FitRounds = 0;
+  double FitSmoothness = 0;
+  double FitSamples = 0;
 };
 
 #endif

@@ -63,8 +63,8 @@ enum class RemovalOperation
 /// What learning starts from, where no first mesh is given.
 enum class Start
 {
-  Tetrahedron,  ///< as in the thesis
-  OccupiedSpace ///< a coarse surface of the space that the cloud occupies or encloses
+  OccupiedSpace, ///< a coarse surface of the space that the cloud occupies or encloses
+  Tetrahedron    ///< as in the thesis
 };
 
 /// What becomes of gaps in the scan.

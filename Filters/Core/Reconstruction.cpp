@@ -6,6 +6,7 @@
 #include "Orientation.h"
 
 #include <algorithm>
+#include <ctime>
 
 namespace neuralmesh
 {
@@ -74,10 +75,13 @@ bool isTimeLeft(StopReason reason)
 }
 }
 
+double cpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
+
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
   const Progress& progress, const std::optional<Mesh>& first)
 {
   Reconstruction result;
+  const double begin = cpuSeconds();
   std::optional<Mesh> start = first;
   const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
   if (startsFromSpace)
@@ -91,6 +95,7 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
       start = std::move(surface->mesh);
     }
   }
+  const double learningBegin = cpuSeconds();
   Learner learner = start ? Learner(cloud, parameters, *start) : Learner(cloud, parameters);
   const double endOfStart = startsFromSpace ? EndOfStart : 0.;
   const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
@@ -100,6 +105,7 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
   result.counts = learner.counts();
 
   learner.renumber();
+  const double learningEnd = cpuSeconds();
   Mesh mesh = learner.mesh();
   const bool opensGaps = startsFromSpace && start && parameters.boundaries == Boundaries::Keep;
   Finish finish(cloud, mesh, parameters, opensGaps);
@@ -130,6 +136,9 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
       result.featureStrengths.push_back(double((*learner.featureStrength())[learnt]));
     }
   }
+  result.startSeconds = learningBegin - begin;
+  result.learningSeconds = learningEnd - learningBegin;
+  result.finishSeconds = cpuSeconds() - learningEnd;
   return result;
 }
 }

@@ -27,7 +27,15 @@ struct Reconstruction
   StopReason stopReason = StopReason::None;
   /// Nothing if the mesh was not finished.
   std::optional<FinishReport> finish;
+  // CPU seconds of the process
+  double startSeconds = 0.;
+  double learningSeconds = 0.;
+  double finishSeconds = 0.;
 };
+
+/// CPU seconds that the process has used so far.
+double cpuSeconds();
+
 
 /// Grows a mesh over a cloud that has an extent: from `first`, or what the parameters have it start
 /// from if there is none, until a stopping rule is met. Then finishes it, unless there is no time
