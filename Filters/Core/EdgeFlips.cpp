@@ -110,4 +110,15 @@ unsigned flipEdgesAround(Mesh& mesh, VertexIndex v)
   }
   return flips;
 }
+
+void flipEdges(Mesh& mesh)
+{
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    if (mesh.isAlive(v))
+    {
+      flipEdgesAround(mesh, v);
+    }
+  }
+}
 }

@@ -11,6 +11,9 @@ namespace neuralmesh
 /// Not in the thesis.
 unsigned flipEdgesAround(Mesh& mesh, VertexIndex v);
 
+/// The same around all vertices.
+void flipEdges(Mesh& mesh);
+
 /// Flips the edge a-b if that is legal, brings valences closer to regular, and nothing folds over or
 /// leans farther apart than before. Returns whether it did.
 bool flipIfMoreRegular(Mesh& mesh, VertexIndex a, VertexIndex b);

@@ -40,7 +40,8 @@ bool Finish::run(const GoOn& goOn)
       {
         surfaceFit.emplace(this->cloud_, this->mesh_, samples);
       }
-      this->flipEdges();
+      // A fitted surface is smoother than the learnt one, and lets more edges be flipped.
+      flipEdges(this->mesh_);
     }
   }
   return true;
@@ -75,15 +76,5 @@ bool Finish::openGaps(const SurfaceFit& surfaceFit)
     this->origins_.push_back(this->origins_[origin]);
   }
   return true;
-}
-
-/// Towards regular valences. On a surface that is fitted more flips are possible than on the learnt
-/// one, where noise bends it.
-void Finish::flipEdges()
-{
-  for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
-  {
-    flipEdgesAround(this->mesh_, v);
-  }
 }
 }

@@ -38,7 +38,6 @@ public:
 private:
   bool fit(SurfaceFit& surfaceFit, double smoothness, const GoOn& goOn);
   bool openGaps(const SurfaceFit& surfaceFit);
-  void flipEdges();
 
   const PointCloud& cloud_;
   Mesh& mesh_;

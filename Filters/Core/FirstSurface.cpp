@@ -4,6 +4,7 @@
 #include "BoundaryFilling.h"
 #include "DataGaps.h"
 #include "DisjointSets.h"
+#include "EdgeFlips.h"
 #include "MeshBuilder.h"
 #include "OccupiedSolid.h"
 #include "OneSheet.h"
@@ -161,10 +162,12 @@ bool fitToCloud(const PointCloud& cloud, Mesh& mesh, Boundaries boundaries, cons
   SurfaceFit fit(cloud, mesh, FitSamples * mesh.vertexCount());
   for (int round = 0; round < FitRounds; ++round)
   {
+    flipEdges(mesh);
     if (!fit.findPlaces(goOn) || !fit.moveVertices(FitSmoothness, goOn))
     {
       return false;
     }
+    flipEdges(mesh);
   }
   if (boundaries == Boundaries::Keep && fit.findPlaces(goOn))
   {

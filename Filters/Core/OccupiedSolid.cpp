@@ -12,8 +12,10 @@ namespace
 {
 using Voxels = std::vector<std::uint8_t>;
 
-/// Layers around the bulk: closing needs one, and what is outside must have one around all.
-constexpr std::size_t Margin = 3;
+/// Layers without points around all: closing needs one, and what is outside another one.
+constexpr std::size_t EmptyLayers = 2;
+/// Layers around the bulk.
+constexpr std::size_t Margin = EmptyLayers + 1;
 /// A voxel is occupied from this part of the usual number of points on: the median of the fuller
 /// half of all voxels with points.
 constexpr double LeastPartOfUsual = 0.15;
@@ -47,7 +49,7 @@ std::vector<std::uint32_t> countPoints(const PointCloud& cloud, const VoxelGrid&
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const float place = (point.lanes[axis] - first[Eigen::Index(axis)]) * inverse + 0.5f;
-      isIn = isIn && place >= float(Margin) && place < float(grid.counts[axis] - Margin);
+      isIn = isIn && place >= float(EmptyLayers) && place < float(grid.counts[axis] - EmptyLayers);
       voxel += isIn ? std::size_t(place) * strides[axis] : 0;
     }
     if (isIn)
