@@ -21,7 +21,7 @@ Finish::Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters
   std::iota(this->origins_.begin(), this->origins_.end(), VertexIndex(0));
 }
 
-bool Finish::run(const GoOn& goOn)
+bool Finish::run(const Progress& progress)
 {
   const auto samples =
     std::size_t(this->parameters_.fitSamples * double(this->mesh_.vertexCount()));
@@ -29,7 +29,8 @@ bool Finish::run(const GoOn& goOn)
   double smoothness = this->parameters_.fitSmoothness;
   for (int round = 0; round < this->parameters_.fitRounds; ++round)
   {
-    if (!this->fit(*surfaceFit, smoothness, goOn))
+    const double rounds = this->parameters_.fitRounds;
+    if (!this->fit(*surfaceFit, smoothness, partOf(progress, round / rounds, (round + 1) / rounds)))
     {
       return false;
     }
@@ -47,9 +48,10 @@ bool Finish::run(const GoOn& goOn)
   return true;
 }
 
-bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const GoOn& goOn)
+bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress)
 {
-  if (!surfaceFit.findPlaces(goOn) || !surfaceFit.moveVertices(smoothness, goOn))
+  if (!surfaceFit.findPlaces(partOf(progress, 0., 0.5)) ||
+    !surfaceFit.moveVertices(smoothness, partOf(progress, 0.5, 1.)))
   {
     return false;
   }

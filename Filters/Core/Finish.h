@@ -29,14 +29,14 @@ public:
   Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters, bool opensGaps);
 
   /// Returns false if it was ended before its end; then the mesh is valid all the same.
-  bool run(const GoOn& goOn);
+  bool run(const Progress& progress);
 
   const FinishReport& report() const { return this->report_; }
   /// For each vertex, the index of the vertex of the learnt mesh that it is or was split from.
   const std::vector<VertexIndex>& origins() const { return this->origins_; }
 
 private:
-  bool fit(SurfaceFit& surfaceFit, double smoothness, const GoOn& goOn);
+  bool fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   bool openGaps(const SurfaceFit& surfaceFit);
 
   const PointCloud& cloud_;

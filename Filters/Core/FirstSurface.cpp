@@ -10,6 +10,7 @@
 #include "OneSheet.h"
 #include "Simplification.h"
 #include "SmallPieces.h"
+#include "SurfaceFit.h"
 #include "VoxelSurface.h"
 
 #include <array>
@@ -32,6 +33,9 @@ constexpr unsigned OpenResolution = 48;
 constexpr double SkinThickness = 1.5;
 /// With less, a coarse grid tells nothing.
 constexpr std::size_t LeastPoints = 500;
+
+/// Of the time that all takes.
+constexpr double PartOfGrids = 0.5;
 
 constexpr int FitRounds = 2;
 constexpr double FitSmoothness = 1.;
@@ -110,7 +114,12 @@ Mesh meshOf(TriangleMesh surface, const PointCloud& cloud)
 std::optional<FirstSurface> openSurface(const PointCloud& cloud)
 {
   const OccupiedSolid solid = occupiedSolid(cloud, OpenResolution);
-  FirstSurface result{ meshOf(voxelSurface(solid.grid, solid.inside), cloud), OpenResolution };
+  TriangleMesh surface = voxelSurface(solid.grid, solid.inside);
+  if (surface.triangles.empty())
+  {
+    return {};
+  }
+  FirstSurface result{ meshOf(std::move(surface), cloud), OpenResolution };
   result.isOpen = true;
   if (!keepOneSheet(result.mesh, float(SkinThickness * solid.grid.width)))
   {
@@ -120,11 +129,15 @@ std::optional<FirstSurface> openSurface(const PointCloud& cloud)
 }
 
 /// Of the finest grid that encloses something.
-std::optional<FirstSurface> closedSurface(const PointCloud& cloud)
+std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progress& progress)
 {
   std::vector<Candidate> candidates;
   for (const unsigned resolution : Resolutions)
   {
+    if (!progress(double(resolution) / FinestResolution))
+    {
+      break;
+    }
     Candidate next = candidate(cloud, resolution);
     if (!candidates.empty() && next.interior < candidates.back().interior)
     {
@@ -132,7 +145,7 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud)
     }
     candidates.push_back(std::move(next));
   }
-  if (candidates.back().interior == 0)
+  if (candidates.empty() || candidates.back().interior == 0)
   {
     return {};
   }
@@ -157,19 +170,23 @@ void closeBoundaries(Mesh& mesh)
   fillBoundaries(mesh, boundaries, std::numeric_limits<double>::max());
 }
 
-bool fitToCloud(const PointCloud& cloud, Mesh& mesh, Boundaries boundaries, const GoOn& goOn)
+bool fitToCloud(
+  const PointCloud& cloud, Mesh& mesh, Boundaries boundaries, const Progress& progress)
 {
   SurfaceFit fit(cloud, mesh, FitSamples * mesh.vertexCount());
   for (int round = 0; round < FitRounds; ++round)
   {
     flipEdges(mesh);
-    if (!fit.findPlaces(goOn) || !fit.moveVertices(FitSmoothness, goOn))
+    const Progress ofRound =
+      partOf(progress, double(round) / FitRounds, double(round + 1) / FitRounds);
+    if (!fit.findPlaces(partOf(ofRound, 0., 0.5)) ||
+      !fit.moveVertices(FitSmoothness, partOf(ofRound, 0.5, 1.)))
     {
       return false;
     }
     flipEdges(mesh);
   }
-  if (boundaries == Boundaries::Keep && fit.findPlaces(goOn))
+  if (boundaries == Boundaries::Keep && fit.findPlaces(partOf(progress, 1., 1.)))
   {
     mesh.removeTriangles(findDataGaps(cloud, mesh, fit.places(), fit.medianDistance()));
     mesh.removeTriangles(findSmallPieces(mesh));
@@ -179,14 +196,14 @@ bool fitToCloud(const PointCloud& cloud, Mesh& mesh, Boundaries boundaries, cons
 }
 }
 
-std::optional<FirstSurface> firstSurface(
-  const PointCloud& cloud, std::size_t mostVertices, Boundaries boundaries, const GoOn& goOn)
+std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
+  Boundaries boundaries, const Progress& progress)
 {
   if (cloud.points().size() < LeastPoints)
   {
     return {};
   }
-  std::optional<FirstSurface> result = closedSurface(cloud);
+  std::optional<FirstSurface> result = closedSurface(cloud, partOf(progress, 0., PartOfGrids));
   if (!result)
   {
     result = openSurface(cloud);
@@ -201,7 +218,8 @@ std::optional<FirstSurface> firstSurface(
     closeBoundaries(result->mesh);
   }
   const bool isDone = result->mesh.vertexCount() <= mostVertices &&
-    fitToCloud(cloud, result->mesh, boundaries, goOn) && result->mesh.vertexCount() > 3;
+    fitToCloud(cloud, result->mesh, boundaries, partOf(progress, PartOfGrids, 1.)) &&
+    result->mesh.vertexCount() > 3;
   return isDone ? std::move(result) : std::nullopt;
 }
 }

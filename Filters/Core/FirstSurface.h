@@ -4,7 +4,7 @@
 #include "Mesh.h"
 #include "Parameters.h"
 #include "PointCloud.h"
-#include "SurfaceFit.h"
+#include "Progress.h"
 
 #include <cstddef>
 #include <optional>
@@ -29,6 +29,6 @@ struct FirstSurface
 ///
 /// Has at most so many vertices. Nothing if that is too few for the topology, or the cloud has too
 /// few points to tell.
-std::optional<FirstSurface> firstSurface(
-  const PointCloud& cloud, std::size_t mostVertices, Boundaries boundaries, const GoOn& goOn);
+std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
+  Boundaries boundaries, const Progress& progress);
 }

@@ -2,6 +2,7 @@
 #include "FitSystem.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace neuralmesh
 {
@@ -125,7 +126,7 @@ std::vector<Vector4> FitSystem::inverseDiagonal(double lambda) const
 }
 
 bool FitSystem::solve(
-  double lambda, double tolerance, std::span<Vector4> x, const std::function<bool()>& goOn) const
+  double lambda, double tolerance, std::span<Vector4> x, const Progress& progress) const
 {
   const std::size_t n = x.size();
   const std::vector<Vector4> inverse = this->inverseDiagonal(lambda);
@@ -146,10 +147,13 @@ bool FitSystem::solve(
     direction[v] = inverse[v] * residual[v];
   }
   double squared = squaredResidual();
-  const double end = tolerance * tolerance * squared;
+  const double start = squared, end = tolerance * tolerance * start;
+  double done = 0.;
   for (int i = 0; i < MostIterations && squared > end; ++i)
   {
-    if (i % IterationsPerCheck == 0 && !goOn())
+    // The residual falls by about the same factor each time.
+    done = std::max(done, std::log(squared / start) / std::log(end / start));
+    if (i % IterationsPerCheck == 0 && !progress(done))
     {
       return false;
     }

@@ -3,9 +3,9 @@
 
 #include "Mesh.h"
 #include "PlaceOnMesh.h"
+#include "Progress.h"
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -25,10 +25,9 @@ public:
   /// Adds a sample whose place is on a triangle with this normal (of any length).
   void add(const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight);
 
-  /// Improves `x` until the residual is `tolerance` times what it was, and calls `goOn` now and then: if that returns false,
-  /// ends early. Returns false then.
-  bool solve(
-    double lambda, double tolerance, std::span<Vector4> x, const std::function<bool()>& goOn) const;
+  /// Improves `x` until the residual is `tolerance` times what it was. Returns false if it was ended
+  /// before.
+  bool solve(double lambda, double tolerance, std::span<Vector4> x, const Progress& progress) const;
 
   /// L x.
   void applyLaplacian(std::span<const Vector4> x, std::span<Vector4> result) const;

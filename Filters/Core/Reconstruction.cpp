@@ -23,30 +23,9 @@ constexpr std::uint64_t VerticesPerFirstVertex = 4;
 constexpr double EndOfStart = 0.15;
 constexpr double EndOfLearning = 0.65;
 
-/// Reports a part of a run as a part of the whole.
-class PartialProgress
-{
-public:
-  PartialProgress(const Progress& whole, double begin, double end)
-    : whole_(whole)
-    , begin_(begin)
-    , end_(end)
-  {
-  }
-  bool operator()(double fraction) const
-  {
-    return this->whole_(this->begin_ + fraction * (this->end_ - this->begin_));
-  }
-
-private:
-  const Progress& whole_;
-  double begin_;
-  double end_;
-};
-
 /// Learns until a stopping rule is met; returns which.
 StopReason learn(Learner& learner, StoppingRules& rules, const PointCloud& cloud,
-  const Parameters& parameters, LearningCurve& curve, const PartialProgress& progress)
+  const Parameters& parameters, LearningCurve& curve, const Progress& progress)
 {
   for (;;)
   {
@@ -100,8 +79,8 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
   const double endOfStart = startsFromSpace ? EndOfStart : 0.;
   const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
   StoppingRules rules(cloud, parameters, learner.mesh().vertexCount());
-  result.stopReason = learn(learner, rules, cloud, parameters, result.curve,
-    PartialProgress(progress, endOfStart, endOfLearning));
+  result.stopReason = learn(
+    learner, rules, cloud, parameters, result.curve, partOf(progress, endOfStart, endOfLearning));
   result.counts = learner.counts();
 
   learner.renumber();
@@ -111,13 +90,13 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
   Finish finish(cloud, mesh, parameters, opensGaps);
   if (parameters.fitRounds > 0 && isTimeLeft(result.stopReason) && result.counts.iterations > 0)
   {
-    const PartialProgress finishing(progress, endOfLearning, 1.);
+    const Progress finishing = partOf(progress, endOfLearning, 1.);
     const bool isDone = finish.run(
-      [&]
+      [&](double fraction)
       {
         const bool isTimeOver =
           parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
-        return finishing(0.5) && !isTimeOver;
+        return finishing(fraction) && !isTimeOver;
       });
     if (isDone)
     {

@@ -3,18 +3,15 @@
 
 #include "Finish.h"
 #include "LearningCurve.h"
+#include "Progress.h"
 #include "StoppingRules.h"
 #include "TriangleMesh.h"
 
-#include <functional>
 #include <optional>
 #include <vector>
 
 namespace neuralmesh
 {
-/// Told how much of a run is done, 0 to 1; ends the run by returning false.
-using Progress = std::function<bool(double fraction)>;
-
 /// What a run gives, in the coordinates of the input.
 struct Reconstruction
 {
@@ -35,7 +32,6 @@ struct Reconstruction
 
 /// CPU seconds that the process has used so far.
 double cpuSeconds();
-
 
 /// Grows a mesh over a cloud that has an extent: from `first`, or what the parameters have it start
 /// from if there is none, until a stopping rule is met. Then finishes it, unless there is no time

@@ -28,6 +28,8 @@ constexpr double MostSmoothness = 1e4;
 /// The roughness is measured where noise is still in it, at least a bit.
 constexpr double SmoothnessFactor = 1.5;
 constexpr int MostChoices = 5;
+/// Of the time of moveVertices().
+constexpr double PartOfChoice = 0.6;
 
 Vector4 normalAt(const PlaceOnMesh& place, std::span<const Vector4> positions)
 {
@@ -66,7 +68,7 @@ double SurfaceFit::meanEdge() const
   return sum / double(count);
 }
 
-bool SurfaceFit::findPlaces(const GoOn& goOn)
+bool SurfaceFit::findPlaces(const Progress& progress)
 {
   const auto meanEdge = float(this->meanEdge());
   VertexGrid grid;
@@ -82,7 +84,7 @@ bool SurfaceFit::findPlaces(const GoOn& goOn)
   std::vector<float> distances(this->samples_.size());
   for (std::size_t i = 0; i < this->samples_.size(); ++i)
   {
-    if (i % SamplesPerCheck == 0 && !goOn())
+    if (i % SamplesPerCheck == 0 && !progress(double(i) / double(this->samples_.size())))
     {
       return false;
     }
@@ -119,15 +121,16 @@ void SurfaceFit::fillSystem()
   }
 }
 
-bool SurfaceFit::moveVertices(double lambda, const GoOn& goOn)
+bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
 {
   this->smoothness_ = lambda;
-  if (lambda <= 0. && !this->chooseSmoothness(goOn))
+  const double choice = lambda > 0. ? 0. : PartOfChoice;
+  if (lambda <= 0. && !this->chooseSmoothness(partOf(progress, 0., choice)))
   {
     return false;
   }
   std::vector<Vector4> positions(this->mesh_.positions().begin(), this->mesh_.positions().end());
-  if (!this->system_->solve(this->smoothness_, Tolerance, positions, goOn))
+  if (!this->system_->solve(this->smoothness_, Tolerance, positions, partOf(progress, choice, 1.)))
   {
     return false;
   }
@@ -142,13 +145,14 @@ bool SurfaceFit::moveVertices(double lambda, const GoOn& goOn)
 /// With Gaussian noise of variance s^2 and a surface whose L x has the variance r^2 across it, the
 /// most probable positions are those for lambda = s^2 / r^2. Both are measured, beginning with a
 /// smooth surface: on a rough one, noise would pass for shape.
-bool SurfaceFit::chooseSmoothness(const GoOn& goOn)
+bool SurfaceFit::chooseSmoothness(const Progress& progress)
 {
   this->smoothness_ = FirstSmoothness;
   std::vector<Vector4> positions(this->mesh_.positions().begin(), this->mesh_.positions().end());
   for (int i = 0; i < MostChoices; ++i)
   {
-    if (!this->system_->solve(this->smoothness_, ToleranceOfChoice, positions, goOn))
+    if (!this->system_->solve(this->smoothness_, ToleranceOfChoice, positions,
+          partOf(progress, double(i) / MostChoices, double(i + 1) / MostChoices)))
     {
       return false;
     }

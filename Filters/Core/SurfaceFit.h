@@ -5,17 +5,14 @@
 #include "Mesh.h"
 #include "PlaceOnMesh.h"
 #include "PointCloud.h"
+#include "Progress.h"
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <vector>
 
 namespace neuralmesh
 {
-/// Asked so often that work can be ended at once; ends it by returning false.
-using GoOn = std::function<bool()>;
-
 /// Moves all vertices of a mesh to where the surface is closest to its cloud: to the positions x
 /// that minimise
 ///
@@ -31,10 +28,11 @@ public:
   /// Takes so many points of the cloud, evenly picked, as samples. No vertex may be erased.
   SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount);
 
-  /// Finds the places of the samples on the mesh as it is now.
-  bool findPlaces(const GoOn& goOn);
-  /// Moves the vertices. With `lambda` 0 chooses it first: see chosenSmoothness().
-  bool moveVertices(double lambda, const GoOn& goOn);
+  /// Finds the places of the samples on the mesh as it is now. Returns false if it was ended before.
+  bool findPlaces(const Progress& progress);
+  /// Moves the vertices. With `lambda` 0 chooses it first. Returns false, and moves none, if it was
+  /// ended before.
+  bool moveVertices(double lambda, const Progress& progress);
   /// The lambda of the last moveVertices().
   double smoothness() const { return this->smoothness_; }
 
@@ -58,7 +56,7 @@ private:
   }
   void fillSystem();
   double meanEdge() const;
-  bool chooseSmoothness(const GoOn& goOn);
+  bool chooseSmoothness(const Progress& progress);
   double residualVariance(std::span<const Vector4> positions, double lambda) const;
   double roughness(std::span<const Vector4> positions) const;
 

@@ -29,6 +29,15 @@ inline const PointCloud& cleanSphere()
 /// For runs that nobody cancels.
 inline bool goOn(double) { return true; }
 
+/// The defaults, but from a tetrahedron, and without a finish.
+inline Parameters learningAlone()
+{
+  Parameters parameters;
+  parameters.start = Start::Tetrahedron;
+  parameters.fitRounds = 0;
+  return parameters;
+}
+
 inline Parameters small()
 {
   Parameters parameters;

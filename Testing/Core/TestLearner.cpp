@@ -235,6 +235,8 @@ TEST(Learner, OutliersAreRejected)
   const PointCloud cloud(sphereCloud(options));
   Parameters parameters;
   parameters.numberOfVertices = 6000;
+  parameters.start = Start::Tetrahedron;
+  parameters.fitRounds = 0;
   const Reconstruction limited = reconstruct(cloud, parameters, goOn);
   parameters.outlierLimit = 0.;
   const Reconstruction unlimited = reconstruct(cloud, parameters, goOn);

@@ -11,7 +11,7 @@ namespace neuralmesh::testing
 // The curve is dense, in order, and its last row is the result.
 TEST(LearningCurve, EndsWithTheResult)
 {
-  Parameters parameters;
+  Parameters parameters = learningAlone();
   parameters.numberOfVertices = 3000;
   const Reconstruction result = reconstruct(cleanSphere(), parameters, goOn);
   const auto& rows = result.curve.rows();
@@ -38,7 +38,7 @@ TEST(LearningCurve, EndsWithTheResult)
 // The regular ratio is that of the mesh, by its triangles.
 TEST(LearningCurve, RegularRatioOfTheResult)
 {
-  Parameters parameters;
+  Parameters parameters = learningAlone();
   parameters.numberOfVertices = 2000;
   const Reconstruction result = reconstruct(cleanSphere(), parameters, goOn);
   std::vector<int> valences(result.mesh.points.size());
@@ -62,7 +62,7 @@ TEST(LearningCurve, DistancesInUnitsOfTheInput)
   {
     point *= Scale;
   }
-  Parameters parameters;
+  Parameters parameters = learningAlone();
   parameters.numberOfVertices = 1000;
   const Reconstruction result = reconstruct(PointCloud(points), parameters, goOn);
   const auto& rows = result.curve.rows();
@@ -79,7 +79,7 @@ TEST(LearningCurve, CountsRejectedSamples)
 {
   CloudOptions options;
   options.outliers = 0.05;
-  Parameters parameters;
+  Parameters parameters = learningAlone();
   parameters.numberOfVertices = 2000;
   const Reconstruction result = reconstruct(PointCloud(sphereCloud(options)), parameters, goOn);
   EXPECT_GT(result.curve.rows().back().counts.rejectedSamples, 100u);

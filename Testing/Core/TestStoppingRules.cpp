@@ -33,7 +33,8 @@ TEST(StoppingRules, Iterations)
 {
   for (const std::uint64_t most : { 1u, 4096u, 12345u })
   {
-    Parameters parameters = small();
+    Parameters parameters = learningAlone();
+    parameters.numberOfVertices = 500;
     parameters.maximumIterations = most;
     const Reconstruction result = reconstruct(cleanSphere(), parameters, goOn);
     EXPECT_EQ(result.stopReason, StopReason::Iterations);
@@ -48,7 +49,7 @@ TEST(StoppingRules, SampleDistance)
   const std::vector<Eigen::Vector3d> points = sphereCloud();
   for (const double target : { 0.05, 0.02 })
   {
-    Parameters parameters;
+    Parameters parameters = learningAlone();
     parameters.targetSampleDistance = target;
     const Reconstruction result = reconstruct(cleanSphere(), parameters, goOn);
     EXPECT_EQ(result.stopReason, StopReason::SampleDistance);
@@ -73,7 +74,7 @@ TEST(StoppingRules, CloudDistance)
   const std::vector<Eigen::Vector3d> points = sphereCloud();
   for (const double target : { 0.01, 0.002 })
   {
-    Parameters parameters;
+    Parameters parameters = learningAlone();
     parameters.targetCloudDistance = target;
     const Reconstruction result = reconstruct(cleanSphere(), parameters, goOn);
     EXPECT_EQ(result.stopReason, StopReason::CloudDistance);
@@ -97,7 +98,7 @@ TEST(StoppingRules, CloudDistance)
 // The time limit ends a run that would go on.
 TEST(StoppingRules, TimeLimit)
 {
-  Parameters parameters;
+  Parameters parameters = learningAlone();
   parameters.numberOfVertices = 1000000000;
   parameters.timeLimit = 1e-3;
   const Reconstruction result = reconstruct(cleanSphere(), parameters, goOn);
@@ -110,7 +111,8 @@ TEST(StoppingRules, Stalled)
 {
   for (const Variant variant : { Variant::Basic, Variant::NoiseFiltering })
   {
-    Parameters parameters = Parameters::of(Preset::Default, variant);
+    Parameters parameters = learningAlone();
+    parameters.variant = variant;
     parameters.removalPatience = 0.1;
     parameters.additionsPerRemoval = 1;
     parameters.stallPatience = 50.;
@@ -153,9 +155,9 @@ TEST(StoppingRules, NamesOfReasons)
 // Progress is told often, rises evenly from 0 towards 1, and never falls.
 TEST(StoppingRules, ProgressIsEven)
 {
-  Parameters byVertices;
+  Parameters byVertices = learningAlone();
   byVertices.numberOfVertices = 3000;
-  Parameters byIterations;
+  Parameters byIterations = learningAlone();
   byIterations.maximumIterations = 200000;
   for (const Parameters& parameters : { byVertices, byIterations })
   {

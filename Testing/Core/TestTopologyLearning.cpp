@@ -16,6 +16,7 @@ Parameters learning(Variant variant, Order order, Preset preset = Preset::Defaul
 {
   Parameters parameters = Parameters::of(preset, variant, order);
   parameters.order = order;
+  parameters.start = Start::Tetrahedron;
   parameters.topologyLearning = true;
   parameters.numberOfVertices = 3000;
   return parameters;

@@ -20,6 +20,7 @@ int TestNeuralMeshLearningCurve(int, char*[])
   const auto cloud = FilterTesting::SphereCloud(20000);
   vtkNew<vtkNeuralMesh> filter;
   filter->SetNumberOfVertices(2000);
+  filter->SetStartToTetrahedron();
   filter->SetInputData(cloud);
   filter->Update();
   vtkTable* curve = filter->GetLearningCurve();

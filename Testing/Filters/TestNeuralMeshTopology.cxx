@@ -21,6 +21,7 @@ vtkNew<vtkNeuralMesh> Filter(vtkPolyData* cloud, bool topologyLearning, int orde
   vtkNew<vtkNeuralMesh> filter;
   filter->SetInputData(cloud);
   filter->SetNumberOfVertices(3000);
+  filter->SetStartToTetrahedron();
   filter->SetTopologyLearning(topologyLearning);
   filter->SetOrder(order);
   return filter;

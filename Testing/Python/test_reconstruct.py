@@ -190,9 +190,10 @@ class Variants(unittest.TestCase):
         r = 1 + 0.4 * np.cos(v)
         torus = np.stack((r * np.cos(u), r * np.sin(u), 0.4 * np.sin(v)), axis=1)
         ways = {
-            "topology": {"topology_learning": True},
+            "start": {},
+            "topology": {"start": "tetrahedron", "topology_learning": True},
             "ensemble": {"ensemble": 5, "vertices_per_member": 1500},
-            "neither": {},
+            "neither": {"start": "tetrahedron"},
         }
         for way, parameters in ways.items():
             with self.subTest(way):
