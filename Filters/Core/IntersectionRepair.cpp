@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IntersectionRepair.h"
 
+#include "PenetratingParts.h"
 #include "SelfIntersections.h"
 #include "Smoothing.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,13 +19,18 @@ constexpr unsigned RoundsOfRing = 3;
 /// How far neighbours go towards the mean of theirs in a round.
 constexpr float RateOfNeighbors = 0.5f;
 
+/// Every so many rounds, from the first on, parts that have come through others retract.
+constexpr unsigned RoundsOfRetreat = 4;
+/// Parts retract only where so many times as many triangles are there as intersect.
+constexpr std::size_t MinimumSound = 4;
+constexpr std::size_t MaximumSweeps = 200;
+
 struct Defects
 {
-  std::vector<TrianglePair> pairs;
+  std::vector<Triangle> intersecting;
   std::vector<Edge> folds;
 
-  bool isEmpty() const { return this->pairs.empty() && this->folds.empty(); }
-  DefectCount count() const { return { trianglesOf(this->pairs).size(), this->folds.size() }; }
+  DefectCount count() const { return { this->intersecting.size(), this->folds.size() }; }
 };
 
 class Repairer
@@ -42,7 +47,7 @@ public:
   {
     this->findDefects();
     IntersectionRepair result{ this->defects_.count(), this->defects_.count(), 0 };
-    if (this->defects_.isEmpty())
+    if (result.before.total() == 0)
     {
       return result;
     }
@@ -53,7 +58,10 @@ public:
     {
       this->markBroken();
       this->flipFolds();
-      this->smooth();
+      if (round % RoundsOfRetreat != 0 || !this->retract())
+      {
+        this->smooth();
+      }
       this->findDefects();
       if (const DefectCount count = this->defects_.count(); count.total() < result.after.total())
       {
@@ -69,7 +77,7 @@ public:
 private:
   void findDefects()
   {
-    this->defects_ = { intersectingPairs(this->mesh_, this->isTouched_),
+    this->defects_ = { intersectingTriangles(this->mesh_, this->isTouched_),
       foldedEdges(this->mesh_, this->isTouched_) };
   }
 
@@ -77,7 +85,7 @@ private:
   void markBroken()
   {
     this->broken_.clear();
-    for (const Triangle& triangle : trianglesOf(this->defects_.pairs))
+    for (const Triangle& triangle : this->defects_.intersecting)
     {
       this->broken_.insert(this->broken_.end(), triangle.begin(), triangle.end());
     }
@@ -147,6 +155,34 @@ private:
   float length(const Edge& edge) const
   {
     return squaredNorm(this->mesh_.position(edge[0]) - this->mesh_.position(edge[1]));
+  }
+
+  // --- Retreat -----------------------------------------------------------------------------------
+
+  /// Smooths the parts of the surface that have come through others, until they span flatly what
+  /// holds them: so they come out again, and the others keep their place. Returns whether there
+  /// were any. Where most is broken there are no others.
+  bool retract()
+  {
+    if (MinimumSound * this->defects_.intersecting.size() > this->mesh_.triangleCount())
+    {
+      return false;
+    }
+    const std::vector<VertexIndex> vertices = penetratingVertices(this->mesh_, this->isTouched_);
+    // Smoothing spreads over n vertices in about n sweeps.
+    const std::size_t sweeps = std::min(MaximumSweeps, 2 + vertices.size());
+    for (std::size_t sweep = 0; sweep < sweeps; ++sweep)
+    {
+      for (const VertexIndex v : vertices)
+      {
+        this->mesh_.setPosition(v, this->smoothed(v, 1.f));
+      }
+    }
+    for (const VertexIndex v : vertices)
+    {
+      this->isTouched_[v] = true;
+    }
+    return !vertices.empty();
   }
 
   // --- Smoothing ---------------------------------------------------------------------------------

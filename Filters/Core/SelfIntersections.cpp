@@ -19,9 +19,15 @@ const double FoldCosine = std::cos(150. * std::numbers::pi / 180.);
 /// Brings the corners that `other` has, too, to the front; returns how many there are.
 unsigned sharedToFront(Triangle& triangle, const Triangle& other)
 {
-  const auto last = std::stable_partition(triangle.begin(), triangle.end(),
-    [&](VertexIndex v) { return std::find(other.begin(), other.end(), v) != other.end(); });
-  return unsigned(last - triangle.begin());
+  unsigned shared = 0;
+  for (VertexIndex& v : triangle)
+  {
+    if (v == other[0] || v == other[1] || v == other[2])
+    {
+      std::swap(triangle[shared++], v);
+    }
+  }
+  return shared;
 }
 
 Corners cornersOf(const Mesh& mesh, const Triangle& triangle)
@@ -52,10 +58,74 @@ bool doIntersect(const Mesh& mesh, Triangle first, Triangle second)
   }
 }
 
-bool isAnyAsked(const Triangle& triangle, const std::vector<bool>& isAsked)
+/// The triangles of a mesh, and which of them to ask for.
+class Candidates
 {
-  return isAsked[triangle[0]] || isAsked[triangle[1]] || isAsked[triangle[2]];
+public:
+  Candidates(const Mesh& mesh, const std::vector<bool>& isAsked)
+  {
+    const std::size_t expected = 2 * mesh.vertexCount();
+    this->triangles_.reserve(expected);
+    this->boxes_.reserve(expected);
+    this->isAsked_.reserve(expected);
+    mesh.forEachTriangle(
+      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+      {
+        this->triangles_.push_back({ a, b, c });
+        Box& box = this->boxes_.emplace_back();
+        box.extend(mesh.position(a));
+        box.extend(mesh.position(b));
+        box.extend(mesh.position(c));
+        this->isAsked_.push_back(isAsked[a] || isAsked[b] || isAsked[c]);
+      });
+  }
+
+  const std::vector<Triangle>& triangles() const { return this->triangles_; }
+
+  /// Calls `use(i, j)` for the indices of every two triangles whose boxes overlap.
+  template <typename Use>
+  void forEachPair(Use use) const
+  {
+    BoxTree(this->boxes_, this->isAsked_).forEachOverlap(use);
+  }
+
+private:
+  std::vector<Triangle> triangles_;
+  std::vector<Box> boxes_;
+  std::vector<bool> isAsked_;
+};
 }
+
+std::vector<Triangle> intersectingTriangles(const Mesh& mesh)
+{
+  return intersectingTriangles(mesh, std::vector<bool>(mesh.indexEnd(), true));
+}
+
+std::vector<Triangle> intersectingTriangles(const Mesh& mesh, const std::vector<bool>& isAsked)
+{
+  const Candidates candidates(mesh, isAsked);
+  const std::vector<Triangle>& all = candidates.triangles();
+  std::vector<bool> isFound(all.size(), false);
+  candidates.forEachPair(
+    [&](std::uint32_t i, std::uint32_t j)
+    {
+      // Nothing is to be learnt of two that are found.
+      if (!(isFound[i] && isFound[j]) && doIntersect(mesh, all[i], all[j]))
+      {
+        isFound[i] = true;
+        isFound[j] = true;
+      }
+    });
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (isFound[i])
+    {
+      triangles.push_back(all[i]);
+    }
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
 }
 
 std::vector<TrianglePair> intersectingPairs(const Mesh& mesh)
@@ -65,49 +135,19 @@ std::vector<TrianglePair> intersectingPairs(const Mesh& mesh)
 
 std::vector<TrianglePair> intersectingPairs(const Mesh& mesh, const std::vector<bool>& isAsked)
 {
-  std::vector<Triangle> triangles;
-  std::vector<Box> boxes;
-  std::vector<bool> isTriangleAsked;
-  triangles.reserve(2 * mesh.vertexCount());
-  boxes.reserve(2 * mesh.vertexCount());
-  isTriangleAsked.reserve(2 * mesh.vertexCount());
-  mesh.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c)
-    {
-      triangles.push_back({ a, b, c });
-      Box& box = boxes.emplace_back();
-      box.extend(mesh.position(a));
-      box.extend(mesh.position(b));
-      box.extend(mesh.position(c));
-      isTriangleAsked.push_back(isAnyAsked(triangles.back(), isAsked));
-    });
+  const Candidates candidates(mesh, isAsked);
+  const std::vector<Triangle>& all = candidates.triangles();
   std::vector<TrianglePair> pairs;
-  BoxTree(boxes, isTriangleAsked)
-    .forEachOverlap(
-      [&](std::uint32_t i, std::uint32_t j)
+  candidates.forEachPair(
+    [&](std::uint32_t i, std::uint32_t j)
+    {
+      if (doIntersect(mesh, all[i], all[j]))
       {
-        if (doIntersect(mesh, triangles[i], triangles[j]))
-        {
-          pairs.push_back(
-            { std::min(triangles[i], triangles[j]), std::max(triangles[i], triangles[j]) });
-        }
-      });
+        pairs.push_back({ std::min(all[i], all[j]), std::max(all[i], all[j]) });
+      }
+    });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
-}
-
-std::vector<Triangle> trianglesOf(std::span<const TrianglePair> pairs)
-{
-  std::vector<Triangle> triangles;
-  triangles.reserve(2 * pairs.size());
-  for (const auto& [first, second] : pairs)
-  {
-    triangles.push_back(first);
-    triangles.push_back(second);
-  }
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  return triangles;
 }
 
 std::array<VertexIndex, 2> oppositeTo(const Mesh& mesh, const Edge& edge)

@@ -4,7 +4,6 @@
 #include "Mesh.h"
 
 #include <array>
-#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -19,14 +18,15 @@ using Edge = std::array<VertexIndex, 2>;
 /// - with one common vertex that have another point in common;
 /// - with a common edge that lie flat on each other.
 /// Degenerate cases count as intersections: touching, and overlapping in a plane. Of two triangles
-/// without area nothing is said. About O(n log n) for n triangles.
+/// without area nothing is said. About O(n log n) for n triangles, if not too many intersect.
 std::vector<TrianglePair> intersectingPairs(const Mesh& mesh);
 /// Only the pairs of which at least one triangle has a corner v with `isAsked[v]`: less work, for
 /// instance where only those vertices have moved since the last time.
 std::vector<TrianglePair> intersectingPairs(const Mesh& mesh, const std::vector<bool>& isAsked);
 
-/// The triangles of the pairs, each once, in order.
-std::vector<Triangle> trianglesOf(std::span<const TrianglePair> pairs);
+/// The triangles of these pairs, each once, in order: faster where there are many.
+std::vector<Triangle> intersectingTriangles(const Mesh& mesh);
+std::vector<Triangle> intersectingTriangles(const Mesh& mesh, const std::vector<bool>& isAsked);
 
 /// The corners opposite to an edge: of the triangle to its left, as it runs from the first to the
 /// second end, and of the one to its right. NoVertex where there is none.

@@ -172,6 +172,12 @@ bool intersectBesidesFirstCorner(const Corners& first, const Corners& second)
     edgeMeets(second, secondPlane, first, firstSides, 1);
 }
 
+bool passesThrough(const Corners& triangle, const Eigen::Vector3d& p, const Eigen::Vector3d& q)
+{
+  const Plane plane(triangle);
+  return meets(triangle, plane, p, q, plane.side(p), plane.side(q));
+}
+
 bool lieOnEachOther(const Corners& first, const Corners& second)
 {
   const Eigen::Vector3d edge = first[1] - first[0];

@@ -18,6 +18,9 @@ bool intersect(const Corners& first, const Corners& second);
 /// Whether two triangles with the same first corner have another point in common.
 bool intersectBesidesFirstCorner(const Corners& first, const Corners& second);
 
+/// Whether the segment p-q meets a triangle, from one side of it to the other or in its plane.
+bool passesThrough(const Corners& triangle, const Eigen::Vector3d& p, const Eigen::Vector3d& q);
+
 /// Whether two triangles with the same first two corners lie on each other: on the same side of
 /// that edge, and in one plane within the rounding of coordinates of single precision.
 bool lieOnEachOther(const Corners& first, const Corners& second);
