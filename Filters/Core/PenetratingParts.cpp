@@ -11,6 +11,11 @@ namespace neuralmesh
 {
 namespace
 {
+/// A part is shallow if it has no more vertices than half a sphere with as many edges that pass
+/// through something: the square of their number over this; or than a small spike.
+constexpr std::size_t ShallowRatio = 10;
+constexpr std::size_t VerticesOfSpike = 20;
+
 /// Adds the edges of `cutting` that pass through `cut`, without those that end there.
 void addPiercingEdges(
   const Mesh& mesh, const Triangle& cutting, const Triangle& cut, std::vector<Edge>& edges)
@@ -39,6 +44,7 @@ std::vector<Edge> piercingEdges(const Mesh& mesh, const std::vector<bool>& isAsk
     addPiercingEdges(mesh, second, first, edges);
   }
   std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 
@@ -59,15 +65,62 @@ DisjointSets joinedByEdges(const Mesh& mesh, const std::vector<Edge>& without)
   return sets;
 }
 
-std::vector<std::size_t> sizesByRoot(DisjointSets& sets, const Mesh& mesh)
+/// Pieces, and the parts into which the edges that pass through triangles divide them.
+class Parts
 {
-  std::vector<std::size_t> sizes(mesh.indexEnd(), 0);
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+public:
+  Parts(const Mesh& mesh, const std::vector<Edge>& piercing)
+    : pieces_(joinedByEdges(mesh, {}))
+    , parts_(joinedByEdges(mesh, piercing))
+    , pieceSizes_(mesh.indexEnd(), 0)
+    , partSizes_(mesh.indexEnd(), 0)
+    , rims_(mesh.indexEnd(), 0)
+    , hasMain_(mesh.indexEnd(), false)
   {
-    sizes[sets.root(v)] += mesh.isAlive(v);
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      ++this->pieceSizes_[this->pieces_.root(v)];
+      ++this->partSizes_[this->parts_.root(v)];
+    }
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      if (this->isMain(v))
+      {
+        this->hasMain_[this->pieces_.root(v)] = true;
+      }
+    }
+    for (const auto& [a, b] : piercing)
+    {
+      ++this->rims_[this->parts_.root(a)];
+      ++this->rims_[this->parts_.root(b)];
+    }
   }
-  return sizes;
-}
+
+  bool isPenetrating(VertexIndex v)
+  {
+    return this->hasMain_[this->pieces_.root(v)] && !this->isMain(v) && this->isShallow(v);
+  }
+
+private:
+  /// Whether the part of `v` is larger than the rest of its piece.
+  bool isMain(VertexIndex v)
+  {
+    return 2 * this->partSizes_[this->parts_.root(v)] > this->pieceSizes_[this->pieces_.root(v)];
+  }
+  bool isShallow(VertexIndex v)
+  {
+    const std::size_t root = this->parts_.root(v), rim = this->rims_[root];
+    return this->partSizes_[root] <= VerticesOfSpike + rim * rim / ShallowRatio;
+  }
+
+  DisjointSets pieces_;
+  DisjointSets parts_;
+  // All by the root of the piece or of the part.
+  std::vector<std::size_t> pieceSizes_;
+  std::vector<std::size_t> partSizes_;
+  std::vector<std::size_t> rims_;
+  std::vector<bool> hasMain_;
+};
 }
 
 std::vector<VertexIndex> penetratingVertices(const Mesh& mesh)
@@ -82,23 +135,11 @@ std::vector<VertexIndex> penetratingVertices(const Mesh& mesh, const std::vector
   {
     return {};
   }
-  DisjointSets pieces = joinedByEdges(mesh, {}), parts = joinedByEdges(mesh, piercing);
-  const std::vector<std::size_t> pieceSizes = sizesByRoot(pieces, mesh);
-  const std::vector<std::size_t> partSizes = sizesByRoot(parts, mesh);
-  const auto isMain = [&](VertexIndex v)
-  { return 2 * partSizes[parts.root(v)] > pieceSizes[pieces.root(v)]; };
-  std::vector<bool> hasMain(mesh.indexEnd(), false); // by the root of the piece
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    if (isMain(v))
-    {
-      hasMain[pieces.root(v)] = true;
-    }
-  }
+  Parts parts(mesh, piercing);
   std::vector<VertexIndex> vertices;
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
-    if (mesh.isAlive(v) && hasMain[pieces.root(v)] && !isMain(v))
+    if (parts.isPenetrating(v))
     {
       vertices.push_back(v);
     }
