@@ -11,9 +11,9 @@ namespace neuralmesh
 {
 namespace
 {
-/// A part is shallow if it has no more vertices than half a sphere with as many edges that pass
-/// through something: the square of their number over this; or than a small spike.
-constexpr std::size_t ShallowRatio = 10;
+/// A part is shallow if it has no more vertices than half a sphere with as many edges at its rim,
+/// the square of their number over this, or than a small spike.
+constexpr std::size_t ShallowRatio = 16;
 constexpr std::size_t VerticesOfSpike = 20;
 
 /// Adds the edges of `cutting` that pass through `cut`, without those that end there.
@@ -75,6 +75,7 @@ public:
     , pieceSizes_(mesh.indexEnd(), 0)
     , partSizes_(mesh.indexEnd(), 0)
     , rims_(mesh.indexEnd(), 0)
+    , eulerCharacteristics_(mesh.indexEnd(), 0)
     , hasMain_(mesh.indexEnd(), false)
   {
     for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
@@ -94,19 +95,42 @@ public:
       ++this->rims_[this->parts_.root(a)];
       ++this->rims_[this->parts_.root(b)];
     }
+    this->countEulerCharacteristics(mesh);
   }
 
   bool isPenetrating(VertexIndex v)
   {
-    return this->hasMain_[this->pieces_.root(v)] && !this->isMain(v) && this->isShallow(v);
+    return this->hasMain_[this->pieces_.root(v)] && !this->isMain(v) && this->isDisc(v) &&
+      this->isShallow(v);
   }
 
 private:
+  void countEulerCharacteristics(const Mesh& mesh)
+  {
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      const std::size_t root = this->parts_.root(v);
+      ++this->eulerCharacteristics_[root];
+      for (const VertexIndex neighbor : mesh.ring(v))
+      {
+        this->eulerCharacteristics_[root] -= v < neighbor && this->parts_.root(neighbor) == root;
+      }
+    }
+    mesh.forEachTriangle(
+      [this](VertexIndex a, VertexIndex b, VertexIndex c)
+      {
+        const std::size_t root = this->parts_.root(a);
+        this->eulerCharacteristics_[root] +=
+          this->parts_.root(b) == root && this->parts_.root(c) == root;
+      });
+  }
+
   /// Whether the part of `v` is larger than the rest of its piece.
   bool isMain(VertexIndex v)
   {
     return 2 * this->partSizes_[this->parts_.root(v)] > this->pieceSizes_[this->pieces_.root(v)];
   }
+  bool isDisc(VertexIndex v) { return this->eulerCharacteristics_[this->parts_.root(v)] == 1; }
   bool isShallow(VertexIndex v)
   {
     const std::size_t root = this->parts_.root(v), rim = this->rims_[root];
@@ -118,7 +142,8 @@ private:
   // All by the root of the piece or of the part.
   std::vector<std::size_t> pieceSizes_;
   std::vector<std::size_t> partSizes_;
-  std::vector<std::size_t> rims_;
+  std::vector<std::size_t> rims_; ///< edges that pass through something
+  std::vector<long> eulerCharacteristics_;
   std::vector<bool> hasMain_;
 };
 }
