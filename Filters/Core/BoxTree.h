@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Vector4.h"
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// An axis-parallel box, with its faces; empty at first.
+struct Box
+{
+  Vector4 low = Vector4(Infinity, Infinity, Infinity);
+  Vector4 high = Vector4(-Infinity, -Infinity, -Infinity);
+
+  void extend(Vector4 point)
+  {
+    this->low = min(this->low, point);
+    this->high = max(this->high, point);
+  }
+  void extend(const Box& box)
+  {
+    this->low = min(this->low, box.low);
+    this->high = max(this->high, box.high);
+  }
+  bool overlaps(const Box& other) const
+  {
+    return this->low[0] <= other.high[0] && other.low[0] <= this->high[0] &&
+      this->low[1] <= other.high[1] && other.low[1] <= this->high[1] &&
+      this->low[2] <= other.high[2] && other.low[2] <= this->high[2];
+  }
+
+private:
+  static constexpr float Infinity = std::numeric_limits<float>::infinity();
+};
+
+/// Finds which of many boxes overlap: a binary tree over the boxes in Morton order. However
+/// different the boxes are in size, n of them with m overlaps take about O(n log n + m).
+class BoxTree
+{
+public:
+  /// Box i is asked for if `isAsked[i]`.
+  BoxTree(std::span<const Box> boxes, const std::vector<bool>& isAsked);
+
+  /// Calls `use(i, j)`, once, for every two boxes that overlap of which at least one is asked for.
+  template <typename Use>
+  void forEachOverlap(Use use) const
+  {
+    if (!this->nodes_.empty())
+    {
+      this->visitWithin(0, use);
+    }
+  }
+
+private:
+  struct Item
+  {
+    Box box;
+    std::uint32_t index;
+    bool isAsked;
+  };
+  /// The first child of an inner node follows it.
+  struct Node
+  {
+    Box box;
+    std::uint32_t begin; ///< of its items
+    std::uint32_t end;
+    std::uint32_t secondChild; ///< 0 for a leaf
+    bool isAsked;              ///< whether one of its items is
+
+    bool isLeaf() const { return this->secondChild == 0; }
+  };
+
+  std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+
+  template <typename Use>
+  void visitWithin(std::uint32_t index, Use& use) const
+  {
+    const Node& node = this->nodes_[index];
+    if (!node.isAsked)
+    {
+      return;
+    }
+    if (!node.isLeaf())
+    {
+      this->visitWithin(index + 1, use);
+      this->visitWithin(node.secondChild, use);
+      this->visitBetween(index + 1, node.secondChild, use);
+      return;
+    }
+    for (std::uint32_t i = node.begin; i < node.end; ++i)
+    {
+      this->visitItems(this->items_[i], i + 1, node.end, use);
+    }
+  }
+
+  template <typename Use>
+  void visitBetween(std::uint32_t first, std::uint32_t second, Use& use) const
+  {
+    const Node &a = this->nodes_[first], &b = this->nodes_[second];
+    if (!(a.isAsked || b.isAsked) || !a.box.overlaps(b.box))
+    {
+      return;
+    }
+    if (a.isLeaf() && b.isLeaf())
+    {
+      for (std::uint32_t i = a.begin; i < a.end; ++i)
+      {
+        if (this->items_[i].box.overlaps(b.box))
+        {
+          this->visitItems(this->items_[i], b.begin, b.end, use);
+        }
+      }
+    }
+    else if (b.isLeaf() || (!a.isLeaf() && a.end - a.begin >= b.end - b.begin))
+    {
+      this->visitBetween(first + 1, second, use);
+      this->visitBetween(a.secondChild, second, use);
+    }
+    else
+    {
+      this->visitBetween(first, second + 1, use);
+      this->visitBetween(first, b.secondChild, use);
+    }
+  }
+
+  template <typename Use>
+  void visitItems(const Item& item, std::uint32_t begin, std::uint32_t end, Use& use) const
+  {
+    for (std::uint32_t j = begin; j < end; ++j)
+    {
+      const Item& other = this->items_[j];
+      if ((item.isAsked || other.isAsked) && item.box.overlaps(other.box))
+      {
+        use(item.index, other.index);
+      }
+    }
+  }
+
+  std::vector<Item> items_;
+  std::vector<Node> nodes_;
+};
+}

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IntersectionRepair.h"
+
+#include "PenetratingParts.h"
+#include "SelfIntersections.h"
+#include "Smoothing.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr unsigned MaximumRounds = 16;
+/// After so many rounds in which a vertex is part of a defect its neighbourhood grows by one ring.
+constexpr unsigned RoundsOfRing = 3;
+/// How far neighbours go towards the mean of theirs in a round.
+constexpr float RateOfNeighbors = 0.5f;
+
+/// Every so many rounds, from the first on, parts that have come through others retract.
+constexpr unsigned RoundsOfRetreat = 4;
+/// Parts retract only where so many times as many triangles are there as intersect.
+constexpr std::size_t MinimumSound = 4;
+constexpr std::size_t MaximumSweeps = 200;
+
+struct Defects
+{
+  std::vector<Triangle> intersecting;
+  std::vector<Edge> folds;
+
+  DefectCount count() const { return { this->intersecting.size(), this->folds.size() }; }
+};
+
+class Repairer
+{
+public:
+  explicit Repairer(Mesh& mesh)
+    : mesh_(mesh)
+    , isTouched_(mesh.indexEnd(), true)
+    , roundsBroken_(mesh.indexEnd(), 0)
+  {
+  }
+
+  IntersectionRepair repair()
+  {
+    this->findDefects();
+    IntersectionRepair result{ this->defects_.count(), this->defects_.count(), 0 };
+    if (result.before.total() == 0)
+    {
+      return result;
+    }
+    Mesh best = this->mesh_;
+    // From now on, new defects can only be where something has changed.
+    this->isTouched_.assign(this->mesh_.indexEnd(), false);
+    for (unsigned round = 0; round < MaximumRounds && result.after.total() > 0; ++round)
+    {
+      this->markBroken();
+      this->flipFolds();
+      if (round % RoundsOfRetreat != 0 || !this->retract())
+      {
+        this->smooth();
+      }
+      this->findDefects();
+      if (const DefectCount count = this->defects_.count(); count.total() < result.after.total())
+      {
+        result.after = count;
+        result.flips = this->flips_;
+        best = this->mesh_;
+      }
+    }
+    this->mesh_ = std::move(best);
+    return result;
+  }
+
+private:
+  void findDefects()
+  {
+    this->defects_ = { intersectingTriangles(this->mesh_, this->isTouched_),
+      foldedEdges(this->mesh_, this->isTouched_) };
+  }
+
+  /// The corners of all that is broken.
+  void markBroken()
+  {
+    this->broken_.clear();
+    for (const Triangle& triangle : this->defects_.intersecting)
+    {
+      this->broken_.insert(this->broken_.end(), triangle.begin(), triangle.end());
+    }
+    for (const Edge& edge : this->defects_.folds)
+    {
+      this->broken_.insert(this->broken_.end(), edge.begin(), edge.end());
+      const std::array<VertexIndex, 2> opposite = oppositeTo(this->mesh_, edge);
+      this->broken_.insert(this->broken_.end(), opposite.begin(), opposite.end());
+    }
+    std::sort(this->broken_.begin(), this->broken_.end());
+    this->broken_.erase(
+      std::unique(this->broken_.begin(), this->broken_.end()), this->broken_.end());
+    for (const VertexIndex v : this->broken_)
+    {
+      this->isTouched_[v] = true;
+      ++this->roundsBroken_[v];
+    }
+  }
+
+  // --- Flips -------------------------------------------------------------------------------------
+
+  void flipFolds()
+  {
+    for (const Edge& edge : this->defects_.folds)
+    {
+      // An earlier flip may have removed or unfolded it.
+      if (this->mesh_.ring(edge[0]).contains(edge[1]) && isFolded(this->mesh_, edge) &&
+        this->mesh_.canFlip(edge[0], edge[1]))
+      {
+        this->flipIfBetter(edge);
+      }
+    }
+  }
+
+  /// Flips an edge if fewer edges are folded then; or as many and the edge is shorter: sheets back
+  /// to back retract so.
+  void flipIfBetter(const Edge& edge)
+  {
+    const Edge flipped = oppositeTo(this->mesh_, edge);
+    const unsigned before = this->foldsOfQuadrangle(edge, flipped);
+    this->mesh_.flip(edge[0], edge[1]);
+    const unsigned after = this->foldsOfQuadrangle(flipped, edge);
+    if (after < before || (after == before && this->length(flipped) < this->length(edge)))
+    {
+      ++this->flips_;
+    }
+    else
+    {
+      this->mesh_.flip(flipped[0], flipped[1]);
+    }
+  }
+
+  /// The folds at an edge and at the four edges of the quadrangle around it.
+  unsigned foldsOfQuadrangle(const Edge& edge, const Edge& opposite) const
+  {
+    unsigned folds = isFolded(this->mesh_, edge);
+    for (const VertexIndex a : edge)
+    {
+      for (const VertexIndex b : opposite)
+      {
+        folds += isFolded(this->mesh_, { a, b });
+      }
+    }
+    return folds;
+  }
+
+  float length(const Edge& edge) const
+  {
+    return squaredNorm(this->mesh_.position(edge[0]) - this->mesh_.position(edge[1]));
+  }
+
+  // --- Retreat -----------------------------------------------------------------------------------
+
+  /// Smooths the parts of the surface that have come through others, until they span flatly what
+  /// holds them: so they come out again, and the others keep their place. Returns whether there
+  /// were any. Where most is broken there are no others.
+  bool retract()
+  {
+    if (MinimumSound * this->defects_.intersecting.size() > this->mesh_.triangleCount())
+    {
+      return false;
+    }
+    const std::vector<VertexIndex> vertices = penetratingVertices(this->mesh_, this->isTouched_);
+    // Smoothing spreads over n vertices in about n sweeps.
+    const std::size_t sweeps = std::min(MaximumSweeps, 2 + vertices.size());
+    for (std::size_t sweep = 0; sweep < sweeps; ++sweep)
+    {
+      for (const VertexIndex v : vertices)
+      {
+        this->mesh_.setPosition(v, this->smoothed(v, 1.f));
+      }
+    }
+    for (const VertexIndex v : vertices)
+    {
+      this->isTouched_[v] = true;
+    }
+    return !vertices.empty();
+  }
+
+  // --- Smoothing ---------------------------------------------------------------------------------
+
+  /// Moves the broken vertices and those around them. What is farthest off goes first: a vertex
+  /// that sticks out comes back before it can draw its neighbours after it.
+  void smooth()
+  {
+    struct Move
+    {
+      float squaredLength;
+      VertexIndex vertex;
+      float rate;
+    };
+    std::vector<Move> moves;
+    for (const auto& [v, isBroken] : this->neighborhood())
+    {
+      const float rate = isBroken ? 1.f : RateOfNeighbors;
+      moves.push_back({ squaredNorm(this->smoothed(v, rate) - this->mesh_.position(v)), v, rate });
+    }
+    std::stable_sort(moves.begin(), moves.end(),
+      [](const Move& a, const Move& b) { return a.squaredLength > b.squaredLength; });
+    for (const Move& move : moves)
+    {
+      this->mesh_.setPosition(move.vertex, this->smoothed(move.vertex, move.rate));
+      this->isTouched_[move.vertex] = true;
+    }
+  }
+
+  /// Towards the mean of the neighbours; on a boundary, along it, or what is broken itself towards
+  /// the middle of the neighbours along it.
+  Vector4 smoothed(VertexIndex v, float rate) const
+  {
+    const Ring& ring = this->mesh_.ring(v);
+    const Vector4 center = this->mesh_.position(v);
+    if (ring.isOpen())
+    {
+      return rate < 1.f
+        ? smoothedPosition(this->mesh_, v, rate)
+        : 0.5f * (this->mesh_.position(ring.front()) + this->mesh_.position(ring.back()));
+    }
+    Vector4 sum;
+    for (const VertexIndex neighbor : ring)
+    {
+      sum += this->mesh_.position(neighbor) - center;
+    }
+    return center + (rate / float(ring.size())) * sum;
+  }
+
+  /// The broken vertices, and around each so many rings as it has been broken for long; with
+  /// whether they are broken.
+  std::vector<std::pair<VertexIndex, bool>> neighborhood() const
+  {
+    std::vector<std::pair<VertexIndex, bool>> vertices;
+    std::vector<std::vector<VertexIndex>> byRings(2 + MaximumRounds / RoundsOfRing);
+    std::vector<bool> isReached(this->mesh_.indexEnd(), false);
+    for (const VertexIndex v : this->broken_)
+    {
+      isReached[v] = true;
+      vertices.emplace_back(v, true);
+      byRings[this->roundsBroken_[v] / RoundsOfRing].push_back(v);
+    }
+    // By rings still to go, the most first.
+    for (std::size_t rings = byRings.size() - 1; rings > 0; --rings)
+    {
+      for (const VertexIndex v : byRings[rings])
+      {
+        for (const VertexIndex neighbor : this->mesh_.ring(v))
+        {
+          if (!isReached[neighbor])
+          {
+            isReached[neighbor] = true;
+            vertices.emplace_back(neighbor, false);
+            byRings[rings - 1].push_back(neighbor);
+          }
+        }
+      }
+    }
+    return vertices;
+  }
+
+  Mesh& mesh_;
+  Defects defects_;
+  std::vector<VertexIndex> broken_;
+  std::vector<bool> isTouched_; ///< whether anything there may differ from the first mesh
+  std::vector<unsigned> roundsBroken_;
+  std::size_t flips_ = 0;
+};
+}
+
+IntersectionRepair repairIntersections(Mesh& mesh) { return Repairer(mesh).repair(); }
+}
