@@ -45,6 +45,9 @@ bool Finish::run(const Progress& progress)
       flipEdges(this->mesh_);
     }
   }
+  const IntersectionRepair repair = repairIntersections(this->mesh_);
+  this->report_.repaired = repair.before;
+  this->report_.left = repair.after;
   return true;
 }
 

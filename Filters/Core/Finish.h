@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IntersectionRepair.h"
 #include "Mesh.h"
 #include "Parameters.h"
 #include "PointCloud.h"
@@ -18,6 +19,8 @@ struct FinishReport
   double smoothness = 0.;       ///< lambda of the fit
   double outlierShare = 0.;     ///< of the samples
   std::size_t gapTriangles = 0; ///< taken away where there is no data
+  DefectCount repaired;         ///< intersections and folds that were there ...
+  DefectCount left;             ///< ... and those that could not be mended
 };
 
 /// What is done with a mesh once it is learnt: it is fitted to the cloud, opened where the scan has

@@ -25,7 +25,7 @@ namespace
 /// Tried until what is enclosed becomes less: then gaps between points are wider than what is closed.
 constexpr std::array<unsigned, 5> Resolutions{ 16, 24, 32, 48, 64 };
 /// Tried where those do not agree.
-constexpr unsigned FinestResolution = 96;
+constexpr unsigned FinestResolution = 80;
 constexpr int SmoothingSteps = 4;
 
 constexpr unsigned OpenResolution = 48;

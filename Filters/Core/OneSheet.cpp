@@ -18,8 +18,8 @@ namespace neuralmesh
 {
 namespace
 {
-/// In thicknesses: the neighbourhood that tells the plane of the sheet,
-constexpr float PlaneRadius = 2.f;
+/// In thicknesses: the width of cells, 27 of which tell the plane of the sheet,
+constexpr float PlaneCell = 1.3f;
 /// how far behind a triangle those of the other side are at most,
 constexpr float OtherSideDepth = 2.f;
 /// and how far aside.
@@ -28,6 +28,32 @@ constexpr float OtherSideWidth = 1.f;
 constexpr float OtherSideCosine = -0.4f;
 /// Holes are filled up to edges of so many thicknesses.
 constexpr double LongestFilledEdge = 3.;
+
+/// Of points in a cell.
+struct Moments
+{
+  double count = 0.;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+
+  void add(const Eigen::Vector3d& point)
+  {
+    this->count += 1.;
+    this->sum += point;
+    this->squares += point * point.transpose();
+  }
+  Moments& operator+=(const Moments& other)
+  {
+    this->count += other.count;
+    this->sum += other.sum;
+    this->squares += other.squares;
+    return *this;
+  }
+  Eigen::Matrix3d covariance() const
+  {
+    return this->squares - this->sum * this->sum.transpose() / this->count;
+  }
+};
 
 class SheetFlood
 {
@@ -55,7 +81,9 @@ public:
         const float length = std::sqrt(squaredNorm(normal));
         this->normals_.push_back(length > 0.f ? 1.f / length * normal : Vector4());
         this->centers_.push_back(1.f / 3.f * (p + q + r));
-        this->cells_[this->cellOf(this->centers_.back())].push_back(number);
+        this->cells_[keyOf(cellPlace(this->centers_.back(), this->radius()))].push_back(number);
+        this->moments_[keyOf(cellPlace(this->centers_.back(), this->planeCell()))].add(
+          this->centers_.back().toDouble());
       });
     this->findSteepness();
   }
@@ -109,46 +137,37 @@ private:
     return std::uint64_t(x + Middle) << 2 * Bits | std::uint64_t(y + Middle) << Bits |
       std::uint64_t(z + Middle);
   }
-  std::array<int, 3> cellPlace(Vector4 point) const
+  static std::uint64_t keyOf(const std::array<int, 3>& place)
   {
-    const float inverse = 1.f / (PlaneRadius * this->thickness_);
-    return { int(std::floor(point[0] * inverse)), int(std::floor(point[1] * inverse)),
-      int(std::floor(point[2] * inverse)) };
+    return key(place[0], place[1], place[2]);
   }
-  std::uint64_t cellOf(Vector4 point) const
+  static std::array<int, 3> cellPlace(Vector4 point, float width)
   {
-    const auto [x, y, z] = this->cellPlace(point);
-    return key(x, y, z);
+    return { int(std::floor(point[0] / width)), int(std::floor(point[1] / width)),
+      int(std::floor(point[2] / width)) };
   }
-
-  /// Calls `use` for the triangles whose centres are closer than PlaneRadius.
-  template <typename Use>
-  void forEachNear(Vector4 point, Use use) const
+  /// Calls `use` for the content of the cells of a map around a point.
+  template <typename Map, typename Use>
+  static void forEachCellAround(const Map& cells, Vector4 point, float width, Use use)
   {
-    const float radius = PlaneRadius * this->thickness_;
-    const auto [x, y, z] = this->cellPlace(point);
+    const auto [x, y, z] = cellPlace(point, width);
     for (int k = z - 1; k <= z + 1; ++k)
     {
       for (int j = y - 1; j <= y + 1; ++j)
       {
         for (int i = x - 1; i <= x + 1; ++i)
         {
-          const auto cell = this->cells_.find(key(i, j, k));
-          if (cell == this->cells_.end())
+          const auto cell = cells.find(key(i, j, k));
+          if (cell != cells.end())
           {
-            continue;
-          }
-          for (const std::uint32_t t : cell->second)
-          {
-            if (squaredNorm(this->centers_[t] - point) <= radius * radius)
-            {
-              use(t);
-            }
+            use(cell->second);
           }
         }
       }
     }
   }
+  float radius() const { return OtherSideDepth * this->thickness_; }
+  float planeCell() const { return PlaneCell * this->thickness_; }
 
   /// How far a triangle is from lying in the plane of the sheet around it: 0 on a flat side, 1 on
   /// its rim. Both sides together tell that plane.
@@ -157,19 +176,11 @@ private:
     this->steepness_.resize(this->triangles_.size());
     for (std::size_t t = 0; t < this->triangles_.size(); ++t)
     {
-      Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      double count = 0.;
-      this->forEachNear(this->centers_[t],
-        [&](std::uint32_t near)
-        {
-          const Eigen::Vector3d offset = (this->centers_[near] - this->centers_[t]).toDouble();
-          covariance += offset * offset.transpose();
-          sum += offset;
-          count += 1.;
-        });
-      covariance -= sum * sum.transpose() / count;
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+      Moments sum;
+      forEachCellAround(this->moments_, this->centers_[t], this->planeCell(),
+        [&](const Moments& moments) { sum += moments; });
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+      solver.computeDirect(sum.covariance());
       const Eigen::Vector3d across = solver.eigenvectors().col(0);
       this->steepness_[t] = float(1. - std::abs(across.dot(this->normals_[t].toDouble())));
     }
@@ -207,19 +218,21 @@ private:
   {
     const Vector4 center = this->centers_[t], normal = this->normals_[t];
     const float width = OtherSideWidth * this->thickness_;
-    this->forEachNear(center,
-      [&](std::uint32_t other)
+    const auto consider = [&](std::uint32_t other)
+    {
+      const Vector4 offset = this->centers_[other] - center;
+      const float depth = -dot(offset, normal);
+      const float aside = squaredNorm(offset) - depth * depth;
+      if (this->sides_[other] == Side::Unknown && depth > 0.f &&
+        depth < OtherSideDepth * this->thickness_ && aside < width * width &&
+        dot(this->normals_[other], normal) < OtherSideCosine)
       {
-        const Vector4 offset = this->centers_[other] - center;
-        const float depth = -dot(offset, normal);
-        const float aside = squaredNorm(offset) - depth * depth;
-        if (this->sides_[other] == Side::Unknown && depth > 0.f &&
-          depth < OtherSideDepth * this->thickness_ && aside < width * width &&
-          dot(this->normals_[other], normal) < OtherSideCosine)
-        {
-          this->sides_[other] = Side::Other;
-        }
-      });
+        this->sides_[other] = Side::Other;
+      }
+    };
+    forEachCellAround(this->cells_, center, this->radius(),
+      [&](const std::vector<std::uint32_t>& cell)
+      { std::for_each(cell.begin(), cell.end(), consider); });
   }
 
   const Mesh& skin_;
@@ -230,6 +243,7 @@ private:
   std::vector<Vector4> normals_;
   std::vector<Vector4> centers_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  std::unordered_map<std::uint64_t, Moments> moments_;
   std::vector<float> steepness_;
   std::vector<Side> sides_;
 };

@@ -8,73 +8,102 @@ namespace neuralmesh
 {
 namespace
 {
-/// A place of a triangle with a corner at the origin: b times one side and c times the other one.
-struct PlaceOnTriangle
+/// A side of the triangles at a vertex, seen from there.
+struct Spoke
 {
-  float b = 0.f;
-  float c = 0.f;
-  float squaredDistance = std::numeric_limits<float>::infinity();
+  Vector4 side;
+  float squaredLength;
+  float along; ///< dot product with the point
 };
 
-/// The place closest to `point`. Inside, it is the foot of the perpendicular; else it lies on one
-/// of the three sides.
-PlaceOnTriangle closestPlace(Vector4 point, Vector4 sideB, Vector4 sideC)
+/// Looks for the place closest to a point on the triangles of a vertex, with the vertex at the
+/// origin. Distances are compared without the square of that from the vertex to the point.
+class ClosestInFan
 {
-  const float bb = squaredNorm(sideB), cc = squaredNorm(sideC), bc = dot(sideB, sideC);
-  const float pb = dot(sideB, point), pc = dot(sideC, point);
-  const float determinant = bb * cc - bc * bc;
-  float b = cc * pb - bc * pc, c = bb * pc - bc * pb;
-  if (determinant > 0.f && b >= 0.f && c >= 0.f && b + c <= determinant)
+public:
+  explicit ClosestInFan(Vector4 point)
+    : point_(point)
   {
-    b /= determinant;
-    c /= determinant;
   }
-  else
+
+  Spoke spoke(Vector4 side) const { return { side, squaredNorm(side), dot(side, this->point_) }; }
+
+  /// The triangle between two spokes.
+  void consider(const Spoke& first, const Spoke& second, unsigned slot)
   {
-    const auto along = [](float numerator, float denominator)
-    { return denominator > 0.f ? std::clamp(numerator / denominator, 0.f, 1.f) : 0.f; };
-    const auto squared = [&](float x, float y)
-    { return x * x * bb + y * y * cc + 2.f * (x * y * bc - x * pb - y * pc); };
-    const float onB = along(pb, bb), onC = along(pc, cc);
-    const float across = along(pc - pb - bc + bb, bb + cc - 2.f * bc);
-    b = onB;
-    c = 0.f;
-    float least = squared(onB, 0.f);
-    if (const float other = squared(0.f, onC); other < least)
+    const float mixed = dot(first.side, second.side);
+    const float determinant = first.squaredLength * second.squaredLength - mixed * mixed;
+    const float b = second.squaredLength * first.along - mixed * second.along;
+    const float c = first.squaredLength * second.along - mixed * first.along;
+    if (determinant > 0.f && b > 0.f && c > 0.f && b + c < determinant)
     {
-      least = other;
-      b = 0.f;
-      c = onC;
+      this->keep(-(b * first.along + c * second.along) / determinant, b / determinant,
+        c / determinant, slot);
+      return;
     }
-    if (squared(1.f - across, across) < least)
+    this->considerSpoke(first, 1.f, 0.f, slot);
+    this->considerSpoke(second, 0.f, 1.f, slot);
+    if (b + c >= determinant)
     {
-      b = 1.f - across;
-      c = across;
+      const float length = first.squaredLength + second.squaredLength - 2.f * mixed;
+      const float across = second.along - first.along - mixed + first.squaredLength;
+      const float t = length > 0.f ? std::clamp(across / length, 0.f, 1.f) : 0.f;
+      const float s = 1.f - t;
+      this->keep(s * s * first.squaredLength + t * t * second.squaredLength +
+          2.f * (s * t * mixed - s * first.along - t * second.along),
+        s, t, slot);
     }
   }
-  return { b, c, squaredNorm(point - b * sideB - c * sideC) };
-}
+
+  unsigned slot() const { return this->slot_; }
+  float b() const { return this->b_; }
+  float c() const { return this->c_; }
+
+private:
+  void considerSpoke(const Spoke& spoke, float b, float c, unsigned slot)
+  {
+    const float t =
+      spoke.squaredLength > 0.f ? std::clamp(spoke.along / spoke.squaredLength, 0.f, 1.f) : 0.f;
+    this->keep(t * (t * spoke.squaredLength - 2.f * spoke.along), t * b, t * c, slot);
+  }
+
+  void keep(float value, float b, float c, unsigned slot)
+  {
+    if (value < this->least_)
+    {
+      this->least_ = value;
+      this->b_ = b;
+      this->c_ = c;
+      this->slot_ = slot;
+    }
+  }
+
+  Vector4 point_;
+  float least_ = std::numeric_limits<float>::infinity();
+  float b_ = 0.f;
+  float c_ = 0.f;
+  unsigned slot_ = 0;
+};
 
 PlaceOnMesh closestPlaceAt(Vector4 point, const Mesh& mesh, VertexIndex v)
 {
   const Vector4 center = mesh.position(v);
   const Ring& ring = mesh.ring(v);
-  PlaceOnTriangle best;
-  unsigned bestSlot = 0;
-  Vector4 side = mesh.position(ring[0]) - center;
+  ClosestInFan closest(point - center);
+  const Spoke first = closest.spoke(mesh.position(ring[0]) - center);
+  Spoke spoke = first;
   for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
   {
-    const Vector4 next = mesh.position(ring[ring.after(slot)]) - center;
-    const PlaceOnTriangle place = closestPlace(point - center, side, next);
-    if (place.squaredDistance < best.squaredDistance)
-    {
-      best = place;
-      bestSlot = slot;
-    }
-    side = next;
+    const unsigned after = ring.after(slot);
+    const Spoke next = after == 0 ? first : closest.spoke(mesh.position(ring[after]) - center);
+    closest.consider(spoke, next, slot);
+    spoke = next;
   }
-  return { { v, ring[bestSlot], ring[ring.after(bestSlot)] },
-    Vector4(1.f - best.b - best.c, best.b, best.c), best.squaredDistance };
+  const unsigned slot = closest.slot();
+  PlaceOnMesh place{ { v, ring[slot], ring[ring.after(slot)] },
+    Vector4(1.f - closest.b() - closest.c(), closest.b(), closest.c()), 0.f };
+  place.squaredDistance = squaredNorm(point - pointAt(place, mesh.positions()));
+  return place;
 }
 }
 

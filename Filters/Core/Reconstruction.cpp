@@ -16,8 +16,11 @@ namespace
 /// cut for it.
 constexpr std::uint64_t SamplesPerCheck = 4096;
 
-/// The first surface has so many vertices less than the mesh.
-constexpr std::uint64_t VerticesPerFirstVertex = 4;
+/// Vertices of the first surface: a part of all, but enough for a shape, if all are twice as many.
+std::size_t firstVertices(std::uint64_t vertices)
+{
+  return std::size_t(std::max(vertices / 8, std::min<std::uint64_t>(vertices / 2, 1500)));
+}
 
 // Where the parts of a run end, as fractions of its time.
 constexpr double EndOfStart = 0.15;
@@ -65,10 +68,8 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
   const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
   if (startsFromSpace)
   {
-    const PartialProgress starting(progress, 0., EndOfStart);
-    auto surface =
-      firstSurface(cloud, std::size_t(parameters.numberOfVertices / VerticesPerFirstVertex),
-        parameters.boundaries, [&] { return starting(0.5); });
+    auto surface = firstSurface(cloud, firstVertices(parameters.numberOfVertices),
+      parameters.boundaries, partOf(progress, 0., EndOfStart));
     if (surface)
     {
       start = std::move(surface->mesh);

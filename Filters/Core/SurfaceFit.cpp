@@ -19,7 +19,7 @@ constexpr float EdgesPerCell = 2.f;
 constexpr std::size_t SamplesPerCheck = 16384;
 /// Of the residual of the equations, against that at the start.
 constexpr double Tolerance = 3e-3;
-constexpr double ToleranceOfChoice = 3e-2;
+constexpr double ToleranceOfChoice = 1e-1;
 
 // The choice of lambda
 constexpr double FirstSmoothness = 100.;
@@ -28,6 +28,8 @@ constexpr double MostSmoothness = 1e4;
 /// The roughness is measured where noise is still in it, at least a bit.
 constexpr double SmoothnessFactor = 1.5;
 constexpr int MostChoices = 5;
+/// It is found if it changes by no more than that.
+constexpr double NearPart = 0.4;
 /// Of the time of moveVertices().
 constexpr double PartOfChoice = 0.6;
 
@@ -160,8 +162,12 @@ bool SurfaceFit::chooseSmoothness(const Progress& progress)
     const double ratio =
       rough > 0. ? this->residualVariance(positions, this->smoothness_) / rough : MostSmoothness;
     const double before = this->smoothness_;
-    this->smoothness_ = std::clamp(SmoothnessFactor * ratio, LeastSmoothness, MostSmoothness);
-    if (this->smoothness_ > 0.5 * before)
+    const double next = SmoothnessFactor * ratio;
+    const bool isNear = next > NearPart * before;
+    // From far away it falls further yet.
+    this->smoothness_ = std::clamp(
+      isNear ? next : next * std::sqrt(next / before), LeastSmoothness, MostSmoothness);
+    if (isNear)
     {
       break;
     }
