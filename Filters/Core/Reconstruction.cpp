@@ -60,9 +60,13 @@ bool isTimeLeft(StopReason reason)
 double cpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
-  const Progress& progress, const std::optional<Mesh>& first)
+  const Progress& tell, const std::optional<Mesh>& first)
 {
   Reconstruction result;
+  // Once the caller has ended the run, it is asked no more.
+  bool isCancelled = false;
+  const Progress progress = [&](double fraction)
+  { return !isCancelled && !(isCancelled = !tell(fraction)); };
   const double begin = cpuSeconds();
   std::optional<Mesh> start = first;
   const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
@@ -102,6 +106,10 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
     if (isDone)
     {
       result.finish = finish.report();
+    }
+    else
+    {
+      result.stopReason = isCancelled ? StopReason::Cancelled : StopReason::TimeLimit;
     }
   }
   orientOutwards(mesh);

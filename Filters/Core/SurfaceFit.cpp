@@ -12,9 +12,11 @@ namespace
 {
 /// What a distance along the surface counts, against one across it.
 constexpr double Slip = 0.01;
-/// Samples farther than so many median distances are outliers, but none closer than a mean edge:
-/// without noise the median tells nothing of where the mesh does not fit yet.
+/// Samples farther than so many median distances are outliers, but none closer than so many mean
+/// edges: without noise the median tells nothing of where the mesh does not fit yet.
 constexpr float OutlierMedians = 5.f;
+constexpr float FirstOutlierEdges = 1.f;
+constexpr float LaterOutlierEdges = 0.5f;
 constexpr float EdgesPerCell = 2.f;
 constexpr std::size_t SamplesPerCheck = 16384;
 /// Of the residual of the equations, against that at the start.
@@ -95,11 +97,12 @@ bool SurfaceFit::findPlaces(const Progress& progress)
                              : closestPlace(this->samples_[i], this->mesh_, grid);
     distances[i] = place.squaredDistance;
   }
+  const float edges = this->hasPlaces_ ? LaterOutlierEdges : FirstOutlierEdges;
   this->hasPlaces_ = true;
   const auto median = distances.begin() + std::ptrdiff_t(distances.size() / 2);
   std::nth_element(distances.begin(), median, distances.end());
   this->medianDistance_ = std::sqrt(*median);
-  this->outlierDistance_ = std::max(meanEdge, OutlierMedians * this->medianDistance_);
+  this->outlierDistance_ = std::max(edges * meanEdge, OutlierMedians * this->medianDistance_);
   this->fillSystem();
   return true;
 }

@@ -127,7 +127,8 @@ test_ctrl_c()
 # Promise: the statistics are a table with a line of names, and end with the result.
 test_statistics()
 {
-  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 500 --statistics curve.csv
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 500 --statistics curve.csv \
+    --set Start=tetrahedron
   head -n 1 curve.csv | grep -q '^"Iteration","Vertices","Seconds"' || fail "no line of names"
   [ "$(wc -l < curve.csv)" -gt 20 ] || fail "there are few lines"
   tail -n 1 curve.csv | grep -Eq '^[0-9]+,500,[0-9.e-]+,' || fail "the last line is not the result"

@@ -132,12 +132,30 @@ TEST(StoppingRules, Cancelled)
 {
   int calls = 0;
   const Reconstruction result =
-    reconstruct(cleanSphere(), small(), [&](double) { return ++calls < 5; });
+    reconstruct(cleanSphere(), learningAlone(), [&](double) { return ++calls < 5; });
   EXPECT_EQ(result.stopReason, StopReason::Cancelled);
   EXPECT_EQ(calls, 5);
   EXPECT_EQ(checkManifold(result.mesh.points.size(), result.mesh.triangles).defect, "");
   EXPECT_GT(result.mesh.points.size(), 4u);
   EXPECT_LT(result.mesh.points.size(), 500u);
+}
+
+// So it is wherever the run is then, and what there is of the mesh is whole.
+TEST(StoppingRules, CancelledAnywhere)
+{
+  int all = 0;
+  reconstruct(cleanSphere(), small(), [&](double) { return ++all > 0; });
+  ASSERT_GT(all, 20);
+  for (int last = 1; last <= all; ++last)
+  {
+    int calls = 0;
+    const Reconstruction result =
+      reconstruct(cleanSphere(), small(), [&](double) { return ++calls < last; });
+    EXPECT_EQ(result.stopReason, StopReason::Cancelled);
+    EXPECT_EQ(calls, last);
+    EXPECT_FALSE(result.finish.has_value());
+    EXPECT_EQ(checkManifold(result.mesh.points.size(), result.mesh.triangles).defect, "");
+  }
 }
 
 // Every reason has a name of its own.
