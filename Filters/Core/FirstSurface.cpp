@@ -31,7 +31,7 @@ constexpr int SmoothingSteps = 4;
 constexpr unsigned OpenResolution = 48;
 /// Of the skin around an open surface, in voxels.
 constexpr double SkinThickness = 1.5;
-/// With less, a coarse grid tells nothing.
+/// Different ones. With less, a coarse grid tells nothing.
 constexpr std::size_t LeastPoints = 500;
 
 /// Of the time that all takes.
@@ -164,6 +164,17 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progres
     best.components, false, isCertain };
 }
 
+/// Of points in Morton order, in which equal ones are neighbours.
+std::size_t countDifferent(std::span<const Vector4> points)
+{
+  std::size_t count = points.empty() ? 0 : 1;
+  for (std::size_t i = 1; i < points.size(); ++i)
+  {
+    count += squaredNorm(points[i] - points[i - 1]) > 0.f ? 1 : 0;
+  }
+  return count;
+}
+
 void closeBoundaries(Mesh& mesh)
 {
   BoundaryManager boundaries(mesh);
@@ -199,7 +210,7 @@ bool fitToCloud(
 std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
   Boundaries boundaries, const Progress& progress)
 {
-  if (cloud.points().size() < LeastPoints)
+  if (countDifferent(cloud.points()) < LeastPoints)
   {
     return {};
   }

@@ -46,10 +46,7 @@ std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count)
     // Edges become shorter, or longer by flips: then the vertex comes again.
     if (const Candidate now = candidate(mesh, v); now != longest)
     {
-      if (now < longest)
-      {
-        candidates.push(now);
-      }
+      candidates.push(now);
       continue;
     }
     const auto plan = planEdgeSplit(mesh, v);
@@ -62,10 +59,6 @@ std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count)
     flipEdgesAround(mesh, added);
     candidates.push(candidate(mesh, v));
     candidates.push(candidate(mesh, added));
-    for (const VertexIndex neighbor : mesh.ring(added))
-    {
-      candidates.push(candidate(mesh, neighbor));
-    }
   }
   return origins;
 }

@@ -18,6 +18,9 @@ constexpr float OutlierMedians = 5.f;
 constexpr float FirstOutlierEdges = 1.f;
 constexpr float LaterOutlierEdges = 0.5f;
 constexpr float EdgesPerCell = 2.f;
+/// ... or of the edges of vertices spread over the box: of a cloud of few different points the mesh
+/// is a few clumps.
+constexpr float LeastPartOfSpread = 0.25f;
 constexpr std::size_t SamplesPerCheck = 16384;
 /// Of the residual of the equations, against that at the start.
 constexpr double Tolerance = 3e-3;
@@ -78,8 +81,10 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   VertexGrid grid;
   if (!this->hasPlaces_)
   {
-    grid.reset(this->cloud_.bulkMin(), this->cloud_.bulkMax(), EdgesPerCell * meanEdge,
-      this->mesh_.indexEnd());
+    const Vector4 size = this->cloud_.bulkMax() - this->cloud_.bulkMin();
+    const float spread = std::sqrt(squaredNorm(size) / float(this->mesh_.indexEnd()));
+    grid.reset(this->cloud_.bulkMin(), this->cloud_.bulkMax(),
+      EdgesPerCell * std::max(meanEdge, LeastPartOfSpread * spread), this->mesh_.indexEnd());
     for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
     {
       grid.insert(v, this->mesh_.position(v));
@@ -168,8 +173,8 @@ bool SurfaceFit::chooseSmoothness(const Progress& progress)
     const double next = SmoothnessFactor * ratio;
     const bool isNear = next > NearPart * before;
     // From far away it falls further yet.
-    this->smoothness_ = std::clamp(
-      isNear ? next : next * std::sqrt(next / before), LeastSmoothness, MostSmoothness);
+    this->smoothness_ =
+      std::clamp(isNear ? next : next * std::sqrt(next / before), LeastSmoothness, MostSmoothness);
     if (isNear)
     {
       break;

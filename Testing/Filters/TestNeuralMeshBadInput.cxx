@@ -107,7 +107,7 @@ const std::vector<Case>& Cases()
       },
       Outcome::Sheet, 0, 0 },
     { "offset 1e7, extent 1", 1000, [](int, const Point& p) { return Scaled(p, 1, 1e7); },
-      Outcome::Sheet, 0, 0 },
+      Outcome::Mesh, 0, 0 },
   };
   return cases;
 }
