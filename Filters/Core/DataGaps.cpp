@@ -84,6 +84,7 @@ struct Piece
   double area = 0.;
   double areaAround = 0.; ///< of the triangles that touch it
   double samplesAround = 0.;
+  bool isAtBoundary = false;
 
   double density() const
   {
@@ -129,6 +130,10 @@ std::vector<Piece> findPieces(
       Piece& piece = pieceWith(t);
       piece.area += area;
       piece.triangles.push_back(t);
+      const auto& corners = triangles.all()[t];
+      piece.isAtBoundary = piece.isAtBoundary ||
+        std::any_of(
+          corners.begin(), corners.end(), [&](VertexIndex v) { return mesh.isBoundary(v); });
       continue;
     }
     std::vector<std::size_t> touched;
@@ -210,7 +215,7 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
       return points.distance(1.f / 3.f * (mesh.position(a) + mesh.position(b) + mesh.position(c))) >
         reach;
     };
-    if (std::any_of(piece.triangles.begin(), piece.triangles.end(), isFar))
+    if (piece.isAtBoundary || std::any_of(piece.triangles.begin(), piece.triangles.end(), isFar))
     {
       for (const std::uint32_t t : piece.triangles)
       {

@@ -13,8 +13,8 @@ namespace neuralmesh
 /// The triangles of a mesh where the scan has no data: pieces of triangles on which none of the
 /// places of samples lies, and which
 /// - are so large that many should, if samples lay there as densely as around the piece, and
-/// - reach farther away from all points than points are from each other and from the mesh; else the
-///   mesh does not fit yet.
+/// - lie at a boundary, or reach farther away from all points than points are from each other and
+///   from the mesh; else the mesh does not fit yet.
 /// `places` are those of samples evenly picked from the cloud, `medianDistance` is that of the
 /// samples to the mesh.
 std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,

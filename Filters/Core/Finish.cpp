@@ -45,7 +45,7 @@ bool Finish::run(const Progress& progress)
       flipEdges(this->mesh_);
     }
   }
-  const IntersectionRepair repair = repairIntersections(this->mesh_);
+  const IntersectionRepair repair = repairIntersections(this->mesh_, partOf(progress, 1., 1.));
   this->report_.repaired = repair.before;
   this->report_.left = repair.after;
   return true;

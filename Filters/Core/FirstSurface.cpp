@@ -37,6 +37,9 @@ constexpr std::size_t LeastPoints = 500;
 /// Of the time that all takes.
 constexpr double PartOfGrids = 0.5;
 
+/// Above, points lie in two layers. Noise has 0.8, what is evenly spread between two planes 0.87.
+constexpr double EvennessOfLayers = 0.88;
+
 constexpr int FitRounds = 2;
 constexpr double FitSmoothness = 1.;
 constexpr std::size_t FitSamples = 10; ///< per vertex
@@ -111,7 +114,8 @@ Mesh meshOf(TriangleMesh surface, const PointCloud& cloud)
   return mesh;
 }
 
-std::optional<FirstSurface> openSurface(const PointCloud& cloud)
+/// A thin closed skin around the points.
+std::optional<FirstSurface> skin(const PointCloud& cloud)
 {
   const OccupiedSolid solid = occupiedSolid(cloud, OpenResolution);
   TriangleMesh surface = voxelSurface(solid.grid, solid.inside);
@@ -120,11 +124,7 @@ std::optional<FirstSurface> openSurface(const PointCloud& cloud)
     return {};
   }
   FirstSurface result{ meshOf(std::move(surface), cloud), OpenResolution };
-  result.isOpen = true;
-  if (!keepOneSheet(result.mesh, float(SkinThickness * solid.grid.width)))
-  {
-    return {};
-  }
+  result.skinThickness = float(SkinThickness * solid.grid.width);
   return result;
 }
 
@@ -181,29 +181,76 @@ void closeBoundaries(Mesh& mesh)
   fillBoundaries(mesh, boundaries, std::numeric_limits<double>::max());
 }
 
-bool fitToCloud(
-  const PointCloud& cloud, Mesh& mesh, Boundaries boundaries, const Progress& progress)
+/// Fits a mesh to the cloud and opens it, or closes it. Returns false if it was ended before.
+class FirstFit
 {
-  SurfaceFit fit(cloud, mesh, FitSamples * mesh.vertexCount());
-  for (int round = 0; round < FitRounds; ++round)
+public:
+  FirstFit(const PointCloud& cloud, Mesh& mesh)
+    : cloud_(cloud)
+    , mesh_(mesh)
+    , fit_(cloud, mesh, FitSamples * mesh.vertexCount())
   {
-    flipEdges(mesh);
-    const Progress ofRound =
-      partOf(progress, double(round) / FitRounds, double(round + 1) / FitRounds);
-    if (!fit.findPlaces(partOf(ofRound, 0., 0.5)) ||
-      !fit.moveVertices(FitSmoothness, partOf(ofRound, 0.5, 1.)))
+  }
+
+  bool run(const Progress& progress)
+  {
+    for (int round = 0; round < FitRounds; ++round)
     {
-      return false;
+      flipEdges(this->mesh_);
+      const Progress ofRound =
+        partOf(progress, double(round) / FitRounds, double(round + 1) / FitRounds);
+      if (!this->fit_.findPlaces(partOf(ofRound, 0., 0.5)) ||
+        !this->fit_.moveVertices(FitSmoothness, partOf(ofRound, 0.5, 1.)))
+      {
+        return false;
+      }
+      flipEdges(this->mesh_);
     }
-    flipEdges(mesh);
+    return this->fit_.findPlaces(partOf(progress, 1., 1.));
   }
-  if (boundaries == Boundaries::Keep && fit.findPlaces(partOf(progress, 1., 1.)))
+
+  /// Whether the points lie in two layers, with the mesh between them.
+  bool isBetweenLayers() const { return this->fit_.distanceEvenness() > EvennessOfLayers; }
+
+  void openGaps()
   {
-    mesh.removeTriangles(findDataGaps(cloud, mesh, fit.places(), fit.medianDistance()));
-    mesh.removeTriangles(findSmallPieces(mesh));
-    mesh.dropErased();
+    this->mesh_.removeTriangles(
+      findDataGaps(this->cloud_, this->mesh_, this->fit_.places(), this->fit_.medianDistance()));
+    this->mesh_.removeTriangles(findSmallPieces(this->mesh_));
+    this->mesh_.dropErased();
   }
-  return true;
+
+private:
+  const PointCloud& cloud_;
+  Mesh& mesh_;
+  SurfaceFit fit_;
+};
+
+/// One sheet of a skin, if there is one and the points lie on it.
+std::optional<FirstSurface> openSurface(const PointCloud& cloud, const FirstSurface& skin,
+  std::size_t mostVertices, Boundaries boundaries, const Progress& progress)
+{
+  FirstSurface result = skin;
+  result.isOpen = true;
+  if (!keepOneSheet(result.mesh, skin.skinThickness))
+  {
+    return {};
+  }
+  simplify(result.mesh, mostVertices);
+  FirstFit fit(cloud, result.mesh);
+  if (!fit.run(progress) || fit.isBetweenLayers())
+  {
+    return {};
+  }
+  if (boundaries == Boundaries::Keep)
+  {
+    fit.openGaps();
+  }
+  else
+  {
+    closeBoundaries(result.mesh);
+  }
+  return result;
 }
 }
 
@@ -214,23 +261,37 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
   {
     return {};
   }
-  std::optional<FirstSurface> result = closedSurface(cloud, partOf(progress, 0., PartOfGrids));
-  if (!result)
+  const auto hasRightSize = [&](const FirstSurface& surface)
   {
-    result = openSurface(cloud);
+    const std::size_t count = surface.mesh.vertexCount();
+    return count > 3 && count <= mostVertices;
+  };
+  std::optional<FirstSurface> result = closedSurface(cloud, partOf(progress, 0., PartOfGrids));
+  const Progress fitting = partOf(progress, PartOfGrids, 1.);
+  bool hasInterior = result.has_value();
+  if (!hasInterior && (result = skin(cloud)))
+  {
+    auto sheet = openSurface(cloud, *result, mostVertices, boundaries, partOf(fitting, 0., 0.5));
+    if (sheet && hasRightSize(*sheet))
+    {
+      return sheet;
+    }
   }
   if (!result)
   {
     return {};
   }
   simplify(result->mesh, mostVertices);
-  if (boundaries == Boundaries::Close)
+  FirstFit fit(cloud, result->mesh);
+  if (!hasRightSize(*result) || !fit.run(partOf(fitting, 0.5, 1.)))
   {
-    closeBoundaries(result->mesh);
+    return {};
   }
-  const bool isDone = result->mesh.vertexCount() <= mostVertices &&
-    fitToCloud(cloud, result->mesh, boundaries, partOf(progress, PartOfGrids, 1.)) &&
-    result->mesh.vertexCount() > 3;
-  return isDone ? std::move(result) : std::nullopt;
+  // Of a thin solid any gap would show the other side.
+  if (hasInterior && boundaries == Boundaries::Keep)
+  {
+    fit.openGaps();
+  }
+  return hasRightSize(*result) ? std::move(result) : std::nullopt;
 }
 }

@@ -19,7 +19,8 @@ struct FirstSurface
   long genus = 0;
   std::size_t components = 0;
   bool isOpen = false;
-  bool isCertain = false; ///< whether the next coarser grid gives the same topology
+  bool isCertain = false;    ///< whether the next coarser grid gives the same topology
+  float skinThickness = 0.f; ///< about, if it is a skin around points that enclose nothing
 };
 
 /// The surface of the space that the cloud occupies or encloses, from a grid: the finest one tried

@@ -33,6 +33,10 @@ struct Defects
   DefectCount count() const { return { this->intersecting.size(), this->folds.size() }; }
 };
 
+/// A mesh with more defects than that, of its triangles, is a tangle: nothing would be left of it.
+constexpr double MostPartBroken = 0.05;
+constexpr std::size_t LeastBroken = 500;
+
 class Repairer
 {
 public:
@@ -43,11 +47,12 @@ public:
   {
   }
 
-  IntersectionRepair repair()
+  IntersectionRepair repair(const Progress& progress)
   {
     this->findDefects();
     IntersectionRepair result{ this->defects_.count(), this->defects_.count(), 0 };
-    if (result.before.total() == 0)
+    const auto most = std::size_t(MostPartBroken * double(this->mesh_.triangleCount()));
+    if (result.before.total() == 0 || result.before.total() > std::max(LeastBroken, most))
     {
       return result;
     }
@@ -56,6 +61,10 @@ public:
     this->isTouched_.assign(this->mesh_.indexEnd(), false);
     for (unsigned round = 0; round < MaximumRounds && result.after.total() > 0; ++round)
     {
+      if (!progress(double(round) / MaximumRounds))
+      {
+        break;
+      }
       this->markBroken();
       this->flipFolds();
       if (round % RoundsOfRetreat != 0 || !this->retract())
@@ -273,5 +282,8 @@ private:
 };
 }
 
-IntersectionRepair repairIntersections(Mesh& mesh) { return Repairer(mesh).repair(); }
+IntersectionRepair repairIntersections(Mesh& mesh, const Progress& progress)
+{
+  return Repairer(mesh).repair(progress);
+}
 }

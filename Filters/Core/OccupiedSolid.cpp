@@ -21,6 +21,11 @@ constexpr std::size_t Margin = EmptyLayers + 1;
 constexpr double LeastPartOfUsual = 0.15;
 /// Pieces with less than this part of all occupied voxels are stray points.
 constexpr double LeastPartOfPiece = 0.02;
+/// Pieces with less than that part are clusters of outliers if they are so much fuller than the
+/// largest piece.
+constexpr double MostPartOfCluster = 0.2;
+constexpr double ClusterFullness = 2.;
+constexpr double ClusterFullnessOffset = 0.1;
 
 VoxelGrid gridAround(const PointCloud& cloud, unsigned resolution)
 {
@@ -102,6 +107,19 @@ void forEachNeighbor(const VoxelGrid& grid, std::size_t voxel, Use use)
   }
 }
 
+/// Part of the voxels of a piece that have all six neighbours: low for surfaces, high for clusters
+/// of points.
+double fullness(const VoxelGrid& grid, const Voxels& inside, const std::vector<std::size_t>& piece)
+{
+  const auto [sx, sy, sz] = grid.strides();
+  const auto isSurrounded = [&](std::size_t voxel)
+  {
+    return inside[voxel - sx] != 0 && inside[voxel + sx] != 0 && inside[voxel - sy] != 0 &&
+      inside[voxel + sy] != 0 && inside[voxel - sz] != 0 && inside[voxel + sz] != 0;
+  };
+  return double(std::count_if(piece.begin(), piece.end(), isSurrounded)) / double(piece.size());
+}
+
 void dropStrayPieces(const VoxelGrid& grid, Voxels& inside)
 {
   std::vector<std::vector<std::size_t>> pieces;
@@ -130,16 +148,24 @@ void dropStrayPieces(const VoxelGrid& grid, Voxels& inside)
     all += piece.size();
     pieces.push_back(std::move(piece));
   }
+  const auto largest = std::max_element(
+    pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  const double usual = largest == pieces.end() ? 0. : fullness(grid, inside, *largest);
+  Voxels kept = inside;
   for (const auto& piece : pieces)
   {
-    if (double(piece.size()) < LeastPartOfPiece * double(all))
+    const bool isSmall = double(piece.size()) < LeastPartOfPiece * double(all);
+    const bool isCluster = double(piece.size()) < MostPartOfCluster * double(all) &&
+      fullness(grid, inside, piece) > ClusterFullness * usual + ClusterFullnessOffset;
+    if (isSmall || isCluster)
     {
       for (const std::size_t voxel : piece)
       {
-        inside[voxel] = 0;
+        kept[voxel] = 0;
       }
     }
   }
+  inside = std::move(kept);
 }
 
 /// Adds all neighbours of the voxels of a kind to them, by side, edge and corner; but none of the

@@ -24,17 +24,17 @@ constexpr float LeastPartOfSpread = 0.25f;
 constexpr std::size_t SamplesPerCheck = 16384;
 /// Of the residual of the equations, against that at the start.
 constexpr double Tolerance = 3e-3;
-constexpr double ToleranceOfChoice = 1e-1;
+constexpr double ToleranceOfChoice = 1e-2;
 
 // The choice of lambda
-constexpr double FirstSmoothness = 100.;
+constexpr double FirstSmoothness = 1000.;
 constexpr double LeastSmoothness = 0.03;
 constexpr double MostSmoothness = 1e4;
-/// The roughness is measured where noise is still in it, at least a bit.
-constexpr double SmoothnessFactor = 1.5;
-constexpr int MostChoices = 5;
+/// A bit more: too rough a surface would follow the noise all the way.
+constexpr double SmoothnessFactor = 1.1;
+constexpr int MostChoices = 8;
 /// It is found if it changes by no more than that.
-constexpr double NearPart = 0.4;
+constexpr double NearPart = 0.85;
 /// Of the time of moveVertices().
 constexpr double PartOfChoice = 0.6;
 
@@ -225,6 +225,21 @@ double SurfaceFit::roughness(std::span<const Vector4> positions) const
     sum += squared > 0.f ? double(across * across / squared) : 0.;
   }
   return sum / double(positions.size());
+}
+
+double SurfaceFit::distanceEvenness() const
+{
+  double sum = 0., squares = 0., count = 0.;
+  for (const PlaceOnMesh& place : this->places_)
+  {
+    if (this->isUsed(place) && !isOnBoundary(place, this->mesh_))
+    {
+      sum += std::sqrt(double(place.squaredDistance));
+      squares += double(place.squaredDistance);
+      count += 1.;
+    }
+  }
+  return squares > 0. ? sum / std::sqrt(count * squares) : 0.;
 }
 
 double SurfaceFit::outlierShare() const

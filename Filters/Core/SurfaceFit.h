@@ -44,6 +44,9 @@ public:
   double outlierShare() const;
   /// Beyond this distance a sample is an outlier.
   float outlierDistance() const { return this->outlierDistance_; }
+  /// Mean over root mean square of the distances of samples to the mesh: 0.8 for noise, 1 if all are
+  /// as far away.
+  double distanceEvenness() const;
   /// Of the samples to the mesh.
   float medianDistance() const { return this->medianDistance_; }
   /// Of the samples, at the last findPlaces().
