@@ -5,10 +5,11 @@
  *
  * vtkNeuralMesh turns an unorganised point cloud into a triangle mesh with as many vertices as are
  * asked for. It needs no normals and no connectivity, and it averages noise out. The mesh starts as
- * a tetrahedron. Again and again a random point of the cloud, the sample, is drawn; the vertex
+ * a coarse surface of the space that the cloud occupies. Again and again a random point of the cloud, the sample, is drawn; the vertex
  * closest to it, the winner, moves towards it, and the neighbours of the winner are smoothed. Where
  * vertices win often, the mesh grows by a vertex split; where they hardly ever win, by half-edge
- * collapses it shrinks. So the vertices come to be spread as the points of the cloud are.
+ * collapses it shrinks. So the vertices come to be spread as the points of the cloud are. In the
+ * end all are fitted to the cloud by least squares.
  *
  * The time grows as n log n with the number n of vertices, and hardly with the number of points.
  *
@@ -21,7 +22,7 @@
  * An input without points gives an empty output. An input whose points all coincide, or of which
  * none is finite, is an error.
  *
- * Input port 1, optional: a vtkPolyData with triangles to start from instead of the tetrahedron,
+ * Input port 1, optional: a vtkPolyData with triangles to start from instead,
  * see SetFirstMeshConnection().
  *
  * @par Output
@@ -59,9 +60,9 @@
  * A property out of its range is clamped, with a warning; NaN leaves it as it is.
  *
  * @par What it does not do
- * Without TopologyLearning the result has the topology of the mesh that it starts from, which is
- * that of a sphere unless there is a first mesh: handles and boundaries of the shape are covered by
- * triangles. With it many come out right, but there is no warrant: see Documentation/Topology.md.
+ * The result has the topology that the coarse grid of the start finds, or that of the first mesh:
+ * handles narrower than about 1.5 % of the longest side are closed; see Documentation/Start.md.
+ * TopologyLearning changes it while the mesh learns: see Documentation/Topology.md.
  * The mesh approximates: vertices lie near the points, not on them. Interpolation of the points is
  * done by vtkDelaunay3D or vtkSurfaceReconstructionFilter; where there are reliable oriented
  * normals, vtkSignedDistance with vtkExtractSurface is an alternative.
@@ -97,8 +98,7 @@ public:
   /**
    * Input port 1, the first mesh: triangles from which learning starts, in the coordinates of the
    * cloud; to go on with the result of an earlier run, to refine an earlier mesh by a new scan, or
-   * to give the topology, which the result then has. Default none: learning starts from a
-   * tetrahedron. See Documentation/FirstMesh.md.
+   * to give the topology, which the result then has. Default none: see Start, and Documentation/FirstMesh.md.
    *
    * It must be an oriented 2-manifold, with or without boundary, and lie at the cloud. An error
    * that names the points is given where it is not: no triangles; an edge of more than two

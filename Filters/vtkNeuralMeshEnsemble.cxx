@@ -264,7 +264,7 @@ void vtkNeuralMeshEnsemble::PrepareRun(
   {
     vtkWarningMacro(<< "The members agree on " << percent
                     << " % of what they hold only, for the cloud is open, flat or of too few "
-                       "points: learning starts from a tetrahedron.");
+                       "points: learning starts as Start says.");
     return;
   }
   if (agreement < GoodAgreement)

@@ -3,7 +3,7 @@
  * @class   vtkNeuralMeshEnsemble
  * @brief   triangle mesh of a wanted size and the right topology, by an ensemble of meshes
  *
- * vtkNeuralMeshEnsemble is vtkNeuralMesh with a start of its own: instead of a tetrahedron, a mesh
+ * vtkNeuralMeshEnsemble is vtkNeuralMesh with a start of its own: instead of what Start says, a mesh
  * that already has the shape and the handles of the cloud. For closed shapes with handles, and
  * wherever a single run leaves bridges or twists. It takes a few times as long, on one thread; the
  * members are learnt on as many as vtkSMPTools has. Algorithm 5 of the thesis:
@@ -38,7 +38,7 @@
  * @par Errors and warnings
  * As of vtkNeuralMesh. Open and flat clouds have no inside, and their members agree on little: on
  * less than four fifths of all that they and the average hold gives a warning, for then the topology
- * is left to chance; less than half gives another one, and the refinement starts from a tetrahedron:
+ * is left to chance; less than half gives another one, and the refinement starts as Start says:
  * port 2 is then empty. Connecting a first mesh is an error.
  *
  * @par Time limit and abort

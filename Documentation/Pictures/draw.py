@@ -97,7 +97,7 @@ def draw(path, renderers):
 
 def growth():
     points = clouds.sample(*bunny(), 200000)
-    meshes = [neuralmesh.reconstruct(points, n, variant="basic") for n in (100, 500, 5000)]
+    meshes = [neuralmesh.reconstruct(points, n, variant="basic", start="tetrahedron") for n in (100, 500, 5000)]
     return [scene(mesh, "y", 30, 10) for mesh in meshes]
 
 
@@ -113,7 +113,7 @@ def noise():
 
 def topology():
     points = clouds.torus(200000)
-    return [scene(neuralmesh.reconstruct(points, 2000, topology_learning=learnt), "z", 20, 40)
+    return [scene(neuralmesh.reconstruct(points, 2000, start="tetrahedron", topology_learning=learnt), "z", 20, 40)
             for learnt in (False, True)]
 
 
@@ -132,7 +132,7 @@ def ensemble():
     algorithm.SetInputData(cloud_data(points))
     algorithm.SetNumberOfVertices(5000)
     algorithm.Update()
-    member = neuralmesh.reconstruct(points, 2000)
+    member = neuralmesh.reconstruct(points, 2000, start="tetrahedron")
     return [scene(mesh, "y", 20, 30)
             for mesh in (member, algorithm.GetAverageMesh(), algorithm.GetOutput())]
 
@@ -144,8 +144,17 @@ def first_mesh():
             for mesh in (coarse, neuralmesh.reconstruct(points, 3000, first_mesh=coarse))]
 
 
+def openings():
+    points = clouds.sample(*bunny(), 200000)
+    seen = points[(points[:, 2] > np.median(points[:, 2])) & (np.linalg.norm(
+        points - points[7], axis=1) > 0.1 * np.linalg.norm(np.ptp(points, axis=0)))]
+    return [scene(cloud_data(seen), "y", 30, 10)] + [
+        scene(neuralmesh.reconstruct(seen, 5000, boundaries=boundaries), "y", 30, 10)
+        for boundaries in ("keep", "close")]
+
+
 PICTURES = {"growth": growth, "noise": noise, "topology": topology, "normals": normals,
-            "ensemble": ensemble, "first_mesh": first_mesh}
+            "ensemble": ensemble, "first_mesh": first_mesh, "openings": openings}
 
 
 def main():

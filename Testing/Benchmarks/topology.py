@@ -39,7 +39,7 @@ def make_clouds(folder):
 
 def learnt(command, cloud, mesh, options):
     """What came out, in words."""
-    subprocess.run([command, "reconstruct", cloud, mesh, "--quiet", "--vertices", str(VERTICES),
+    subprocess.run([command, "reconstruct", cloud, mesh, "--quiet", "--set", "Start=tetrahedron", "--vertices", str(VERTICES),
                     *options], check=True, stderr=subprocess.DEVNULL)
     report = json.loads(subprocess.run([command, "info", "--json", mesh], check=True,
                                        capture_output=True, text=True).stdout)

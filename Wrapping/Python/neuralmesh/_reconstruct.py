@@ -53,7 +53,7 @@ def reconstruct(
             "normal_based", dense where the surface bends. Names may be shortened.
         order: How it is known where to grow: "exact" by counters, or "list" by the activity list.
         preset: "default", what measures best; or "thesis", the values of the thesis.
-        first_mesh: Triangles to start from instead of a tetrahedron, in the coordinates of the
+        first_mesh: Triangles to start from, instead of what `start` says, in the coordinates of the
             points: an oriented 2-manifold, with or without boundary, whose topology the result then
             has. One of as many vertices as are asked for, or more, comes out as it is.
         ensemble: The number of members, from 1 to 255, to start from the average of so many coarse
