@@ -24,6 +24,9 @@ namespace
 {
 /// Tried until what is enclosed becomes less: then gaps between points are wider than what is closed.
 constexpr std::array<unsigned, 5> Resolutions{ 16, 24, 32, 48, 64 };
+/// A solid encloses something if so many of its voxels with points lie beside what is enclosed: of
+/// closed shapes, most; of open ones only those at chance pockets.
+constexpr double LeastEnclosingPart = 0.15;
 /// Tried where those do not agree.
 constexpr unsigned FinestResolution = 80;
 constexpr int SmoothingSteps = 4;
@@ -49,6 +52,7 @@ struct Candidate
   unsigned resolution;
   TriangleMesh surface;
   std::size_t interior;
+  double enclosingPart;
   std::size_t components;
   long genus;
 };
@@ -56,7 +60,8 @@ struct Candidate
 Candidate candidate(const PointCloud& cloud, unsigned resolution)
 {
   const OccupiedSolid solid = occupiedSolid(cloud, resolution);
-  Candidate result{ resolution, voxelSurface(solid.grid, solid.inside), solid.interiorCount, 0, 0 };
+  Candidate result{ resolution, voxelSurface(solid.grid, solid.inside), solid.interiorCount,
+    solid.enclosingPart, 0, 0 };
   DisjointSets sets(result.surface.points.size());
   result.components = result.surface.points.size();
   for (const auto& [a, b, c] : result.surface.triangles)
@@ -139,18 +144,22 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progres
       break;
     }
     Candidate next = candidate(cloud, resolution);
-    if (!candidates.empty() && next.interior < candidates.back().interior)
+    const bool isLeaky = !candidates.empty() && next.interior < candidates.back().interior;
+    if (next.enclosingPart >= LeastEnclosingPart && !isLeaky)
+    {
+      candidates.push_back(std::move(next));
+    }
+    else if (!candidates.empty())
     {
       break;
     }
-    candidates.push_back(std::move(next));
   }
-  if (candidates.empty() || candidates.back().interior == 0)
+  if (candidates.empty())
   {
     return {};
   }
   bool isCertain = candidates.size() > 1 && agree(candidates.back(), *(candidates.end() - 2));
-  if (!isCertain && candidates.size() == Resolutions.size())
+  if (!isCertain && candidates.back().resolution == Resolutions.back())
   {
     Candidate finest = candidate(cloud, FinestResolution);
     if (finest.interior > candidates.back().interior && agree(finest, candidates.back()))

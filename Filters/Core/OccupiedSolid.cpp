@@ -248,10 +248,21 @@ OccupiedSolid occupiedSolid(const PointCloud& cloud, unsigned resolution)
   grow(solid.grid, reached, 1);
   solid.inside = reached;
   fillEnclosed(solid.grid, solid.inside);
+  Voxels interior(reached.size());
   for (std::size_t i = 0; i < reached.size(); ++i)
   {
-    solid.interiorCount += solid.inside[i] - reached[i];
+    interior[i] = solid.inside[i] - reached[i];
+    solid.interiorCount += interior[i];
   }
+  // Points are a voxel away from it, as the closing reaches so far.
+  grow(solid.grid, interior, 1);
+  grow(solid.grid, interior, 1);
+  std::size_t enclosing = 0;
+  for (std::size_t i = 0; i < reached.size(); ++i)
+  {
+    enclosing += votes.votes[i] & interior[i];
+  }
+  solid.enclosingPart = double(enclosing) / double(std::max<std::size_t>(1, solid.occupiedCount));
   grow(solid.grid, solid.inside, 0);
   for (std::size_t i = 0; i < reached.size(); ++i)
   {

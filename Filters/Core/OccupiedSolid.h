@@ -16,6 +16,7 @@ struct OccupiedSolid
   std::vector<std::uint8_t> inside;
   std::size_t occupiedCount = 0; ///< voxels that hold points
   std::size_t interiorCount = 0; ///< voxels inside, farther from points than the closing reaches
+  double enclosingPart = 0.;     ///< of the occupied voxels, those beside the interior
 };
 
 /// Counts the points in voxels, `resolution` along the longest side of the bulk. A voxel is occupied
