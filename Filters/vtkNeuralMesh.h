@@ -153,7 +153,7 @@ public:
    * mesh has its own normals, so that the active normals are left out, as are ghost arrays, global
    * and pedigree ids, and, of composite datasets, what not all blocks with points have in the same
    * type and number of components. An array that is called `Normals`, `Activity` or
-   * `FeatureStrength` gets `_Input` behind its name. A run that is aborted carries nothing over.
+   * `FeatureStrength` gets `_Input` behind its name. An aborted run carries nothing over, or not all.
    * See Documentation/PointData.md.
    */
   vtkSetMacro(CarryPointData, vtkTypeBool);
