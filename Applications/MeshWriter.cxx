@@ -6,10 +6,12 @@
 #include "WholeFile.h"
 #include "WrittenMesh.h"
 
+#include "vtkDataArray.h"
 #include "vtkErrorCode.h"
 #include "vtkNew.h"
 #include "vtkOBJWriter.h"
 #include "vtkPLYWriter.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSTLWriter.h"
 #include "vtkXMLPolyDataWriter.h"
@@ -21,6 +23,19 @@
 
 namespace
 {
+/** Writes the active scalars if they are colours. */
+void SetColors(vtkPLYWriter* writer, vtkPolyData* mesh)
+{
+  vtkDataArray* scalars = mesh->GetPointData()->GetScalars();
+  const int components = scalars ? scalars->GetNumberOfComponents() : 0;
+  if (scalars && scalars->GetName() && scalars->GetDataType() == VTK_UNSIGNED_CHAR &&
+    (components == 3 || components == 4))
+  {
+    writer->SetArrayName(scalars->GetName());
+    writer->SetEnableAlpha(components == 4);
+  }
+}
+
 template <typename WriterT>
 void WriteWith(vtkPolyData* mesh, const std::string& path)
 {
@@ -30,6 +45,10 @@ void WriteWith(vtkPolyData* mesh, const std::string& path)
   if constexpr (std::is_same_v<WriterT, vtkSTLWriter>)
   {
     writer->SetFileTypeToBinary();
+  }
+  if constexpr (std::is_same_v<WriterT, vtkPLYWriter>)
+  {
+    SetColors(writer, mesh);
   }
   writer->SetFileName(path.c_str());
   writer->SetInputData(mesh);

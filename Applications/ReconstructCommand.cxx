@@ -27,6 +27,7 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <map>
@@ -54,6 +55,7 @@ struct Options
   int Boundaries = vtkNeuralMesh::KEEP;
   int Members = 0; ///< of an ensemble; 0 for none
   std::string Jump;
+  std::string Weights;
   bool Features = false;
   int Preset = vtkNeuralMesh::DEFAULT;
   std::vector<std::string> Assignments;
@@ -89,9 +91,14 @@ std::string Joined(const std::map<std::string, int>& choices)
   return names;
 }
 
+double FieldNumber(vtkPolyData* mesh, const char* name)
+{
+  return mesh->GetFieldData()->GetArray(name)->GetTuple1(0);
+}
+
 long long FieldValue(vtkPolyData* mesh, const char* name)
 {
-  return static_cast<long long>(mesh->GetFieldData()->GetArray(name)->GetTuple1(0));
+  return static_cast<long long>(FieldNumber(mesh, name));
 }
 
 /** The values of Jump by their names on the command line. */
@@ -153,6 +160,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
   filter->SetComputeFeatureStrength(options.Features);
   filter->SetPreset(options.Preset);
   filter->SetTimeLimit(options.TimeLimit);
+  filter->SetWeightArrayName(options.Weights.c_str());
   if (!options.Jump.empty())
   {
     SetJump(filter, options.Jump);
@@ -237,6 +245,36 @@ void PrintPhases(vtkNeuralMesh* filter)
     cloud + start + learning + finish, cloud, start, learning, finish);
 }
 
+std::string Counted(long long count, const std::string& one, const std::string& several)
+{
+  return count == 0 ? "no " + several : std::to_string(count) + " " + (count == 1 ? one : several);
+}
+
+/** What the mesh is worth, unless the run was aborted. */
+void PrintReport(vtkPolyData* mesh)
+{
+  if (!mesh->GetFieldData()->HasArray("Residual"))
+  {
+    return;
+  }
+  std::printf("residual   %.3g from held-out points to the mesh", FieldNumber(mesh, "Residual"));
+  if (const double noise = FieldNumber(mesh, "Noise"); std::isfinite(noise))
+  {
+    std::printf(", noise about %.3g", noise);
+  }
+  std::printf(", %.2g %% outliers\n", 100.0 * FieldNumber(mesh, "OutlierShare"));
+  const long long genus = FieldValue(mesh, "Genus");
+  std::printf("shape      %s, %s, %s, %s\n",
+    Counted(FieldValue(mesh, "Components"), "piece", "pieces").c_str(),
+    genus < 0 ? "genus not defined" : Counted(genus, "handle", "handles").c_str(),
+    Counted(FieldValue(mesh, "BoundaryLoops"), "boundary", "boundaries").c_str(),
+    Counted(FieldValue(mesh, "FoldedEdges"), "folded edge", "folded edges").c_str());
+  std::printf(
+    "quality    %.3f of the triangles on average (1: equilateral), %.0f %% of the vertices "
+    "regular\n",
+    FieldNumber(mesh, "TriangleQuality"), 100.0 * FieldNumber(mesh, "RegularRatio"));
+}
+
 int Reconstruct(const Options& options)
 {
   const vtkSmartPointer<vtkNeuralMesh> filter = MakeFilter(options);
@@ -289,6 +327,7 @@ int Reconstruct(const Options& options)
     PrintPhases(filter);
     std::printf("time       %.2f s (reading %.2f, learning %.2f, writing %.2f)\n",
       reading + learning + writing, reading, learning, writing);
+    PrintReport(mesh);
   }
   const bool isCancelled = std::string_view(filter->GetStopReason()) == "cancelled";
   return isCancelled ? InterruptedStatus : 0;
@@ -340,6 +379,10 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   AddChoice(command, "--order", options->Order,
     { { "exact", vtkNeuralMesh::EXACT }, { "list", vtkNeuralMesh::LIST } },
     "How it is known where to grow; exact (default): counters; list: the activity list");
+  command
+    ->add_option("--weights", options->Weights,
+      "Trust the points by this point array of INPUT: weights from 0 on, of which ratios count")
+    ->type_name("ARRAY");
   command
     ->add_option("--jump", options->Jump,
       "With --order list: how far winners jump; FRACTION of the vertices (default 0.3333) times 1 "

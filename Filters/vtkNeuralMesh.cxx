@@ -5,6 +5,7 @@
 #include "Reconstruction.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkPointCloudCollector.h"
+#include "vtkPointDataCarrier.h"
 #include "vtkTriangleMeshCollector.h"
 
 #include "vtkDoubleArray.h"
@@ -20,6 +21,9 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkNeuralMesh);
@@ -40,6 +44,9 @@ vtkStandardNewMacro(vtkNeuralMesh);
 
 namespace
 {
+/// Where point data begins to be carried over, as a fraction of the run.
+constexpr double EndOfMesh = 0.95;
+
 template <typename ArrayT, typename ValueT>
 void AddFieldValue(vtkPolyData* output, const char* name, ValueT value)
 {
@@ -47,6 +54,36 @@ void AddFieldValue(vtkPolyData* output, const char* name, ValueT value)
   array->SetName(name);
   array->InsertNextValue(value);
   output->GetFieldData()->AddArray(array);
+}
+
+/// What the mesh is worth, in units of the input, where a unit of the cloud is so long.
+void AddQuality(const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output)
+{
+  const auto addNumber = [output](const char* name, double value)
+  { AddFieldValue<vtkDoubleArray>(output, name, value); };
+  const auto addCount = [output](const char* name, auto count)
+  { AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count)); };
+  const neuralmesh::SurfaceReport& surface = result.quality->surface;
+  addNumber("Residual", result.quality->residual);
+  addNumber("Noise",
+    result.finish ? result.finish->noise * unit : std::numeric_limits<double>::quiet_NaN());
+  addNumber("OutlierShare", result.quality->outlierShare);
+  addNumber("RegularRatio", surface.regularRatio);
+  addNumber("TriangleQuality", surface.meanQuality);
+  addCount("Components", surface.components);
+  addCount("Genus", surface.genus.value_or(-1));
+  addCount("BoundaryLoops", surface.boundaryLoops);
+  addCount("FoldedEdges", surface.foldedEdges);
+}
+
+/// The input may bring the report on an earlier mesh along.
+void RemoveQuality(vtkPolyData* output)
+{
+  for (const char* name : { "Residual", "Noise", "OutlierShare", "RegularRatio", "TriangleQuality",
+         "Components", "Genus", "BoundaryLoops", "FoldedEdges" })
+  {
+    output->GetFieldData()->RemoveArray(name);
+  }
 }
 
 /// A column of the table, with a value of each row.
@@ -165,6 +202,69 @@ vtkTable* vtkNeuralMesh::GetLearningCurve()
   return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
 }
 
+vtkInformation* vtkNeuralMesh::GetWeightArrayInformation()
+{
+  vtkInformationVector* arrays = this->GetInformation()->Get(INPUT_ARRAYS_TO_PROCESS());
+  return arrays ? arrays->GetInformationObject(0) : nullptr;
+}
+
+const char* vtkNeuralMesh::GetWeightArrayName()
+{
+  vtkInformation* array = this->GetWeightArrayInformation();
+  return array ? array->Get(vtkDataObject::FIELD_NAME()) : nullptr;
+}
+
+void vtkNeuralMesh::SetWeightArrayName(const char* name)
+{
+  if (name && *name)
+  {
+    this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
+  }
+  else if (this->GetWeightArrayInformation())
+  {
+    this->GetInformation()->Remove(INPUT_ARRAYS_TO_PROCESS());
+    this->Modified();
+  }
+}
+
+/// Those of the points that were collected; none if all weigh alike. Returns false on an error.
+bool vtkNeuralMesh::CollectWeights(
+  const vtkPointCloudCollector& collector, std::vector<double>& weights)
+{
+  if (!this->GetWeightArrayInformation())
+  {
+    return true;
+  }
+  const std::size_t count = collector.GetPoints().size();
+  weights.reserve(count);
+  for (const auto& leaf : collector.GetLeaves())
+  {
+    vtkDataArray* array = this->GetInputArrayToProcess(0, leaf.PointSet);
+    if (!array || array->GetNumberOfComponents() != 1 ||
+      array->GetNumberOfTuples() != leaf.PointSet->GetNumberOfPoints())
+    {
+      const char* name = this->GetWeightArrayName();
+      vtkErrorMacro(<< "There is no numeric point array of one component "
+                    << (name ? "called " : "") << (name ? name : "") << " for the weights.");
+      return false;
+    }
+    const std::size_t end = leaf.Begin +
+      (leaf.Kept.empty() ? static_cast<std::size_t>(leaf.PointSet->GetNumberOfPoints())
+                         : leaf.Kept.size());
+    for (std::size_t point = leaf.Begin; point < end; ++point)
+    {
+      weights.push_back(array->GetComponent(leaf.IdOf(point), 0));
+    }
+  }
+  if (std::none_of(weights.begin(), weights.end(),
+        [](double weight) { return weight > 0.0 && std::isfinite(weight); }))
+  {
+    vtkErrorMacro(<< "No weight is positive.");
+    return false;
+  }
+  return true;
+}
+
 int vtkNeuralMesh::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -188,10 +288,22 @@ int vtkNeuralMesh::RequestData(
     FillLearningCurve({}, learningCurve);
     return 1;
   }
+  std::vector<double> weights;
+  if (!this->CollectWeights(collector, weights))
+  {
+    return 0;
+  }
+  std::optional<vtkPointDataCarrier> carrier;
+  if (this->CarryPointData)
+  {
+    carrier.emplace(collector);
+  }
+  const bool carries = carrier && carrier->HasArrays();
   const double cloudBegin = neuralmesh::cpuSeconds();
-  const neuralmesh::PointCloud cloud(collector.GetPoints());
+  const neuralmesh::PointCloud cloud(collector.GetPoints(), weights, carries);
   this->CloudTime = neuralmesh::cpuSeconds() - cloudBegin;
   collector.ReleasePoints();
+  std::vector<double>().swap(weights);
   if (!cloud.hasExtent())
   {
     vtkErrorMacro(<< (cloud.points().empty() ? "No point of the input is finite."
@@ -229,9 +341,11 @@ int vtkNeuralMesh::RequestData(
                     << " vertices, more than " << this->NumberOfVertices
                     << ": it comes out as it is.");
   }
+  const neuralmesh::Progress progress = [&run](double fraction)
+  { return run.Progress.Report(fraction); };
+  const double endOfMesh = carries ? EndOfMesh : 1.0;
   const neuralmesh::Reconstruction result = neuralmesh::reconstruct(
-    cloud, run.Parameters, [&run](double fraction) { return run.Progress.Report(fraction); },
-    run.FirstMesh);
+    cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, endOfMesh), run.FirstMesh);
   this->StopReason = neuralmesh::name(result.stopReason).data();
   this->StartTime = result.startSeconds;
   this->LearningTime = result.learningSeconds;
@@ -254,6 +368,15 @@ int vtkNeuralMesh::RequestData(
     output->GetPointData()->AddArray(MakeNumbers("FeatureStrength", result.featureStrengths));
   }
 
+  if (carries && result.stopReason != neuralmesh::StopReason::Cancelled)
+  {
+    const neuralmesh::Progress carrying = neuralmesh::partOf(progress, endOfMesh, 1.0);
+    const neuralmesh::CloudPlaces places(
+      cloud, result.surface, neuralmesh::partOf(carrying, 0.0, 0.5));
+    carrier->Carry(places, output->GetPointData(), neuralmesh::partOf(carrying, 0.5, 1.0));
+    this->AbortExecute = 0;
+  }
+
   AddFieldValue<vtkIdTypeArray>(output, "NumberOfVertices", output->GetNumberOfPoints());
   AddFieldValue<vtkIdTypeArray>(
     output, "Iterations", static_cast<vtkIdType>(result.counts.iterations));
@@ -261,6 +384,11 @@ int vtkNeuralMesh::RequestData(
   AddFieldValue<vtkStringArray>(output, "StopReason", this->StopReason);
   AddFieldValue<vtkIdTypeArray>(
     output, "DroppedPoints", static_cast<vtkIdType>(cloud.droppedCount()));
+  RemoveQuality(output);
+  if (result.quality)
+  {
+    AddQuality(result, cloud.unit(), output);
+  }
   return 1;
 }
 
@@ -280,6 +408,9 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << #property ": " << this->property << "\n";
   NEURAL_MESH_FOR_EACH_PARAMETER(PRINT_PROPERTY)
 #undef PRINT_PROPERTY
+  os << indent << "CarryPointData: " << this->CarryPointData << "\n";
+  const char* weights = this->GetWeightArrayName();
+  os << indent << "WeightArrayName: " << (weights ? weights : "(none)") << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "StopReason: " << this->StopReason << "\n";
   os << indent << "CloudTime: " << this->CloudTime << "\n";

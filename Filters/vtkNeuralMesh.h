@@ -14,8 +14,8 @@
  * The time grows as n log n with the number n of vertices, and hardly with the number of points.
  *
  * @par Input
- * Any vtkPointSet, of which only the points count, or a composite dataset, of which all point sets
- * are taken as one cloud (other leaves are left out with a warning). Ghost points and blanked
+ * Any vtkPointSet, of which points and point data count, or a composite dataset, of which all point
+ * sets are taken as one cloud (other leaves are left out with a warning). Ghost points and blanked
  * points are skipped. Points with NaN or infinity, and those farther than 10^6 times the size of
  * the cloud's bulk from it, are dropped and counted. Duplicates do no harm. Coordinates may be
  * large against the extent (UTM, say): the filter computes in coordinates of its own.
@@ -33,10 +33,24 @@
  *   of average change; with the activity list, the place of the vertex in it, above 0 (laziest) up
  *   to 1;
  * - `FeatureStrength` (double), if ComputeFeatureStrength is on: about 0 where the surface is flat,
- *   up to GainLimit at edges and corners.
+ *   up to GainLimit at edges and corners;
+ * - the arrays of the input, see CarryPointData.
  *
  * Field data, one value each: `NumberOfVertices`, `Iterations` (samples drawn), `Seed`,
- * `StopReason` (a string: see GetStopReason()), `DroppedPoints`.
+ * `StopReason` (a string: see GetStopReason()), `DroppedPoints`. And unless the run was aborted, a
+ * report on the quality of the mesh. How it stands for the cloud (double):
+ * - `Residual`: distance to the mesh of a twentieth of the points, which the fit did not see,
+ *   without outliers: root of the mean square, in units of the input;
+ * - `Noise`: what the fit holds the standard deviation of the points across the surface to be, in
+ *   units of the input; NaN without a finished fit;
+ * - `OutlierShare`: part of these points that are outliers, farther from the mesh than five times
+ *   the median and than half a mean edge; 0 to 1.
+ *
+ * What it is by itself: `RegularRatio` (of vertices with valence 6, on a boundary 4), from 0 to 1,
+ * and `TriangleQuality` (mean of twice the radius of the inscribed over that of the circumscribed
+ * circle, 1 for equilateral triangles), both double; and the integers `Components`, `Genus`
+ * (handles; -1 where it is not defined), `BoundaryLoops` and `FoldedEdges` (whose triangles turn by
+ * more than 150 degrees).
  *
  * Output port 1 is a vtkTable, the learning curve: a row for every twentieth more samples and one
  * for the end, with the columns `Iteration`, `Vertices`, `Seconds` (since the start of learning),
@@ -84,6 +98,9 @@
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
 #include "vtkNeuralMeshAlgorithm.h"
 
+#include <vector>
+
+class vtkPointCloudCollector;
 class vtkTable;
 struct vtkNeuralMeshRun;
 
@@ -120,6 +137,43 @@ public:
   void SetFirstMeshConnection(vtkAlgorithmOutput* port);
   void SetFirstMeshData(vtkPolyData* mesh);
   vtkPolyData* GetFirstMesh();
+  ///@}
+
+  ///@{
+  /**
+   * Whether the point data of the input arrives on the mesh, each array with its name, its
+   * component names and its type. Default on. Takes no time where there are no arrays.
+   * - float and double, and unsigned char of 3 or 4 components (colours): a least-squares fit,
+   *   which averages noise out and stays within the range of the values. Points with a value that
+   *   is not finite are left out; NaN where no others are near.
+   * - All other numbers, strings and variants: the most frequent tuple among the points on the
+   *   triangles of a vertex; of equally frequent ones that of the first point.
+   *
+   * Outliers do not count; weights do. The active scalars of the input are those of the output. The
+   * mesh has its own normals, so that the active normals are left out, as are ghost arrays, global
+   * and pedigree ids, and, of composite datasets, what not all blocks with points have in the same
+   * type and number of components. An array that is called `Normals`, `Activity` or
+   * `FeatureStrength` gets `_Input` behind its name. An aborted run carries nothing over, or not all.
+   * See Documentation/PointData.md.
+   */
+  vtkSetMacro(CarryPointData, vtkTypeBool);
+  vtkGetMacro(CarryPointData, vtkTypeBool);
+  vtkBooleanMacro(CarryPointData, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * The point array of weights, of any numeric type and one component: how much the points are
+   * trusted. A point is drawn with a probability proportional to its weight, and weighs so much in
+   * the fit and where point data is carried over. Only ratios count. Points whose weight is
+   * negative, 0, NaN or infinite are as if they were not there, and are not among DroppedPoints. It
+   * is an error if no weight is positive, or if there is no such array in all blocks with points.
+   * Default none (null; an empty name is as null): all points weigh alike.
+   * The same as SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name),
+   * which may be used instead, with an attribute, too.
+   */
+  void SetWeightArrayName(const char* name);
+  const char* GetWeightArrayName();
   ///@}
 
   ///@{
@@ -246,9 +300,13 @@ protected:
     vtkNeuralMeshRun& run, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
 private:
+  bool CollectWeights(const vtkPointCloudCollector& collector, std::vector<double>& weights);
+  vtkInformation* GetWeightArrayInformation();
+
   vtkNeuralMesh(const vtkNeuralMesh&) = delete;
   void operator=(const vtkNeuralMesh&) = delete;
 
+  vtkTypeBool CarryPointData = 1;
   vtkIdType NumberOfVertices = 20000;
   int Seed = 1;
   vtkIdType MaximumIterations = 0;

@@ -13,6 +13,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
+#include <utility>
+
 void vtkPointCloudCollector::Collect(vtkDataObject* data)
 {
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
@@ -47,6 +50,7 @@ void vtkPointCloudCollector::CollectPointSet(vtkPointSet* pointSet)
   constexpr unsigned char skipped =
     vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
 
+  Leaf leaf{ pointSet, this->Points.size(), {} };
   this->Points.reserve(
     this->Points.size() + static_cast<std::size_t>(coordinates->GetNumberOfTuples()));
   const auto append = [&](const auto& range)
@@ -57,6 +61,10 @@ void vtkPointCloudCollector::CollectPointSet(vtkPointSet* pointSet)
       if (!ghosts || (ghosts->GetValue(i) & skipped) == 0)
       {
         this->Points.emplace_back(point[0], point[1], point[2]);
+        if (ghosts)
+        {
+          leaf.Kept.push_back(i);
+        }
       }
       ++i;
     }
@@ -73,4 +81,15 @@ void vtkPointCloudCollector::CollectPointSet(vtkPointSet* pointSet)
   {
     append(vtk::DataArrayTupleRange<3>(coordinates));
   }
+  if (this->Points.size() > leaf.Begin)
+  {
+    this->Leaves.push_back(std::move(leaf));
+  }
+}
+
+const vtkPointCloudCollector::Leaf& vtkPointCloudCollector::GetLeafOf(std::size_t point) const
+{
+  const auto next = std::upper_bound(this->Leaves.begin(), this->Leaves.end(), point,
+    [](std::size_t index, const Leaf& leaf) { return index < leaf.Begin; });
+  return *(next - 1);
 }

@@ -10,6 +10,8 @@
 #ifndef vtkPointCloudCollector_h
 #define vtkPointCloudCollector_h
 
+#include "vtkType.h"
+
 #include <Eigen/Core>
 
 #include <vector>
@@ -20,11 +22,30 @@ class vtkPointSet;
 class vtkPointCloudCollector
 {
 public:
+  /** Where points come from: those of a leaf stand one behind the other. */
+  struct Leaf
+  {
+    vtkPointSet* PointSet;
+    std::size_t Begin;           ///< in the array of all points
+    std::vector<vtkIdType> Kept; ///< ids in the point set; empty if all were taken
+
+    vtkIdType IdOf(std::size_t point) const
+    {
+      const std::size_t place = point - this->Begin;
+      return this->Kept.empty() ? static_cast<vtkIdType>(place) : this->Kept[place];
+    }
+  };
+
   /** Adds the points of `data`. */
   void Collect(vtkDataObject* data);
 
   const std::vector<Eigen::Vector3d>& GetPoints() const { return this->Points; }
   void ReleasePoints() { std::vector<Eigen::Vector3d>().swap(this->Points); }
+
+  /** Those with points. They belong to the input. */
+  const std::vector<Leaf>& GetLeaves() const { return this->Leaves; }
+  /** The leaf that a point comes from. */
+  const Leaf& GetLeafOf(std::size_t point) const;
 
   /** Whether any of the points came in double precision. */
   bool HasDoublePoints() const { return this->DoublePoints; }
@@ -35,6 +56,7 @@ private:
   void CollectPointSet(vtkPointSet* pointSet);
 
   std::vector<Eigen::Vector3d> Points;
+  std::vector<Leaf> Leaves;
   bool DoublePoints = false;
   int NumberOfOtherLeaves = 0;
 };

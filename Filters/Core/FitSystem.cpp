@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FitSystem.h"
 
+#include "UmbrellaLaplacian.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -62,21 +64,7 @@ void FitSystem::add(const PlaceOnMesh& place, Vector4 sample, Vector4 normal, fl
 
 void FitSystem::applyLaplacian(std::span<const Vector4> x, std::span<Vector4> result) const
 {
-  for (VertexIndex v = 0; v < x.size(); ++v)
-  {
-    const Ring& ring = this->mesh_.ring(v);
-    if (ring.isOpen())
-    {
-      result[v] = 0.5f * (x[ring.front()] + x[ring.back()]) - x[v];
-      continue;
-    }
-    Vector4 sum;
-    for (const VertexIndex neighbor : ring)
-    {
-      sum += x[neighbor];
-    }
-    result[v] = 1.f / float(ring.size()) * sum - x[v];
-  }
+  applyUmbrella<float>(this->mesh_, x, result);
 }
 
 void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vector4> laplacian,
@@ -92,15 +80,7 @@ void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vecto
     {
       const VertexIndex neighbor = ring[slot];
       sum += this->others_[this->rowBegin_[v] + slot] * x[neighbor];
-      const Ring& other = this->mesh_.ring(neighbor);
-      if (!other.isOpen())
-      {
-        sum += smooth / float(other.size()) * laplacian[neighbor];
-      }
-      else if (other.front() == v || other.back() == v)
-      {
-        sum += 0.5f * smooth * laplacian[neighbor];
-      }
+      sum += smooth * umbrellaWeight<float>(this->mesh_.ring(neighbor), v) * laplacian[neighbor];
     }
     result[v] = sum;
   }
@@ -114,8 +94,8 @@ std::vector<Vector4> FitSystem::inverseDiagonal(double lambda) const
     float squares = 1.f;
     for (const VertexIndex neighbor : this->mesh_.ring(v))
     {
-      const auto valence = float(this->mesh_.valence(neighbor));
-      squares += 1.f / (valence * valence);
+      const auto weight = umbrellaWeight<float>(this->mesh_.ring(neighbor), v);
+      squares += weight * weight;
     }
     const float smooth = float(lambda) * squares;
     const Vector4 data = this->diagonal_[v].diagonal;

@@ -103,7 +103,7 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mes
   : parameters_(parameters)
   , mesh_(std::move(mesh))
   , order_(std::move(order))
-  , samples_(cloud.points(), parameters.seed)
+  , samples_(cloud.points(), parameters.seed, cloud.weights())
   , sampleDistances_(std::size_t(parameters.noiseWindow))
   , boxMin_(cloud.bulkMin())
   , boxMax_(cloud.bulkMax())

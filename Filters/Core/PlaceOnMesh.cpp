@@ -2,6 +2,7 @@
 #include "PlaceOnMesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace neuralmesh
@@ -131,6 +132,39 @@ PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near)
       return closestPlaceAt(point, mesh, near);
     }
   }
+}
+
+double meanEdge(const Mesh& mesh)
+{
+  double sum = 0.;
+  std::size_t count = 0;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    for (const VertexIndex neighbor : mesh.ring(v))
+    {
+      sum += std::sqrt(double(squaredNorm(mesh.position(neighbor) - mesh.position(v))));
+      ++count;
+    }
+  }
+  return sum / double(count);
+}
+
+VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud)
+{
+  constexpr float EdgesPerCell = 2.f;
+  // Of a cloud of few different points the mesh is a few clumps: then cells are as wide as this part
+  // of the edges of vertices spread over the box.
+  constexpr float LeastPartOfSpread = 0.25f;
+  const Vector4 size = cloud.bulkMax() - cloud.bulkMin();
+  const float spread = std::sqrt(squaredNorm(size) / float(mesh.indexEnd()));
+  VertexGrid grid;
+  grid.reset(cloud.bulkMin(), cloud.bulkMax(),
+    EdgesPerCell * std::max(float(meanEdge(mesh)), LeastPartOfSpread * spread), mesh.indexEnd());
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    grid.insert(v, mesh.position(v));
+  }
+  return grid;
 }
 
 bool isOnBoundary(const PlaceOnMesh& place, const Mesh& mesh)

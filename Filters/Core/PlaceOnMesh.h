@@ -2,7 +2,10 @@
 #pragma once
 
 #include "Mesh.h"
+#include "PointCloud.h"
 #include "VertexGrid.h"
+
+#include <algorithm>
 
 namespace neuralmesh
 {
@@ -23,6 +26,20 @@ PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near);
 
 /// Whether the place lies on the boundary.
 bool isOnBoundary(const PlaceOnMesh& place, const Mesh& mesh);
+
+/// Mean length of the edges.
+double meanEdge(const Mesh& mesh);
+
+/// All vertices, for closestPlace(), in a grid over the bulk of the cloud.
+VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud);
+
+/// Points farther from the mesh than five median distances are outliers, but none closer than so
+/// many mean edges: without noise the median tells nothing of where the mesh does not fit (yet).
+inline float outlierDistance(float medianDistance, double meanEdge, float edges = 0.5f)
+{
+  constexpr float Medians = 5.f;
+  return std::max(edges * float(meanEdge), Medians * medianDistance);
+}
 
 /// The point at a place, by the positions of the vertices.
 inline Vector4 pointAt(const PlaceOnMesh& place, std::span<const Vector4> positions)

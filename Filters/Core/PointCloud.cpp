@@ -4,6 +4,8 @@
 #include "Morton.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -30,13 +32,31 @@ Eigen::AlignedBox3d bulkOf(std::span<const Eigen::Vector3d> points)
 }
 }
 
-PointCloud::PointCloud(std::span<const Eigen::Vector3d> points)
+PointCloud::PointCloud(
+  std::span<const Eigen::Vector3d> points, std::span<const double> weights, bool keepsOrigins)
 {
+  const bool tracksOrigins = keepsOrigins || !weights.empty();
   std::vector<Eigen::Vector3d> finite;
+  std::vector<std::uint32_t> origins; // of these
   finite.reserve(points.size());
-  std::copy_if(points.begin(), points.end(), std::back_inserter(finite),
-    [](const Eigen::Vector3d& point) { return point.allFinite(); });
-  this->droppedCount_ = points.size() - finite.size();
+  origins.reserve(tracksOrigins ? points.size() : 0);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (!weights.empty() && !(weights[i] > 0. && std::isfinite(weights[i])))
+    {
+      continue;
+    }
+    if (!points[i].allFinite())
+    {
+      ++this->droppedCount_;
+      continue;
+    }
+    finite.push_back(points[i]);
+    if (tracksOrigins)
+    {
+      origins.push_back(std::uint32_t(i));
+    }
+  }
   if (finite.empty())
   {
     return;
@@ -58,11 +78,15 @@ PointCloud::PointCloud(std::span<const Eigen::Vector3d> points)
   std::vector<Vector4> scaled;
   scaled.reserve(finite.size());
   Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& point : finite)
+  for (std::size_t i = 0; i < finite.size(); ++i)
   {
-    if (this->takesIn(point))
+    if (this->takesIn(finite[i]))
     {
-      const Eigen::Vector3d p = (point - this->center_) / this->size_;
+      const Eigen::Vector3d p = (finite[i] - this->center_) / this->size_;
+      if (tracksOrigins)
+      {
+        origins[scaled.size()] = origins[i];
+      }
       scaled.emplace_back(p);
       box.extend(p);
     }
@@ -77,10 +101,45 @@ PointCloud::PointCloud(std::span<const Eigen::Vector3d> points)
   this->bulkMin_ = Vector4(enlarged.min());
   this->bulkMax_ = Vector4(enlarged.max());
 
-  this->points_.reserve(scaled.size());
-  for (const std::uint32_t i : mortonOrder(scaled, this->bulkMin_, this->bulkMax_))
+  origins.resize(tracksOrigins ? scaled.size() : 0);
+  this->sort(scaled, std::move(origins), weights, keepsOrigins);
+}
+
+void PointCloud::sort(const std::vector<Vector4>& points, std::vector<std::uint32_t> origins,
+  std::span<const double> weights, bool keepsOrigins)
+{
+  const std::vector<std::uint32_t> order = mortonOrder(points, this->bulkMin_, this->bulkMax_);
+  this->points_.reserve(points.size());
+  for (const std::uint32_t i : order)
   {
-    this->points_.push_back(scaled[i]);
+    this->points_.push_back(points[i]);
+  }
+  if (!weights.empty())
+  {
+    // Divided by the largest first, as their sum may be beyond all numbers.
+    double largest = 0., sum = 0.;
+    for (const std::uint32_t origin : origins)
+    {
+      largest = std::max(largest, weights[origin]);
+    }
+    for (const std::uint32_t origin : origins)
+    {
+      sum += weights[origin] / largest;
+    }
+    const double mean = sum / double(origins.size());
+    this->weights_.reserve(order.size());
+    for (const std::uint32_t i : order)
+    {
+      this->weights_.push_back(float(weights[origins[i]] / largest / mean));
+    }
+  }
+  if (keepsOrigins)
+  {
+    this->origins_.reserve(order.size());
+    for (const std::uint32_t i : order)
+    {
+      this->origins_.push_back(origins[i]);
+    }
   }
 }
 }

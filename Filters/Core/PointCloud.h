@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -22,9 +23,20 @@ public:
   /// arithmetic could take both in.
   static constexpr double FarthestPoint = 1e6;
 
-  explicit PointCloud(std::span<const Eigen::Vector3d> points);
+  /// `weights` are those of the points, or none: then all weigh alike. Points whose weight is no
+  /// finite number above 0 are not there. With `keepsOrigins` the cloud knows origins().
+  explicit PointCloud(std::span<const Eigen::Vector3d> points, std::span<const double> weights = {},
+    bool keepsOrigins = false);
 
   std::span<const Vector4> points() const { return this->points_; }
+  /// Of the points, 1 on average; empty if all weigh alike.
+  std::span<const float> weights() const { return this->weights_; }
+  float weight(std::size_t point) const
+  {
+    return this->weights_.empty() ? 1.f : this->weights_[point];
+  }
+  /// For each point, its index in the input; empty unless it was asked for.
+  std::span<const std::uint32_t> origins() const { return this->origins_; }
   std::size_t droppedCount() const { return this->droppedCount_; }
   /// Whether there are two points apart from each other.
   bool hasExtent() const { return this->diagonal_ > 0.; }
@@ -53,7 +65,12 @@ public:
   double unit() const { return this->size_; }
 
 private:
+  void sort(const std::vector<Vector4>& points, std::vector<std::uint32_t> origins,
+    std::span<const double> weights, bool keepsOrigins);
+
   LargeVector<Vector4> points_;
+  std::vector<float> weights_;
+  std::vector<std::uint32_t> origins_;
   std::size_t droppedCount_ = 0;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double size_ = 1.;

@@ -124,6 +124,11 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
       result.featureStrengths.push_back(double((*learner.featureStrength())[learnt]));
     }
   }
+  if (result.stopReason != StopReason::Cancelled)
+  {
+    result.quality = measureQuality(cloud, mesh, result.mesh);
+  }
+  result.surface = std::move(mesh);
   result.startSeconds = learningBegin - begin;
   result.learningSeconds = learningEnd - learningBegin;
   result.finishSeconds = cpuSeconds() - learningEnd;

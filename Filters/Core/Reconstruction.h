@@ -3,6 +3,7 @@
 
 #include "Finish.h"
 #include "LearningCurve.h"
+#include "MeshQuality.h"
 #include "Progress.h"
 #include "StoppingRules.h"
 #include "TriangleMesh.h"
@@ -16,6 +17,7 @@ namespace neuralmesh
 struct Reconstruction
 {
   TriangleMesh mesh;
+  Mesh surface; ///< the same mesh, in the coordinates of the cloud
   std::vector<Eigen::Vector3d> normals;
   std::vector<double> activities;
   std::vector<double> featureStrengths; ///< empty unless they were asked for
@@ -24,6 +26,8 @@ struct Reconstruction
   StopReason stopReason = StopReason::None;
   /// Nothing if the mesh was not finished.
   std::optional<FinishReport> finish;
+  /// Nothing if the run was cancelled.
+  std::optional<MeshQuality> quality;
   // CPU seconds of the process
   double startSeconds = 0.;
   double learningSeconds = 0.;

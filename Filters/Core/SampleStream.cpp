@@ -19,7 +19,8 @@ std::span<const Vector4> SampleStream::draw(std::size_t count)
   { return std::size_t(std::uint64_t(point) * bucketCount / pointCount); };
   for (std::uint32_t& point : this->drawn_)
   {
-    point = this->random_.below(pointCount);
+    point = this->weighted_.isEmpty() ? this->random_.below(pointCount)
+                                      : this->weighted_.draw(this->random_);
     ++this->bucketBegin_[bucketOf(point) + 1];
   }
   for (std::size_t bucket = 1; bucket <= bucketCount; ++bucket)

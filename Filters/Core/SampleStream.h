@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "AliasTable.h"
 #include "PointCloud.h"
 #include "Random.h"
 
@@ -9,15 +10,19 @@
 
 namespace neuralmesh
 {
-/// The samples: points of the cloud, drawn uniformly at random with replacement, in batches. A
-/// batch comes roughly in Morton order, so that one sample finds in the cache what the one before
-/// it has used; which samples it holds depends on the seed alone.
+/// The samples: points of the cloud, drawn at random with replacement, in batches: all alike, or
+/// with probabilities proportional to their weights. A batch comes roughly in Morton order, so that
+/// one sample finds in the cache what the one before it has used; which samples it holds depends on
+/// the seed alone.
 class SampleStream
 {
 public:
-  SampleStream(std::span<const Vector4> points, std::uint64_t seed)
+  /// `weights` are those of the points, or none.
+  SampleStream(
+    std::span<const Vector4> points, std::uint64_t seed, std::span<const float> weights = {})
     : points_(points)
     , random_(seed)
+    , weighted_(weights)
   {
   }
 
@@ -27,6 +32,7 @@ public:
 private:
   std::span<const Vector4> points_;
   Random random_;
+  AliasTable weighted_; ///< empty if all points are drawn alike
   std::vector<std::uint32_t> drawn_;
   std::vector<std::uint32_t> bucketBegin_;
   std::vector<Vector4> batch_;

@@ -12,15 +12,9 @@ namespace
 {
 /// What a distance along the surface counts, against one across it.
 constexpr double Slip = 0.01;
-/// Samples farther than so many median distances are outliers, but none closer than so many mean
-/// edges: without noise the median tells nothing of where the mesh does not fit yet.
-constexpr float OutlierMedians = 5.f;
+/// In the first round samples are no outliers up to so many edges: the mesh does not fit yet.
 constexpr float FirstOutlierEdges = 1.f;
 constexpr float LaterOutlierEdges = 0.5f;
-constexpr float EdgesPerCell = 2.f;
-/// ... or of the edges of vertices spread over the box: of a cloud of few different points the mesh
-/// is a few clumps.
-constexpr float LeastPartOfSpread = 0.25f;
 constexpr std::size_t SamplesPerCheck = 16384;
 /// Of the residual of the equations, against that at the start.
 constexpr double Tolerance = 3e-3;
@@ -49,47 +43,27 @@ SurfaceFit::SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCo
   : cloud_(cloud)
   , mesh_(mesh)
 {
-  const std::size_t points = cloud.points().size();
-  const std::size_t count = std::min(points, sampleCount);
+  const std::size_t all = cloud.points().size();
+  const std::size_t fitted = all - all / HeldOutStride;
+  const std::size_t count = std::min(fitted, sampleCount);
   this->samples_.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
   {
-    this->samples_.push_back(cloud.points()[i * points / count]);
+    const std::size_t chosen = i * fitted / count;
+    // One is passed over behind each group of those that are fitted.
+    const std::size_t point = chosen + chosen / (HeldOutStride - 1);
+    this->samples_.push_back(cloud.points()[point]);
+    if (!cloud.weights().empty())
+    {
+      this->weights_.push_back(cloud.weights()[point]);
+    }
   }
   this->places_.resize(count);
 }
 
-double SurfaceFit::meanEdge() const
-{
-  double sum = 0.;
-  std::size_t count = 0;
-  for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
-  {
-    for (const VertexIndex neighbor : this->mesh_.ring(v))
-    {
-      sum +=
-        std::sqrt(double(squaredNorm(this->mesh_.position(neighbor) - this->mesh_.position(v))));
-      ++count;
-    }
-  }
-  return sum / double(count);
-}
-
 bool SurfaceFit::findPlaces(const Progress& progress)
 {
-  const auto meanEdge = float(this->meanEdge());
-  VertexGrid grid;
-  if (!this->hasPlaces_)
-  {
-    const Vector4 size = this->cloud_.bulkMax() - this->cloud_.bulkMin();
-    const float spread = std::sqrt(squaredNorm(size) / float(this->mesh_.indexEnd()));
-    grid.reset(this->cloud_.bulkMin(), this->cloud_.bulkMax(),
-      EdgesPerCell * std::max(meanEdge, LeastPartOfSpread * spread), this->mesh_.indexEnd());
-    for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
-    {
-      grid.insert(v, this->mesh_.position(v));
-    }
-  }
+  const VertexGrid grid = this->hasPlaces_ ? VertexGrid() : gridOf(this->mesh_, this->cloud_);
   std::vector<float> distances(this->samples_.size());
   for (std::size_t i = 0; i < this->samples_.size(); ++i)
   {
@@ -107,7 +81,8 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   const auto median = distances.begin() + std::ptrdiff_t(distances.size() / 2);
   std::nth_element(distances.begin(), median, distances.end());
   this->medianDistance_ = std::sqrt(*median);
-  this->outlierDistance_ = std::max(edges * meanEdge, OutlierMedians * this->medianDistance_);
+  this->outlierDistance_ =
+    neuralmesh::outlierDistance(this->medianDistance_, meanEdge(this->mesh_), edges);
   this->fillSystem();
   return true;
 }
@@ -125,7 +100,7 @@ void SurfaceFit::fillSystem()
       // Beyond a boundary the distance along the surface counts in full: there is no other place.
       const Vector4 normal =
         isOnBoundary(place, this->mesh_) ? Vector4() : normalAt(place, this->mesh_.positions());
-      this->system_->add(place, this->samples_[i], normal, 1.f);
+      this->system_->add(place, this->samples_[i], normal, this->weight(i));
       ++this->usedCount_;
     }
   }
@@ -195,7 +170,8 @@ double SurfaceFit::residualVariance(std::span<const Vector4> positions, double l
       const Vector4 offset = this->samples_[i] - positions[place.triangle[0]];
       const float across = dot(offset, normal);
       const float squared = squaredNorm(normal);
-      sum += squared > 0.f ? double(across * across / squared) : double(squaredNorm(offset));
+      sum += double(this->weight(i)) *
+        (squared > 0.f ? double(across * across / squared) : double(squaredNorm(offset)));
     }
   }
   // Vertices follow noise, the less the smoother they are held: so many of them do (a curve through

@@ -13,19 +13,24 @@
 
 namespace neuralmesh
 {
+/// Of so many points in the order of the cloud, the fit leaves out the last: they tell how well it
+/// went.
+constexpr std::size_t HeldOutStride = 20;
+
 /// Moves all vertices of a mesh to where the surface is closest to its cloud: to the positions x
 /// that minimise
 ///
 ///   sum over samples p of w_p |p - b_p x|^2  +  lambda sum over vertices |L x|^2
 ///
-/// where b_p x is the place on the mesh that is closest to p, w_p is 0 for outliers, and L is the
-/// umbrella Laplacian. A distance along the surface counts little, as another place is then closer.
-/// Places change with the positions, so that it takes rounds of finding places and solving for
-/// positions. The topology stays as it is.
+/// where b_p x is the place on the mesh that is closest to p, w_p is the weight of the point (0 for
+/// outliers), and L is the umbrella Laplacian. A distance along the surface counts little, as another
+/// place is then closer. Places change with the positions, so that it takes rounds of finding places
+/// and solving for positions. The topology stays as it is.
 class SurfaceFit
 {
 public:
-  /// Takes so many points of the cloud, evenly picked, as samples. No vertex may be erased.
+  /// Takes so many points of the cloud, evenly picked but for those held out, as samples. No vertex
+  /// may be erased.
   SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount);
 
   /// Finds the places of the samples on the mesh as it is now. Returns false if it was ended before.
@@ -57,8 +62,11 @@ private:
   {
     return place.squaredDistance <= this->outlierDistance_ * this->outlierDistance_;
   }
+  float weight(std::size_t sample) const
+  {
+    return this->weights_.empty() ? 1.f : this->weights_[sample];
+  }
   void fillSystem();
-  double meanEdge() const;
   bool chooseSmoothness(const Progress& progress);
   double residualVariance(std::span<const Vector4> positions, double lambda) const;
   double roughness(std::span<const Vector4> positions) const;
@@ -67,6 +75,7 @@ private:
   Mesh& mesh_;
   std::optional<FitSystem> system_;
   std::vector<Vector4> samples_;
+  std::vector<float> weights_; ///< of the samples; empty if all weigh alike
   std::vector<PlaceOnMesh> places_;
   bool hasPlaces_ = false;
   std::size_t usedCount_ = 0;

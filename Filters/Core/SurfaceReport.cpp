@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -113,10 +114,10 @@ private:
     this->report_.diagonal = box.isEmpty() ? 0. : box.diagonal().norm();
   }
 
-  void visitEdges()
+  /// Calls `use` for every side of the triangles.
+  template <typename Use>
+  void forEachSide(Use use) const
   {
-    std::vector<Side> sides;
-    sides.reserve(3 * this->mesh_.triangles.size());
     for (std::size_t t = 0; t < this->mesh_.triangles.size(); ++t)
     {
       const auto& triangle = this->mesh_.triangles[t];
@@ -125,12 +126,32 @@ private:
         const std::size_t next = (k + 1) % 3;
         const bool upwards = triangle[k] < triangle[next];
         const std::size_t low = upwards ? k : next, high = upwards ? next : k;
-        sides.push_back({ triangle[low], triangle[high], 3 * t + low, 3 * t + high, upwards });
+        use(Side{ triangle[low], triangle[high], 3 * t + low, 3 * t + high, upwards });
       }
     }
-    std::sort(sides.begin(), sides.end(),
-      [](const Side& a, const Side& b)
-      { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  }
+
+  /// All sides, those of an edge one behind the other: in buckets by the lower point, then sorted.
+  std::vector<Side> sortedSides() const
+  {
+    std::vector<std::size_t> ends(this->mesh_.points.size() + 1, 0);
+    this->forEachSide([&](const Side& side) { ++ends[side.low + 1]; });
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Side> sides(ends.back());
+    this->forEachSide([&](const Side& side) { sides[ends[side.low]++] = side; });
+    auto begin = sides.begin();
+    for (std::size_t point = 0; point < this->mesh_.points.size(); ++point)
+    {
+      const auto end = sides.begin() + std::ptrdiff_t(ends[point]);
+      std::sort(begin, end, [](const Side& a, const Side& b) { return a.high < b.high; });
+      begin = end;
+    }
+    return sides;
+  }
+
+  void visitEdges()
+  {
+    const std::vector<Side> sides = this->sortedSides();
     for (auto first = sides.begin(); first != sides.end();)
     {
       const auto last = std::find_if(

@@ -2,10 +2,13 @@
 #include "MeshWriter.h"
 #include "PointReader.h"
 
+#include "vtkFloatArray.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkSphereSource.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
 
@@ -35,6 +38,46 @@ TEST(MeshWriter, WritesWhatCanBeReadBack)
   }
   EXPECT_EQ(std::size_t(std::distance(std::filesystem::directory_iterator(folder), {})), files);
   std::filesystem::remove_all(folder);
+}
+
+// Promise: a .ply keeps colours if they are the active scalars, with or without opacity.
+TEST(MeshWriter, KeepsColorsInPLY)
+{
+  const auto path = (std::filesystem::temp_directory_path() / "neuralmesh-colors.ply").string();
+  vtkNew<vtkSphereSource> sphere;
+  sphere->Update();
+  vtkPolyData* mesh = sphere->GetOutput();
+  for (const int components : { 3, 4 })
+  {
+    SCOPED_TRACE(components);
+    vtkNew<vtkUnsignedCharArray> colors;
+    colors->SetName("Paint");
+    colors->SetNumberOfComponents(components);
+    colors->SetNumberOfTuples(mesh->GetNumberOfPoints());
+    for (vtkIdType i = 0; i < colors->GetNumberOfValues(); ++i)
+    {
+      colors->SetValue(i, static_cast<unsigned char>(i % 251));
+    }
+    mesh->GetPointData()->SetScalars(colors);
+    WriteMesh(mesh, path);
+    const auto read = ReadPoints(path);
+    auto* scalars = vtkUnsignedCharArray::SafeDownCast(read->GetPointData()->GetScalars());
+    ASSERT_NE(scalars, nullptr);
+    ASSERT_EQ(scalars->GetNumberOfValues(), colors->GetNumberOfValues());
+    for (vtkIdType i = 0; i < colors->GetNumberOfValues(); ++i)
+    {
+      ASSERT_EQ(scalars->GetValue(i), colors->GetValue(i));
+    }
+  }
+  // Only colours can be kept so.
+  vtkNew<vtkFloatArray> heights;
+  heights->SetName("Height");
+  heights->SetNumberOfTuples(mesh->GetNumberOfPoints());
+  heights->Fill(1.0);
+  mesh->GetPointData()->SetScalars(heights);
+  WriteMesh(mesh, path);
+  EXPECT_EQ(ReadPoints(path)->GetPointData()->GetScalars(), nullptr);
+  std::filesystem::remove(path);
 }
 
 // Promise: an unknown extension is refused before anything is done.

@@ -206,6 +206,58 @@ test_variants()
   grep -Eq '^ +genus +0( |$)' out || fail "there is a handle without topology learning"
 }
 
+# Promise: the last lines tell how good the mesh is.
+test_report()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 500
+  tail -n 3 out > report
+  grep -Eq '^residual   [0-9.e-]+ from held-out points to the mesh, noise about [0-9.e-]+, 0 % out' \
+    report || { cat out; fail "no residual"; }
+  grep -Eq '^shape      1 piece, no handles, no boundaries, (no|[0-9]+) folded edges?$' report ||
+    { cat out; fail "no shape"; }
+  grep -Eq '^quality    0[.][0-9]+ of the triangles .*, [0-9]+ % of the vertices regular$' report ||
+    { cat out; fail "no quality"; }
+}
+
+# 3000 points of a sphere, red above and blue below, and a thousand of another beside it, of weight 0.
+make_colored()
+{
+  awk 'BEGIN { print "ply\nformat ascii 1.0\nelement vertex 3000\nproperty float x"
+    print "property float y\nproperty float z\nproperty uchar red\nproperty uchar green"
+    print "property uchar blue\nend_header"
+    for (i = 0; i < 3000; ++i) { z = 1 - (2 * i + 1) / 3000; r = sqrt(1 - z * z)
+    printf "%.9f %.9f %.9f %s\n", r * cos(2.39996 * i), r * sin(2.39996 * i), z,
+    (z > 0 ? "255 0 0" : "0 0 255") } }' > colored.ply
+  awk 'BEGIN { print "# vtk DataFile Version 3.0\ncloud\nASCII\nDATASET POLYDATA"
+    print "POINTS 4000 float"
+    for (i = 0; i < 4000; ++i) { j = i % 3000; z = 1 - (2 * j + 1) / 3000; r = sqrt(1 - z * z)
+    print r * cos(2.39996 * j) + (i < 3000 ? 0 : 9), r * sin(2.39996 * j), z }
+    print "POINT_DATA 4000\nSCALARS Confidence float 1\nLOOKUP_TABLE default"
+    for (i = 0; i < 4000; ++i) print (i < 3000 ? 2 : 0) }' > weighted.vtk
+}
+
+# Promise: colours and arrays arrive on the mesh; the weights of points count.
+test_point_data()
+{
+  make_colored
+  expect 0 "$neuralmesh" reconstruct colored.ply mesh.ply --vertices 300
+  head -c 600 mesh.ply | tr '\r' '\n' | grep -aq '^property uchar red$' || fail "no colours"
+  expect 0 "$neuralmesh" reconstruct mesh.ply again.ply --vertices 100
+  head -c 600 again.ply | tr '\r' '\n' | grep -aq '^property uchar red$' || fail "colours got lost"
+  expect 0 "$neuralmesh" reconstruct colored.ply mesh.vtp --vertices 300
+  grep -aq 'Name="RGB"' mesh.vtp || fail "no colours in the .vtp"
+  expect 0 "$neuralmesh" reconstruct cloud.xyz plain.ply --vertices 300
+  ! head -c 600 plain.ply | tr '\r' '\n' | grep -aq 'red' || fail "colours from nowhere"
+
+  expect 0 "$neuralmesh" reconstruct weighted.vtk all.ply --vertices 300
+  ! grep -q '^shape      1 piece,' out || fail "there is nothing beside the sphere"
+  expect 0 "$neuralmesh" reconstruct weighted.vtk mesh.ply --vertices 300 --weights Confidence
+  grep -q '^shape      1 piece,' out || { cat out; fail "points without weight have a mesh"; }
+  expect 1 "$neuralmesh" reconstruct weighted.vtk other.ply --vertices 300 --weights Trust
+  grep -q 'weighted.vtk: .*called Trust' err || { cat err; fail "the message is another"; }
+  [ ! -e other.ply ] || fail "a mesh was written"
+}
+
 # Promise: a dry run says what it will take, and writes nothing.
 test_dry_run()
 {

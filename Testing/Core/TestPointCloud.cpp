@@ -226,4 +226,56 @@ TEST(PointCloud, NeighborsInOrderAreNeighborsInSpace)
   // At random the mean step would be 0.38 of the cube's diagonal; 8000 points are 0.03 apart.
   EXPECT_LT(steps / double(cloud.points().size()), 0.08);
 }
+
+// A cloud that keeps origins knows where each point comes from; it is the same cloud all the same.
+TEST(PointCloud, Origins)
+{
+  std::vector<Eigen::Vector3d> points = cube(3000);
+  points[7].x() = std::numeric_limits<double>::quiet_NaN();
+  points[70].y() = 1e9;
+  const PointCloud plain(points), cloud(points, {}, true);
+  EXPECT_TRUE(plain.origins().empty());
+  ASSERT_EQ(cloud.origins().size(), cloud.points().size());
+  EXPECT_EQ(cloud.droppedCount(), 2u);
+  for (std::size_t i = 0; i < cloud.points().size(); ++i)
+  {
+    ASSERT_TRUE(sameCoordinates(cloud.points()[i], plain.points()[i]));
+    ASSERT_TRUE(sameCoordinates(cloud.points()[i], cloud.fromInput(points[cloud.origins()[i]])));
+  }
+}
+
+// Points without a positive weight are not there, whatever they are; the others keep the ratios of
+// their weights, which are 1 on average, up to the largest numbers.
+TEST(PointCloud, Weights)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double scale : { 1., 1e-300, 1e303 })
+  {
+    std::vector<Eigen::Vector3d> points = cube(2000);
+    std::vector<double> weights;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      weights.push_back(scale * double(1 + i % 5));
+    }
+    const std::vector<Eigen::Vector3d> kept = points;
+    for (const double weight : { 0., -1., std::nan(""), infinity })
+    {
+      points.emplace_back(1e3, weight, 0.);
+      weights.push_back(weight);
+    }
+    const PointCloud plain(kept), cloud(points, weights, true);
+    EXPECT_TRUE(plain.weights().empty());
+    EXPECT_EQ(cloud.droppedCount(), 0u);
+    ASSERT_EQ(cloud.points().size(), kept.size());
+    ASSERT_EQ(cloud.weights().size(), kept.size());
+    double sum = 0.;
+    for (std::size_t i = 0; i < kept.size(); ++i)
+    {
+      ASSERT_TRUE(sameCoordinates(cloud.points()[i], plain.points()[i]));
+      ASSERT_NEAR(double(cloud.weight(i)), double(1 + cloud.origins()[i] % 5) / 3., 1e-6);
+      sum += double(cloud.weight(i));
+    }
+    EXPECT_NEAR(sum / double(kept.size()), 1., 1e-6);
+  }
+}
 }

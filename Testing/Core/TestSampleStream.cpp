@@ -145,4 +145,20 @@ TEST(SampleStream, BatchesFollowTheCloud)
   EXPECT_LT(indices.front(), Points / 100);
   EXPECT_GT(indices.back(), Points - Points / 100);
 }
+
+// With weights, points are drawn in proportion to them, and batches are as without.
+TEST(SampleStream, Weighted)
+{
+  constexpr std::size_t Draws = 100000;
+  const std::vector<Vector4> points = numberedPoints(100);
+  std::vector<float> weights(100, 1.f);
+  std::fill(weights.begin(), weights.begin() + 50, 0.f);
+  weights[80] = 50.f;
+  SampleStream stream(points, 6, weights), other(points, 6, weights);
+  const std::vector<std::size_t> indices = drawIndices(stream, Draws);
+  EXPECT_GE(*std::min_element(indices.begin(), indices.end()), 50u);
+  const auto count = std::count(indices.begin(), indices.end(), std::size_t(80));
+  EXPECT_NEAR(double(count) / double(Draws), 50. / 99., 0.01);
+  EXPECT_EQ(drawIndices(other, Draws), indices);
+}
 }

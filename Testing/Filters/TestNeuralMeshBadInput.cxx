@@ -247,7 +247,10 @@ int CheckCellsAndAttributes()
     CHECK(mesh->GetPoint(i / 3)[i % 3] == expected->GetPoint(i / 3)[i % 3]);
   }
   CHECK(mesh->GetNumberOfCells() == expected->GetNumberOfCells());
-  CHECK(mesh->GetPointData()->GetNumberOfArrays() == expected->GetPointData()->GetNumberOfArrays());
+  // Point data is carried over, also where it says nothing.
+  vtkPointData* data = mesh->GetPointData();
+  CHECK(data->GetNumberOfArrays() == expected->GetPointData()->GetNumberOfArrays() + 1);
+  CHECK(data->GetScalars() && std::isnan(data->GetScalars()->GetTuple1(0)));
   CHECK(mesh->GetCellData()->GetNumberOfArrays() == 0);
   CHECK(mesh->GetFieldData()->HasArray("Scanner")); // as VTK's pipeline has it
   return EXIT_SUCCESS;

@@ -6,6 +6,7 @@ import unittest
 import neuralmesh
 import numpy as np
 import support
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_DOUBLE, VTK_FLOAT
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray,
@@ -211,6 +212,68 @@ class Variants(unittest.TestCase):
             neuralmesh.reconstruct(cloud, 300, variant="normal", topology_learning=True)
         with self.assertRaisesRegex(ValueError, "ensemble"):
             neuralmesh.reconstruct(cloud, 300, ensemble=0)
+
+
+class PointData(unittest.TestCase):
+    # Promise: point data of a dataset arrives on the mesh, unless it is not wanted.
+    def test_carried(self):
+        cloud = support.sphere()
+        dataset = support.point_set(cloud)
+        heights = numpy_to_vtk(cloud[:, 2].copy())
+        heights.SetName("Height")
+        dataset.GetPointData().AddArray(heights)
+        mesh = neuralmesh.reconstruct(dataset, 300)
+        carried = vtk_to_numpy(mesh.GetPointData().GetArray("Height"))
+        self.assertEqual(carried.dtype, np.float64)
+        self.assertLess(np.abs(carried - support.coordinates(mesh)[:, 2]).max(), 0.1)
+        mesh = neuralmesh.reconstruct(dataset, 300, carry_point_data=False)
+        self.assertFalse(mesh.GetPointData().HasArray("Height"))
+
+    # Promise: weights are an array or a name; points of weight 0 have no influence; the points of
+    # the caller stay as they are.
+    def test_weights(self):
+        cloud = np.concatenate((support.sphere(), support.sphere() + (5, 0, 0)))
+        trust = np.repeat((0.5, 0.0), 2000)
+        mesh = neuralmesh.reconstruct(cloud, 300, weights=trust)
+        self.assertLess(support.coordinates(mesh)[:, 0].max(), 1.5)
+        self.assertTrue((vtk_to_numpy(mesh.GetPointData().GetArray("Weights")) == 0.5).all())
+        dataset = support.point_set(cloud)
+        wanted = support.coordinates(mesh).tobytes()
+        for weights in (trust, trust.tolist(), trust > 0, (10 * trust).astype(np.uint8)):
+            mesh = neuralmesh.reconstruct(dataset, 300, weights=weights)
+            self.assertEqual(support.coordinates(mesh).tobytes(), wanted)
+        self.assertEqual(dataset.GetPointData().GetNumberOfArrays(), 0)
+        named = numpy_to_vtk(trust)
+        named.SetName("Trust")
+        dataset.GetPointData().AddArray(named)
+        mesh = neuralmesh.reconstruct(dataset, 300, weights="Trust")
+        self.assertEqual(support.coordinates(mesh).tobytes(), wanted)
+
+    # Promise: what are no weights is a ValueError that says what they must be.
+    def test_bad_weights(self):
+        cloud = support.sphere()
+        for weights in (np.ones(5), np.ones((2000, 1)), 3, ["a"] * 2000):
+            with self.assertRaisesRegex(ValueError, r"weights must be .* of shape \(2000,\)"):
+                neuralmesh.reconstruct(cloud, 300, weights=weights)
+        with self.assertRaisesRegex(ValueError, "No weight is positive"):
+            neuralmesh.reconstruct(cloud, 300, weights=np.zeros(2000))
+        with self.assertRaisesRegex(ValueError, "called Missing"):
+            neuralmesh.reconstruct(cloud, 300, weights="Missing")
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, support.point_set(cloud))
+        with self.assertRaisesRegex(ValueError, "weights must be the name"):
+            neuralmesh.reconstruct(blocks, 300, weights=np.ones(2000))
+
+    # Promise: the field data tells how good the mesh is.
+    def test_report(self):
+        mesh = neuralmesh.reconstruct(support.sphere(), 300)
+        values = {
+            name: mesh.GetFieldData().GetArray(name).GetTuple1(0)
+            for name in ("Residual", "Noise", "OutlierShare", "Components", "Genus")
+        }
+        self.assertLess(values["Residual"], 0.05)
+        self.assertGreater(values["Noise"], 0)
+        self.assertEqual((values["OutlierShare"], values["Components"], values["Genus"]), (0, 1, 0))
 
 
 class BadPoints(unittest.TestCase):

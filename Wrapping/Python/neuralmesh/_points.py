@@ -26,6 +26,29 @@ def as_dataset(points: object) -> vtkPointSet | vtkCompositeDataSet:
     return dataset
 
 
+def with_weights(dataset: vtkPointSet | vtkCompositeDataSet, weights: object) -> tuple:
+    """The dataset and the name of its array of weights; where they are an array, in a copy that
+    refers to the points. ValueError for anything but numbers of shape (N,).
+    """
+    if isinstance(weights, str):
+        return dataset, weights
+    if not isinstance(dataset, vtkPointSet):
+        raise ValueError("weights must be the name of a point array where points are in blocks")
+    array = np.asarray(weights)
+    count = dataset.GetNumberOfPoints()
+    if array.shape != (count,) or array.dtype.kind not in "fiub":
+        raise ValueError(
+            f"weights must be the name of a point array or numbers of shape ({count},), not "
+            f"{type(weights).__name__} of shape {array.shape} and type {array.dtype}"
+        )
+    vtk_array = numpy_to_vtk(np.ascontiguousarray(array, dtype=np.float64))
+    vtk_array.SetName("Weights")
+    copy = dataset.NewInstance()
+    copy.ShallowCopy(dataset)
+    copy.GetPointData().AddArray(vtk_array)
+    return copy, "Weights"
+
+
 def _as_array(points: object) -> np.ndarray:
     wanted = "points must be a vtkPointSet or an array of numbers of shape (N, 3)"
     try:

@@ -8,7 +8,7 @@ from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkP
 
 from ._execution import Progress, execute
 from ._parameters import assign, parameters_of, refuse_unknown, table
-from ._points import as_dataset
+from ._points import as_dataset, with_weights
 from .vtkFiltersNeuralMesh import vtkNeuralMesh, vtkNeuralMeshEnsemble
 
 # Those that have names or places of their own in the signature.
@@ -36,6 +36,7 @@ def reconstruct(
     preset: str = "default",
     first_mesh: vtkPolyData | None = None,
     ensemble: int | None = None,
+    weights: ArrayLike | str | None = None,
     progress: Progress | None = None,
     **parameters: float | bool | str,
 ) -> vtkPolyData:
@@ -43,8 +44,8 @@ def reconstruct(
 
     Args:
         points: The cloud: an array of shape (N, 3) of floats or integers of any kind and layout, a
-            row for a point, in any unit of length; or a vtkPointSet, of which only the points
-            count; or a vtkCompositeDataSet, of which all point sets are taken as one cloud. No
+            row for a point, in any unit of length; or a vtkPointSet, of which points and point
+            data count; or a vtkCompositeDataSet, of which all point sets are taken as one cloud. No
             normals are needed. Points with NaN or infinity are dropped.
         vertices: The number of vertices of the mesh, from 4 to 1000000000.
         seed: Seed of the random numbers, from 0 to 2147483647. The same points and seed give the
@@ -59,6 +60,10 @@ def reconstruct(
         ensemble: The number of members, from 1 to 255, to start from the average of so many coarse
             meshes, as vtkNeuralMeshEnsemble does: for shapes with handles. Topology is learnt then,
             unless topology_learning is False. Its other properties are parameters, too.
+        weights: How much each point is trusted: an array of shape (N,), or the name of a point
+            array of the dataset. Numbers from 0 on, of which only the ratios count; 0, what is
+            negative and what is not finite leave the point out. An array arrives on the mesh as
+            `Weights`.
         progress: A function that is called now and then with the fraction that is done, from 0 to
             1. If it returns False, the mesh learnt so far is the result. An exception that it
             raises ends the run and comes out of this function.
@@ -71,9 +76,11 @@ def reconstruct(
         vtkPolyData with triangles, in the units of the input: an oriented 2-manifold without
         unused points. The type of the points is that of the input: 4-byte floats stay so, anything
         else in an array becomes 8-byte floats. Point data: `Normals`, float of shape (M, 3), of
-        length 1; `Activity`, double of shape (M,), in wins, or the place in the list, up to 1. Field
-        data, one value each: `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`,
-        `DroppedPoints`. No pipeline is behind it.
+        length 1; `Activity`, double of shape (M,), in wins, or the place in the list, up to 1; and
+        the point data of a dataset, unless carry_point_data is False. Field data, one value each:
+        `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`, `DroppedPoints`, and the report on
+        the quality: `Residual`, `Noise`, `OutlierShare`, `RegularRatio`, `TriangleQuality`,
+        `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`. No pipeline is behind it.
 
     Raises:
         ValueError: A parameter is out of its range, which the message names; parameters do not go
@@ -109,7 +116,11 @@ def reconstruct(
     assign(mesh, "preset", preset)
     for name, value in parameters.items():
         assign(mesh, name, value)
-    mesh.SetInputData(as_dataset(points))
+    dataset = as_dataset(points)
+    if weights is not None:
+        dataset, name = with_weights(dataset, weights)
+        mesh.SetWeightArrayName(name)
+    mesh.SetInputData(dataset)
     if first_mesh is not None:
         if not isinstance(first_mesh, vtkPolyData):
             raise ValueError(f"first_mesh must be a vtkPolyData, not {type(first_mesh).__name__}")

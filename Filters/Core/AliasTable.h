@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Random.h"
+
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// Draws indices with probabilities proportional to weights, in O(1) each: the alias method (Walker
+/// 1977; Vose 1991). 8 bytes an index.
+class AliasTable
+{
+public:
+  /// Weights must be finite, at least 0, and not all be 0.
+  explicit AliasTable(std::span<const float> weights);
+
+  bool isEmpty() const { return this->entries_.empty(); }
+  std::uint32_t draw(Random& random) const
+  {
+    const std::uint32_t index = random.below(std::uint32_t(this->entries_.size()));
+    const Entry& entry = this->entries_[index];
+    return random.uniform() < double(entry.threshold) ? index : entry.alias;
+  }
+
+private:
+  /// An index stands for itself with the probability `threshold`, else for `alias`.
+  struct Entry
+  {
+    float threshold;
+    std::uint32_t alias;
+  };
+  std::vector<Entry> entries_;
+};
+}

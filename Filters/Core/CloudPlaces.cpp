@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CloudPlaces.h"
+
+#include "NearestMarked.h"
+#include "PlaceOnMesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr std::size_t PointsPerCheck = 16384;
+}
+
+CloudPlaces::CloudPlaces(const PointCloud& cloud, const Mesh& mesh, const Progress& progress)
+  : cloud_(cloud)
+  , mesh_(mesh)
+{
+  const std::size_t count = cloud.points().size();
+  const VertexGrid grid = gridOf(mesh, cloud);
+  std::vector<Place> places(count);
+  std::vector<float> squaredDistances(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (i % PointsPerCheck == 0 && !progress(double(i) / double(count)))
+    {
+      return;
+    }
+    const PlaceOnMesh place = closestPlace(cloud.points()[i], mesh, grid);
+    const VertexIndex vertex = place.triangle[0];
+    places[i] = { vertex, mesh.ring(vertex).find(place.triangle[1]), place.weights[1],
+      place.weights[2] };
+    squaredDistances[i] = place.squaredDistance;
+  }
+  std::vector<float> sorted = squaredDistances;
+  const auto median = sorted.begin() + std::ptrdiff_t(count / 2);
+  std::nth_element(sorted.begin(), median, sorted.end());
+  const float farthest = outlierDistance(std::sqrt(*median), meanEdge(mesh));
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (squaredDistances[i] > farthest * farthest)
+    {
+      places[i].vertex = NoVertex;
+    }
+  }
+  this->places_ = std::move(places);
+}
+
+std::vector<VertexIndex> CloudPlaces::nearestSupported() const
+{
+  std::vector<bool> supported(this->mesh_.indexEnd());
+  this->forEach(
+    [&](std::size_t, const Corners& corners)
+    {
+      for (const auto& [v, weight] : corners)
+      {
+        supported[v] = supported[v] || weight > 0.;
+      }
+    });
+  return nearestMarked(this->mesh_, supported);
+}
+
+CloudPlaces::Corners CloudPlaces::cornersOf(const Place& place) const
+{
+  const Ring& ring = this->mesh_.ring(place.vertex);
+  const double b = double(place.b), c = double(place.c);
+  return { { { place.vertex, std::max(0., 1. - b - c) }, { ring[place.slot], b },
+    { ring[ring.after(place.slot)], c } } };
+}
+}

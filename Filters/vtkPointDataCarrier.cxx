@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPointDataCarrier.h"
+
+#include "AttributeFit.h"
+#include "AttributeVote.h"
+#include "vtkPointCloudCollector.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
+#include "vtkVariant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <unordered_map>
+
+namespace
+{
+constexpr std::size_t Lanes = 4; ///< components that are fitted at once
+
+bool IsReal(const vtkAbstractArray* array)
+{
+  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
+
+bool IsColor(const vtkAbstractArray* array)
+{
+  const int components = array->GetNumberOfComponents();
+  return array->GetDataType() == VTK_UNSIGNED_CHAR && (components == 3 || components == 4);
+}
+
+bool IsCarried(vtkPointData* data, vtkAbstractArray* array)
+{
+  const char* name = array->GetName();
+  return array != data->GetNormals() && array != data->GetGlobalIds() &&
+    array != data->GetPedigreeIds() &&
+    !(name && std::strcmp(name, vtkDataSetAttributes::GhostArrayName()) == 0);
+}
+
+/** The array of another leaf that stands for the same; null if there is none. */
+vtkAbstractArray* Counterpart(vtkPointData* first, vtkAbstractArray* array, vtkPointData* other)
+{
+  if (first == other)
+  {
+    return array;
+  }
+  vtkAbstractArray* found = array->GetName() ? other->GetAbstractArray(array->GetName()) : nullptr;
+  if (!array->GetName() && array == first->GetScalars())
+  {
+    found = other->GetScalars();
+  }
+  const bool isSame = found && found->GetDataType() == array->GetDataType() &&
+    found->GetNumberOfComponents() == array->GetNumberOfComponents();
+  return isSame ? found : nullptr;
+}
+
+/** One that neither an array of the output has nor any that it may have in other runs. */
+std::string FreeName(std::string name, vtkPointData* output)
+{
+  while (name == "Normals" || name == "Activity" || name == "FeatureStrength" ||
+    output->HasArray(name.c_str()))
+  {
+    name += "_Input";
+  }
+  return name;
+}
+
+vtkSmartPointer<vtkAbstractArray> MakeArrayLike(
+  vtkAbstractArray* array, vtkIdType tuples, vtkPointData* output)
+{
+  auto result = vtk::TakeSmartPointer(vtkAbstractArray::CreateArray(array->GetDataType()));
+  if (array->GetName())
+  {
+    result->SetName(FreeName(array->GetName(), output).c_str());
+  }
+  result->SetNumberOfComponents(array->GetNumberOfComponents());
+  result->CopyComponentNames(array);
+  result->SetNumberOfTuples(tuples);
+  if (auto* numbers = vtkDataArray::SafeDownCast(result))
+  {
+    numbers->Fill(0.0);
+  }
+  return result;
+}
+
+/** Whether tuples are equal if their bytes are. */
+bool HasPlainTuples(vtkAbstractArray* array)
+{
+  return vtkDataArray::SafeDownCast(array) && array->HasStandardMemoryLayout() &&
+    array->GetDataType() != VTK_BIT;
+}
+
+/** A text that two tuples of an array have in common only if they are equal. */
+std::string KeyOf(vtkAbstractArray* array, vtkIdType id, bool isPlain)
+{
+  const int components = array->GetNumberOfComponents();
+  if (isPlain)
+  {
+    return { static_cast<const char*>(array->GetVoidPointer(id * components)),
+      static_cast<std::size_t>(components) * static_cast<std::size_t>(array->GetDataTypeSize()) };
+  }
+  std::string key;
+  for (vtkIdType i = id * components; i < (id + 1) * components; ++i)
+  {
+    const std::string text = array->GetVariantValue(i).ToString();
+    key += std::to_string(text.size()) + ':' + text;
+  }
+  return key;
+}
+
+/** What a component is fitted as: without its mean, with a range of 1. */
+struct Scale
+{
+  double Minimum = std::numeric_limits<double>::infinity();
+  double Maximum = -std::numeric_limits<double>::infinity();
+  double Mean = 0.0;
+
+  void Add(double value, double count)
+  {
+    this->Minimum = std::min(this->Minimum, value);
+    this->Maximum = std::max(this->Maximum, value);
+    this->Mean += (value - this->Mean) / count;
+  }
+  // Rounded, a mean may lie beside all values.
+  double Center() const { return std::clamp(this->Mean, this->Minimum, this->Maximum); }
+  double Width() const
+  {
+    return this->Maximum > this->Minimum ? this->Maximum - this->Minimum : 1.0;
+  }
+  double ToFit(double value) const { return (value - this->Center()) / this->Width(); }
+  double FromFit(double value) const
+  {
+    return std::clamp(this->Center() + value * this->Width(), this->Minimum, this->Maximum);
+  }
+};
+}
+
+vtkPointDataCarrier::vtkPointDataCarrier(const vtkPointCloudCollector& collector)
+  : Collector(collector)
+{
+  if (collector.GetLeaves().empty())
+  {
+    return;
+  }
+  vtkPointData* first = collector.GetLeaves().front().PointSet->GetPointData();
+  for (int i = 0; i < first->GetNumberOfArrays(); ++i)
+  {
+    this->FindArray(first, first->GetAbstractArray(i));
+  }
+}
+
+void vtkPointDataCarrier::FindArray(vtkPointData* first, vtkAbstractArray* array)
+{
+  Array found{ {}, array == first->GetScalars() };
+  for (const auto& leaf : this->Collector.GetLeaves())
+  {
+    vtkPointData* data = leaf.PointSet->GetPointData();
+    vtkAbstractArray* ofLeaf = Counterpart(first, array, data);
+    if (!ofLeaf || !IsCarried(data, ofLeaf) || array->GetNumberOfComponents() == 0 ||
+      ofLeaf->GetNumberOfTuples() != leaf.PointSet->GetNumberOfPoints())
+    {
+      return;
+    }
+    found.OfLeaf.push_back(ofLeaf);
+  }
+  this->Arrays.push_back(std::move(found));
+}
+
+bool vtkPointDataCarrier::Carry(const neuralmesh::CloudPlaces& places, vtkPointData* output,
+  const neuralmesh::Progress& progress) const
+{
+  const auto vertices = static_cast<vtkIdType>(places.mesh().vertexCount());
+  for (std::size_t i = 0; i < this->Arrays.size(); ++i)
+  {
+    const Array& array = this->Arrays[i];
+    if (!progress(static_cast<double>(i) / static_cast<double>(this->Arrays.size())))
+    {
+      return false;
+    }
+    vtkAbstractArray* like = array.OfLeaf.front();
+    const auto result = MakeArrayLike(like, vertices, output);
+    if (IsReal(like) || IsColor(like))
+    {
+      this->Fit(array, places, vtkDataArray::SafeDownCast(result));
+    }
+    else
+    {
+      this->Vote(array, places, result);
+    }
+    const int index = output->AddArray(result);
+    if (array.AreScalars)
+    {
+      output->SetActiveAttribute(index, vtkDataSetAttributes::SCALARS);
+    }
+  }
+  return true;
+}
+
+vtkPointDataCarrier::Tuple vtkPointDataCarrier::TupleOf(const Array& array, std::size_t point) const
+{
+  const auto& leaf = this->Collector.GetLeafOf(point);
+  const auto place = static_cast<std::size_t>(&leaf - this->Collector.GetLeaves().data());
+  return { array.OfLeaf[place], leaf.IdOf(point) };
+}
+
+void vtkPointDataCarrier::Fit(
+  const Array& array, const neuralmesh::CloudPlaces& places, vtkDataArray* result) const
+{
+  std::vector<double> tuple(static_cast<std::size_t>(result->GetNumberOfComponents()));
+  // Calls `use` for each point that has finite values, which are then in `tuple`.
+  const auto forEachTuple = [&](const auto& use)
+  {
+    places.forEach(
+      [&](std::size_t point, const neuralmesh::CloudPlaces::Corners& corners)
+      {
+        const Tuple source = this->TupleOf(array, places.cloud().origins()[point]);
+        static_cast<vtkDataArray*>(source.Array)->GetTuple(source.Id, tuple.data());
+        if (std::all_of(tuple.begin(), tuple.end(), [](double x) { return std::isfinite(x); }))
+        {
+          use(corners, static_cast<double>(places.cloud().weight(point)));
+        }
+      });
+  };
+  std::vector<Scale> scales(tuple.size());
+  double count = 0.0;
+  forEachTuple(
+    [&](const auto&, double)
+    {
+      ++count;
+      for (std::size_t i = 0; i < tuple.size(); ++i)
+      {
+        scales[i].Add(tuple[i], count);
+      }
+    });
+
+  const std::vector<neuralmesh::VertexIndex> nearest = places.nearestSupported();
+  for (std::size_t first = 0; first < tuple.size(); first += Lanes)
+  {
+    const std::size_t lanes = std::min(Lanes, tuple.size() - first);
+    neuralmesh::AttributeFit fit(places.mesh());
+    forEachTuple(
+      [&](const neuralmesh::CloudPlaces::Corners& corners, double weight)
+      {
+        neuralmesh::AttributeFit::Values values = neuralmesh::AttributeFit::Values::Zero();
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+        {
+          values[static_cast<int>(lane)] = scales[first + lane].ToFit(tuple[first + lane]);
+        }
+        fit.add(corners, weight, values);
+      });
+    const std::vector<neuralmesh::AttributeFit::Values> solution = fit.solve();
+    for (neuralmesh::VertexIndex v = 0; v < solution.size(); ++v)
+    {
+      // Where points have no values, the mesh has none.
+      const bool isKnown = nearest[v] != neuralmesh::NoVertex && fit.isSupported(nearest[v]);
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+      {
+        const auto component = static_cast<int>(first + lane);
+        const double value = isKnown
+          ? scales[first + lane].FromFit(solution[v][static_cast<int>(lane)])
+          : std::numeric_limits<double>::quiet_NaN();
+        if (IsReal(result))
+        {
+          result->SetComponent(v, component, value);
+        }
+        else if (isKnown)
+        {
+          result->SetComponent(v, component, std::round(value));
+        }
+      }
+    }
+  }
+}
+
+std::vector<std::uint32_t> vtkPointDataCarrier::MakeLabels(
+  const Array& array, const neuralmesh::CloudPlaces& places) const
+{
+  const bool isPlain = std::all_of(array.OfLeaf.begin(), array.OfLeaf.end(), HasPlainTuples);
+  const auto origins = places.cloud().origins();
+  std::unordered_map<std::string, std::uint32_t> kinds;
+  std::vector<std::uint32_t> lowest; // point of each kind
+  std::vector<std::uint32_t> labels(origins.size());
+  for (std::size_t point = 0; point < labels.size(); ++point)
+  {
+    const Tuple source = this->TupleOf(array, origins[point]);
+    const auto next = static_cast<std::uint32_t>(lowest.size());
+    const auto place = kinds.try_emplace(KeyOf(source.Array, source.Id, isPlain), next).first;
+    labels[point] = place->second;
+    if (place->second == next)
+    {
+      lowest.push_back(origins[point]);
+    }
+    lowest[place->second] = std::min(lowest[place->second], origins[point]);
+  }
+  for (std::uint32_t& label : labels)
+  {
+    label = lowest[label];
+  }
+  return labels;
+}
+
+void vtkPointDataCarrier::Vote(
+  const Array& array, const neuralmesh::CloudPlaces& places, vtkAbstractArray* result) const
+{
+  const std::vector<std::uint32_t> winners =
+    neuralmesh::voteForLabels(places, this->MakeLabels(array, places));
+  for (std::size_t v = 0; v < winners.size(); ++v)
+  {
+    if (winners[v] != neuralmesh::NoLabel)
+    {
+      const Tuple source = this->TupleOf(array, winners[v]);
+      result->SetTuple(static_cast<vtkIdType>(v), source.Id, source.Array);
+    }
+  }
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkPointDataCarrier
+ * @brief   the point data of a cloud, carried over to the mesh that was made of it
+ *
+ * Internal to the module. Which arrays arrive, and how, is told in vtkNeuralMesh.
+ */
+
+#ifndef vtkPointDataCarrier_h
+#define vtkPointDataCarrier_h
+
+#include "CloudPlaces.h"
+
+#include "vtkType.h"
+
+#include <cstdint>
+#include <vector>
+
+class vtkAbstractArray;
+class vtkDataArray;
+class vtkPointCloudCollector;
+class vtkPointData;
+class vtkPointSet;
+
+class vtkPointDataCarrier
+{
+public:
+  /** Finds the arrays that all leaves of the collector have; it must outlive the carrier. */
+  explicit vtkPointDataCarrier(const vtkPointCloudCollector& collector);
+
+  bool HasArrays() const { return !this->Arrays.empty(); }
+
+  /**
+   * Adds the arrays to the point data of the mesh at whose vertices the places are. The cloud must
+   * know the origins of its points. Returns false, with some of the arrays only, if it is ended
+   * early.
+   */
+  bool Carry(const neuralmesh::CloudPlaces& places, vtkPointData* output,
+    const neuralmesh::Progress& progress) const;
+
+private:
+  /** An array, in the point data of each leaf. */
+  struct Array
+  {
+    std::vector<vtkAbstractArray*> OfLeaf;
+    bool AreScalars; ///< the active ones
+  };
+  /** A tuple of an array, that of a point. */
+  struct Tuple
+  {
+    vtkAbstractArray* Array;
+    vtkIdType Id;
+  };
+
+  void FindArray(vtkPointData* first, vtkAbstractArray* array);
+  Tuple TupleOf(const Array& array, std::size_t point) const;
+  void Fit(const Array& array, const neuralmesh::CloudPlaces& places, vtkDataArray* result) const;
+  void Vote(
+    const Array& array, const neuralmesh::CloudPlaces& places, vtkAbstractArray* result) const;
+  std::vector<std::uint32_t> MakeLabels(
+    const Array& array, const neuralmesh::CloudPlaces& places) const;
+
+  const vtkPointCloudCollector& Collector;
+  std::vector<Array> Arrays;
+};
+
+#endif
