@@ -258,6 +258,8 @@ OccupiedSolid occupiedSolid(const PointCloud& cloud, unsigned resolution)
     solid.inside[i] = solid.inside[i] | votes.votes[i];
   }
   fillContacts(votes, solid.inside);
+  // Stray voxels can be kept that touch the rest by an edge or a corner only.
+  dropSmallPieces(solid.grid, solid.inside);
   fillEnclosed(solid.grid, solid.inside);
   return solid;
 }
