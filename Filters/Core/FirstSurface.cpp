@@ -13,6 +13,7 @@
 #include "SurfaceFit.h"
 #include "VoxelSurface.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
@@ -149,17 +150,19 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progres
   {
     return {};
   }
-  bool isCertain = candidates.size() > 1 && agree(candidates.back(), *(candidates.end() - 2));
-  if (!isCertain && candidates.size() == Resolutions.size())
+  const bool isAgreed = candidates.size() > 1 && agree(candidates.back(), *(candidates.end() - 2));
+  if (!isAgreed && candidates.size() == Resolutions.size())
   {
     Candidate finest = candidate(cloud, FinestResolution);
     if (finest.interior > candidates.back().interior && agree(finest, candidates.back()))
     {
       candidates.push_back(std::move(finest));
-      isCertain = true;
     }
   }
-  Candidate& best = candidates.back();
+  // On fine grids outliers can make handles that coarser ones are without.
+  const auto confirmed = std::adjacent_find(candidates.rbegin(), candidates.rend(), agree);
+  const bool isCertain = confirmed != candidates.rend();
+  Candidate& best = isCertain ? *confirmed : candidates.back();
   return FirstSurface{ meshOf(std::move(best.surface), cloud), best.resolution, best.genus,
     best.components, false, isCertain };
 }
