@@ -13,6 +13,7 @@
 #include "SurfaceFit.h"
 #include "VoxelSurface.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
@@ -158,17 +159,19 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progres
   {
     return {};
   }
-  bool isCertain = candidates.size() > 1 && agree(candidates.back(), *(candidates.end() - 2));
-  if (!isCertain && candidates.back().resolution == Resolutions.back())
+  const bool isAgreed = candidates.size() > 1 && agree(candidates.back(), *(candidates.end() - 2));
+  if (!isAgreed && candidates.back().resolution == Resolutions.back())
   {
     Candidate finest = candidate(cloud, FinestResolution);
     if (finest.interior > candidates.back().interior && agree(finest, candidates.back()))
     {
       candidates.push_back(std::move(finest));
-      isCertain = true;
     }
   }
-  Candidate& best = candidates.back();
+  // On fine grids outliers can make handles that coarser ones are without.
+  const auto confirmed = std::adjacent_find(candidates.rbegin(), candidates.rend(), agree);
+  const bool isCertain = confirmed != candidates.rend();
+  Candidate& best = isCertain ? *confirmed : candidates.back();
   return FirstSurface{ meshOf(std::move(best.surface), cloud), best.resolution, best.genus,
     best.components, false, isCertain };
 }

@@ -19,6 +19,8 @@ constexpr std::size_t Margin = EmptyLayers + 1;
 /// A voxel is occupied from this part of the usual number of points on: the median of the fuller
 /// half of all voxels with points.
 constexpr double LeastPartOfUsual = 0.15;
+/// Where so many are usual, a single point in a voxel is most probably an outlier.
+constexpr std::uint32_t EnoughPoints = 5;
 /// Pieces with less than this part of all occupied voxels are stray points.
 constexpr double LeastPartOfPiece = 0.02;
 /// Pieces with less than that part are clusters of outliers if they are so much fuller than the
@@ -79,7 +81,7 @@ Voxels occupied(const std::vector<std::uint32_t>& counts)
   // would be theirs, by points it is not.
   std::sort(found.begin(), found.end());
   const std::uint32_t usual = found[found.size() * 3 / 4];
-  const double least = std::max(1., LeastPartOfUsual * usual);
+  const double least = std::max(usual >= EnoughPoints ? 2. : 1., LeastPartOfUsual * usual);
   std::transform(counts.begin(), counts.end(), result.begin(),
     [&](std::uint32_t count) { return std::uint8_t(double(count) >= least); });
   return result;
@@ -269,6 +271,8 @@ OccupiedSolid occupiedSolid(const PointCloud& cloud, unsigned resolution)
     solid.inside[i] = solid.inside[i] | votes.votes[i];
   }
   fillContacts(votes, solid.inside);
+  // Stray voxels can be kept that touch the rest by an edge or a corner only.
+  dropSmallPieces(solid.grid, solid.inside);
   fillEnclosed(solid.grid, solid.inside);
   return solid;
 }

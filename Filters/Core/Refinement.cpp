@@ -11,7 +11,8 @@ namespace neuralmesh
 {
 namespace
 {
-/// A vertex, by its longest edge.
+/// A vertex, by the edge that its split would halve: the longest one, at a boundary the longest
+/// along it.
 struct Candidate
 {
   float squaredLength;
@@ -24,7 +25,10 @@ Candidate candidate(const Mesh& mesh, VertexIndex v)
   float longest = 0.f;
   for (const VertexIndex neighbor : mesh.ring(v))
   {
-    longest = std::max(longest, squaredNorm(mesh.position(neighbor) - mesh.position(v)));
+    if (!mesh.isBoundary(v) || mesh.isBoundaryEdge(v, neighbor))
+    {
+      longest = std::max(longest, squaredNorm(mesh.position(neighbor) - mesh.position(v)));
+    }
   }
   return { longest, v };
 }

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Finish.h"
+
+#include "Learner.h"
+#include "MeshBuilder.h"
+#include "MeshTools.h"
+#include "SphereRuns.h"
+#include "SurfaceReport.h"
+#include "TrueSurfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+constexpr std::size_t Vertices = 1500;
+
+PointCloud noisySphere(double noise, double outliers, bool hasHole)
+{
+  CloudOptions options;
+  options.count = 40000;
+  options.noise = noise;
+  options.outliers = outliers;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
+  if (hasHole)
+  {
+    std::erase_if(points, [](const Eigen::Vector3d& point) { return point.z() > 0.6; });
+  }
+  return PointCloud(points);
+}
+
+/// A closed mesh that learning alone has made of a cloud, which lies all around a hole.
+Mesh learnt(const PointCloud& cloud)
+{
+  Parameters parameters = learningAlone();
+  parameters.numberOfVertices = Vertices;
+  Learner learner(cloud, parameters, buildMesh(makeSphere(8), cloud));
+  while (!learner.isComplete())
+  {
+    learner.learn(10000);
+  }
+  learner.renumber();
+  return learner.mesh();
+}
+
+double regularRatio(const Mesh& mesh, const PointCloud& cloud)
+{
+  return reportSurface(trianglesOf(mesh, cloud)).regularRatio;
+}
+
+void expectOriginsInRange(const Finish& finish, const Mesh& mesh)
+{
+  ASSERT_EQ(finish.origins().size(), mesh.vertexCount());
+  for (const VertexIndex origin : finish.origins())
+  {
+    EXPECT_LT(origin, Vertices);
+  }
+}
+}
+
+// A closed mesh keeps its vertices and its topology, and becomes no less regular; it comes closer to
+// the surface, and nothing in it intersects.
+TEST(Finish, ClosedMeshes)
+{
+  const TrueSurface sphere = trueSphere();
+  for (const double noise : { 0., 0.005 })
+  {
+    const PointCloud cloud = noisySphere(noise, 0., false);
+    Mesh mesh = learnt(cloud);
+    const Mesh before = mesh;
+    const Parameters parameters;
+    Finish finish(cloud, mesh, parameters, true);
+    ASSERT_TRUE(finish.run(goOn));
+    EXPECT_EQ(mesh.vertexCount(), Vertices);
+    EXPECT_EQ(mesh.indexEnd(), Vertices);
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_TRUE(reportOf(mesh).isClosed());
+    EXPECT_EQ(reportOf(mesh).genus(), 0);
+    EXPECT_GE(regularRatio(mesh, cloud), regularRatio(before, cloud));
+    EXPECT_LT(rmsDistance(sphere, trianglesOf(mesh, cloud)),
+      rmsDistance(sphere, trianglesOf(before, cloud)));
+    std::vector<VertexIndex> same(Vertices);
+    std::iota(same.begin(), same.end(), VertexIndex(0));
+    EXPECT_EQ(finish.origins(), same);
+    EXPECT_EQ(finish.report().gapTriangles, 0u);
+    EXPECT_EQ(finish.report().left.total(), 0u);
+    EXPECT_GT(finish.report().smoothness, 0.);
+    EXPECT_LT(finish.report().outlierShare, 0.02);
+  }
+}
+
+// Where there is no data the mesh is opened; its vertices are as many as before.
+TEST(Finish, GapsAreOpened)
+{
+  const PointCloud cloud = noisySphere(0.002, 0., true);
+  const Mesh before = learnt(cloud);
+  ASSERT_TRUE(reportOf(before).isClosed());
+  for (const bool opensGaps : { false, true })
+  {
+    Mesh mesh = before;
+    const Parameters parameters;
+    Finish finish(cloud, mesh, parameters, opensGaps);
+    ASSERT_TRUE(finish.run(goOn));
+    EXPECT_EQ(mesh.vertexCount(), Vertices);
+    EXPECT_EQ(mesh.indexEnd(), Vertices);
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(reportOf(mesh).boundaryLoops, opensGaps ? 1u : 0u);
+    EXPECT_EQ(reportOf(mesh).components, 1u);
+    EXPECT_GE(regularRatio(mesh, cloud), regularRatio(before, cloud));
+    EXPECT_EQ(finish.report().gapTriangles > 0, opensGaps);
+    expectOriginsInRange(finish, mesh);
+    if (opensGaps)
+    {
+      // A zone of a sphere: its area goes with its height.
+      const double area = reportSurface(trianglesOf(mesh, cloud)).area;
+      EXPECT_NEAR(area, 2. * std::numbers::pi * 1.6, 0.05 * area);
+    }
+  }
+}
+
+// A vertex is near that of the learnt mesh that it is or was split from.
+TEST(Finish, OriginsAreNear)
+{
+  const PointCloud cloud = noisySphere(0.002, 0., true);
+  Mesh mesh = learnt(cloud);
+  const Mesh before = mesh;
+  const Parameters parameters;
+  Finish finish(cloud, mesh, parameters, true);
+  ASSERT_TRUE(finish.run(goOn));
+  ASSERT_GT(finish.report().gapTriangles, 0u);
+  ASSERT_EQ(finish.origins().size(), mesh.vertexCount());
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    const Vector4 origin = before.position(finish.origins()[v]);
+    EXPECT_LT((cloud.toInput(mesh.position(v)) - cloud.toInput(origin)).norm(), 0.4);
+  }
+}
+
+// The report tells the noise and the outliers of the cloud.
+TEST(Finish, ReportsTheCloud)
+{
+  const PointCloud cloud = noisySphere(0.005, 0.05, false);
+  Mesh mesh = learnt(cloud);
+  const Parameters parameters;
+  Finish finish(cloud, mesh, parameters, true);
+  ASSERT_TRUE(finish.run(goOn));
+  const double noise = 0.005 * SphereDiagonal;
+  EXPECT_NEAR(finish.report().noise * cloud.unit(), noise, 0.2 * noise);
+  EXPECT_GT(finish.report().outlierShare, 0.02);
+  EXPECT_LT(finish.report().outlierShare, 0.06);
+}
+
+// Ended anywhere, it leaves a valid mesh.
+TEST(Finish, CanBeEnded)
+{
+  const PointCloud cloud = noisySphere(0.002, 0., true);
+  const Mesh before = learnt(cloud);
+  const Parameters parameters;
+  bool isDone = false;
+  int calls = 0;
+  for (; !isDone; calls += 5)
+  {
+    Mesh mesh = before;
+    Finish finish(cloud, mesh, parameters, true);
+    int left = calls;
+    isDone = finish.run([&](double) { return left-- > 0; });
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(mesh.vertexCount(), Vertices);
+    expectOriginsInRange(finish, mesh);
+  }
+  EXPECT_GT(calls, 10);
+}
+}

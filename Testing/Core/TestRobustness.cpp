@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ManifoldCheck.h"
+#include "Reconstruction.h"
+#include "SphereRuns.h"
+#include "TrueSurfaces.h"
+
+#include <gtest/gtest.h>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+// Of a bounding box's diagonal
+constexpr double Near = 0.02;
+
+Parameters defaults(std::uint64_t vertices)
+{
+  Parameters parameters;
+  parameters.numberOfVertices = vertices;
+  return parameters;
+}
+
+/// Expects a closed mesh of the right topology that is near the surface everywhere.
+void expectRight(const TrueSurface& shape, const TriangleMesh& mesh)
+{
+  const ManifoldReport report = checkManifold(mesh.points.size(), mesh.triangles);
+  EXPECT_EQ(report.defect, "");
+  EXPECT_TRUE(report.isClosed());
+  EXPECT_EQ(report.components, 1u);
+  EXPECT_EQ(report.genus(), shape.genus);
+  EXPECT_LT(largestDistance(shape, mesh), Near * shape.diagonal);
+}
+}
+
+// With outliers all over the box, one to ten points of the surface, the mesh is whole and right.
+TEST(Robustness, SpreadOutliers)
+{
+  for (const TrueSurface& shape : { trueSphere(), trueTorus() })
+  {
+    for (const std::uint64_t seed : { 1u, 2u, 3u, 4u })
+    {
+      SCOPED_TRACE(shape.name + ", " + std::to_string(seed));
+      CloudOptions options;
+      options.count = 50000;
+      options.outliers = 0.1;
+      options.seed = seed;
+      const PointCloud cloud(generateCloud(shape.triangles, options));
+      expectRight(shape, reconstruct(cloud, defaults(3000), goOn).mesh);
+    }
+  }
+}
+
+// Where points are ten times as dense at one end as at the other, the mesh is near the surface
+// everywhere, and the surface near the mesh.
+TEST(Robustness, DensityGradients)
+{
+  for (const TrueSurface& shape : { trueSphere(), trueTorus() })
+  {
+    for (const unsigned axis : { 0u, 2u })
+    {
+      SCOPED_TRACE(shape.name + ", " + std::to_string(axis));
+      CloudOptions options;
+      options.count = 50000;
+      options.gradient = 10.;
+      options.gradientAxis = axis;
+      const PointCloud cloud(generateCloud(shape.triangles, options));
+      const TriangleMesh mesh = reconstruct(cloud, defaults(3000), goOn).mesh;
+      expectRight(shape, mesh);
+      EXPECT_LT(largestDistanceTo(mesh, shape, 1000), Near * shape.diagonal);
+    }
+  }
+}
+}
