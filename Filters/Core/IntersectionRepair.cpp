@@ -34,7 +34,7 @@ struct Defects
 };
 
 /// A mesh with more defects than that, of its triangles, is a tangle: nothing would be left of it.
-constexpr double MostPartBroken = 0.05;
+constexpr double MostPartBroken = 0.5;
 constexpr std::size_t LeastBroken = 500;
 
 class Repairer

@@ -31,8 +31,9 @@ struct IntersectionRepair
 /// Only vertices near defects move, those on a boundary along it, and a mesh without defects stays
 /// as it is. Vertices, triangles, pieces, handles and boundaries stay in number. After some rounds
 /// it ends with the fewest defects that it came by: a mesh that passes right through itself, as two
-/// crossed tubes do, keeps defects. A mesh that is broken in more than 500 places and 5 % of its
-/// triangles stays as it is. Ended by `progress`, it has the fewest defects so far. The same mesh gives the same result on every machine.
+/// crossed tubes do, keeps defects. A mesh that is broken in more than 500 places and half of its
+/// triangles stays as it is. Ended by `progress`, it has the fewest defects so far. The same
+/// mesh gives the same result on every machine.
 ///
 /// About O(n log n) for n triangles, of which most is spent to see whether there are defects.
 IntersectionRepair repairIntersections(

@@ -80,9 +80,6 @@ public:
 
   /// Vertices in Morton order without gaps, in all structures.
   void renumber();
-  /// Takes triangles away, and what would be no manifold without them (see Mesh). To be called
-  /// between learn() and renumber().
-  void removeTriangles(std::span<const Triangle> triangles);
 
 private:
   void learnBatch(std::size_t size);

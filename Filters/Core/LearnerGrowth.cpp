@@ -205,26 +205,6 @@ bool Learner::removeStar(VertexIndex v)
   return !this->mesh_.isAlive(v);
 }
 
-void Learner::removeTriangles(std::span<const Triangle> triangles)
-{
-  const Mesh::Removal removal = this->mesh_.removeTriangles(triangles);
-  TopologyLearning::Result result;
-  result.removedTriangles = removal.triangleCount;
-  for (const VertexIndex v : removal.vertices)
-  {
-    if (!this->mesh_.isAlive(v))
-    {
-      result.removedVertices.push_back(v);
-    }
-  }
-  if (this->topology_)
-  {
-    this->topology_->boundaries().retrace(this->mesh_, removal.vertices);
-  }
-  this->follow(result);
-  this->updateDecay();
-}
-
 void Learner::follow(const TopologyLearning::Result& result)
 {
   for (const VertexIndex v : result.removedVertices)
