@@ -211,7 +211,8 @@ vtkInformation* vtkNeuralMesh::GetWeightArrayInformation()
 const char* vtkNeuralMesh::GetWeightArrayName()
 {
   vtkInformation* array = this->GetWeightArrayInformation();
-  return array ? array->Get(vtkDataObject::FIELD_NAME()) : nullptr;
+  const char* name = array ? array->Get(vtkDataObject::FIELD_NAME()) : nullptr;
+  return name ? name : "";
 }
 
 void vtkNeuralMesh::SetWeightArrayName(const char* name)
@@ -245,7 +246,7 @@ bool vtkNeuralMesh::CollectWeights(
     {
       const char* name = this->GetWeightArrayName();
       vtkErrorMacro(<< "There is no numeric point array of one component "
-                    << (name ? "called " : "") << (name ? name : "") << " for the weights.");
+                    << (*name ? "called " : "") << name << " for the weights.");
       return false;
     }
     const std::size_t end = leaf.Begin +
@@ -409,8 +410,7 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
   NEURAL_MESH_FOR_EACH_PARAMETER(PRINT_PROPERTY)
 #undef PRINT_PROPERTY
   os << indent << "CarryPointData: " << this->CarryPointData << "\n";
-  const char* weights = this->GetWeightArrayName();
-  os << indent << "WeightArrayName: " << (weights ? weights : "(none)") << "\n";
+  os << indent << "WeightArrayName: " << this->GetWeightArrayName() << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "StopReason: " << this->StopReason << "\n";
   os << indent << "CloudTime: " << this->CloudTime << "\n";

@@ -168,7 +168,7 @@ public:
    * the fit and where point data is carried over. Only ratios count. Points whose weight is
    * negative, 0, NaN or infinite are as if they were not there, and are not among DroppedPoints. It
    * is an error if no weight is positive, or if there is no such array in all blocks with points.
-   * Default none (null; an empty name is as null): all points weigh alike.
+   * Default none (an empty name, for which null may be given, too): all points weigh alike.
    * The same as SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name),
    * which may be used instead, with an attribute, too.
    */

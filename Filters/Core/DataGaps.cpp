@@ -17,6 +17,7 @@ constexpr double LeastExpectedSamples = 10.;
 /// It is one if a triangle of it is so many times the distance between samples away from all
 /// points. Where points are spread by chance, such a place is one of e^28.
 constexpr double LeastSpacings = 3.;
+constexpr std::size_t LeastSamplesPerTriangle = 2;
 /// ... and so many times the median distance between samples and mesh: points with noise do not lie
 /// on it.
 constexpr double LeastMedians = 5.;
@@ -205,9 +206,19 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
     return gaps;
   }
   const SomePoints points(cloud, places.size());
+  // Where triangles are smaller than the distance between samples, those with samples tell nothing
+  // of the density.
+  double area = 0.;
+  for (const Triangle& triangle : triangles.all())
+  {
+    area += areaOf(mesh, triangle);
+  }
+  const double meanSpacing = places.size() < LeastSamplesPerTriangle * triangles.all().size()
+    ? std::sqrt(area / double(places.size()))
+    : 0.;
   for (const Piece& piece : pieces)
   {
-    const double spacing = 1. / std::sqrt(piece.density());
+    const double spacing = std::max(meanSpacing, 1. / std::sqrt(piece.density()));
     const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
     const auto isFar = [&](std::uint32_t t)
     {

@@ -34,8 +34,8 @@ struct Defects
 };
 
 /// A mesh with more defects than that, of its triangles, is a tangle: nothing would be left of it.
-constexpr double MostPartBroken = 0.5;
-constexpr std::size_t LeastBroken = 500;
+constexpr double MostPartBroken = 0.05;
+constexpr std::size_t LeastBroken = 6000;
 
 class Repairer
 {

@@ -31,7 +31,7 @@ struct IntersectionRepair
 /// Only vertices near defects move, those on a boundary along it, and a mesh without defects stays
 /// as it is. Vertices, triangles, pieces, handles and boundaries stay in number. After some rounds
 /// it ends with the fewest defects that it came by: a mesh that passes right through itself, as two
-/// crossed tubes do, keeps defects. A mesh that is broken in more than 500 places and half of its
+/// crossed tubes do, keeps defects. A mesh that is broken in more than 6000 places and 5 % of its
 /// triangles stays as it is. Ended by `progress`, it has the fewest defects so far. The same
 /// mesh gives the same result on every machine.
 ///
