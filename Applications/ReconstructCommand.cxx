@@ -264,11 +264,14 @@ void PrintReport(vtkPolyData* mesh)
   }
   std::printf(", %.2g %% outliers\n", 100.0 * FieldNumber(mesh, "OutlierShare"));
   const long long genus = FieldValue(mesh, "Genus");
-  std::printf("shape      %s, %s, %s, %s\n",
+  const long long cutting = FieldValue(mesh, "IntersectingTriangles");
+  std::printf("shape      %s, %s, %s, %s, %s\n",
     Counted(FieldValue(mesh, "Components"), "piece", "pieces").c_str(),
     genus < 0 ? "genus not defined" : Counted(genus, "handle", "handles").c_str(),
     Counted(FieldValue(mesh, "BoundaryLoops"), "boundary", "boundaries").c_str(),
-    Counted(FieldValue(mesh, "FoldedEdges"), "folded edge", "folded edges").c_str());
+    Counted(FieldValue(mesh, "FoldedEdges"), "folded edge", "folded edges").c_str(),
+    cutting < 0 ? "intersections not looked for"
+                : Counted(cutting, "intersecting triangle", "intersecting triangles").c_str());
   std::printf(
     "quality    %.3f of the triangles on average (1: equilateral), %.0f %% of the vertices "
     "regular\n",

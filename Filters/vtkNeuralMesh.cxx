@@ -74,13 +74,17 @@ void AddQuality(const neuralmesh::Reconstruction& result, double unit, vtkPolyDa
   addCount("Genus", surface.genus.value_or(-1));
   addCount("BoundaryLoops", surface.boundaryLoops);
   addCount("FoldedEdges", surface.foldedEdges);
+  constexpr vtkIdType NotLookedFor = -1;
+  addCount("IntersectingTriangles",
+    result.finish ? static_cast<vtkIdType>(result.finish->left.intersectingTriangles)
+                  : NotLookedFor);
 }
 
 /// The input may bring the report on an earlier mesh along.
 void RemoveQuality(vtkPolyData* output)
 {
   for (const char* name : { "Residual", "Noise", "OutlierShare", "RegularRatio", "TriangleQuality",
-         "Components", "Genus", "BoundaryLoops", "FoldedEdges" })
+         "Components", "Genus", "BoundaryLoops", "FoldedEdges", "IntersectingTriangles" })
   {
     output->GetFieldData()->RemoveArray(name);
   }

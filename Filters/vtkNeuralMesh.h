@@ -49,8 +49,9 @@
  * What it is by itself: `RegularRatio` (of vertices with valence 6, on a boundary 4), from 0 to 1,
  * and `TriangleQuality` (mean of twice the radius of the inscribed over that of the circumscribed
  * circle, 1 for equilateral triangles), both double; and the integers `Components`, `Genus`
- * (handles; -1 where it is not defined), `BoundaryLoops` and `FoldedEdges` (whose triangles turn by
- * more than 150 degrees).
+ * (handles; -1 where it is not defined), `BoundaryLoops`, `FoldedEdges` (whose triangles turn by
+ * more than 150 degrees) and `IntersectingTriangles` (which cut others and could not be repaired; -1
+ * without a finished fit: nobody has looked).
  *
  * Output port 1 is a vtkTable, the learning curve: a row for every twentieth more samples and one
  * for the end, with the columns `Iteration`, `Vertices`, `Seconds` (since the start of learning),

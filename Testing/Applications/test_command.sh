@@ -213,7 +213,7 @@ test_report()
   tail -n 3 out > report
   grep -Eq '^residual   [0-9.e-]+ from held-out points to the mesh, noise about [0-9.e-]+, 0 % out' \
     report || { cat out; fail "no residual"; }
-  grep -Eq '^shape      1 piece, no handles, no boundaries, (no|[0-9]+) folded edges?$' report ||
+  grep -Eq '^shape      1 piece, no handles, no boundaries, (no|[0-9]+) folded edges?, no intersecting triangles$' report ||
     { cat out; fail "no shape"; }
   grep -Eq '^quality    0[.][0-9]+ of the triangles .*, [0-9]+ % of the vertices regular$' report ||
     { cat out; fail "no quality"; }

@@ -42,7 +42,8 @@ def measure(command, cloud, reference, boundaries, seed, mesh):
     said = run(command, "reconstruct", cloud, mesh, "--vertices", str(VERTICES), "--seed", str(seed),
                "--boundaries", boundaries)
     phases = re.search(r"phases +([\d.]+) CPU s .*learning ([\d.]+),", said)
-    distances = json.loads(run(command, "compare", reference, mesh, "--json"))
+    distances = json.loads(
+        run(command, "compare", reference, mesh, "--json", "--samples", "30000"))
     info = json.loads(run(command, "info", mesh, "--json"))
     to, back = distances["reference_to_result"], distances["result_to_reference"]
     return {

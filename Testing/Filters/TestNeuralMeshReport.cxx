@@ -9,8 +9,9 @@
 
 namespace
 {
-constexpr std::array<const char*, 9> Names{ "Residual", "Noise", "OutlierShare", "RegularRatio",
-  "TriangleQuality", "Components", "Genus", "BoundaryLoops", "FoldedEdges" };
+constexpr std::array<const char*, 10> Names{ "Residual", "Noise", "OutlierShare", "RegularRatio",
+  "TriangleQuality", "Components", "Genus", "BoundaryLoops", "FoldedEdges",
+  "IntersectingTriangles" };
 
 using FilterTesting::FieldValue;
 
@@ -59,6 +60,7 @@ int CheckNoisySphere()
   CHECK(FieldValue(mesh, "TriangleQuality") > 0.7 && FieldValue(mesh, "TriangleQuality") <= 1.0);
   CHECK(FieldValue(mesh, "Components") == 1 && FieldValue(mesh, "Genus") == 0);
   CHECK(FieldValue(mesh, "BoundaryLoops") == 0 && FieldValue(mesh, "FoldedEdges") == 0);
+  CHECK(FieldValue(mesh, "IntersectingTriangles") == 0);
 
   const auto again = Run(NoisySphere());
   for (const char* name : Names)

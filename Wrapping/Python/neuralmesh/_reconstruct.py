@@ -80,7 +80,8 @@ def reconstruct(
         the point data of a dataset, unless carry_point_data is False. Field data, one value each:
         `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`, `DroppedPoints`, and the report on
         the quality: `Residual`, `Noise`, `OutlierShare`, `RegularRatio`, `TriangleQuality`,
-        `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`. No pipeline is behind it.
+        `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`,
+        `IntersectingTriangles`. No pipeline is behind it.
 
     Raises:
         ValueError: A parameter is out of its range, which the message names; parameters do not go
