@@ -113,11 +113,12 @@ void forEachNeighbor(const VoxelGrid& grid, std::size_t voxel, Use use)
 /// of points.
 double fullness(const VoxelGrid& grid, const Voxels& inside, const std::vector<std::size_t>& piece)
 {
-  const auto [sx, sy, sz] = grid.strides();
+  const auto strides = grid.strides();
   const auto isSurrounded = [&](std::size_t voxel)
   {
-    return inside[voxel - sx] != 0 && inside[voxel + sx] != 0 && inside[voxel - sy] != 0 &&
-      inside[voxel + sy] != 0 && inside[voxel - sz] != 0 && inside[voxel + sz] != 0;
+    return std::all_of(strides.begin(), strides.end(),
+      [&](std::size_t stride)
+      { return inside[voxel - stride] != 0 && inside[voxel + stride] != 0; });
   };
   return double(std::count_if(piece.begin(), piece.end(), isSurrounded)) / double(piece.size());
 }
