@@ -37,7 +37,7 @@ CloudPlaces::CloudPlaces(const PointCloud& cloud, const Mesh& mesh, const Progre
   std::vector<float> sorted = squaredDistances;
   const auto median = sorted.begin() + std::ptrdiff_t(count / 2);
   std::nth_element(sorted.begin(), median, sorted.end());
-  const float farthest = outlierDistance(std::sqrt(*median), meanEdge(mesh));
+  const float farthest = outlierDistance(std::sqrt(*median), mesh.meanEdge());
   for (std::size_t i = 0; i < count; ++i)
   {
     if (squaredDistances[i] > farthest * farthest)

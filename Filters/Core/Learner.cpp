@@ -50,21 +50,6 @@ Vector4 meanOf(std::span<const Vector4> points)
   return Vector4(Eigen::Vector3d(sum / double(points.size())));
 }
 
-float meanEdgeLength(const Mesh& mesh)
-{
-  double sum = 0.;
-  std::size_t count = 0;
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    for (const VertexIndex neighbor : mesh.ring(v))
-    {
-      sum += std::sqrt(squaredNorm(mesh.position(neighbor) - mesh.position(v)));
-      ++count;
-    }
-  }
-  return float(sum / double(count));
-}
-
 Mesh firstTetrahedron(const PointCloud& cloud)
 {
   const Vector4 center = max(min(meanOf(cloud.points()), cloud.bulkMax()), cloud.bulkMin());
@@ -374,7 +359,7 @@ void Learner::renumber()
     this->featureStrength_->renumber(order, this->capacity_);
   }
   this->grid_.reset(
-    this->boxMin_, this->boxMax_, EdgesPerCell * meanEdgeLength(this->mesh_), this->capacity_);
+    this->boxMin_, this->boxMax_, EdgesPerCell * float(this->mesh_.meanEdge()), this->capacity_);
   for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
   {
     this->grid_.insert(v, this->mesh_.position(v));

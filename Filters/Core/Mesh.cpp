@@ -53,6 +53,21 @@ Vector4 Mesh::normal(VertexIndex v) const
   return rotated(sum);
 }
 
+double Mesh::meanEdge() const
+{
+  double sum = 0.;
+  std::size_t count = 0;
+  for (VertexIndex v = 0; v < this->indexEnd(); ++v)
+  {
+    for (const VertexIndex neighbor : this->ring(v))
+    {
+      sum += double(std::sqrt(squaredNorm(this->position(neighbor) - this->position(v))));
+      ++count;
+    }
+  }
+  return sum / double(count);
+}
+
 std::size_t Mesh::triangleCount() const
 {
   std::size_t corners = 0;

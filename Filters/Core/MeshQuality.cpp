@@ -41,7 +41,7 @@ MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const Tria
   std::vector<float> sorted = squared;
   const auto median = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
   std::nth_element(sorted.begin(), median, sorted.end());
-  const float farthest = outlierDistance(std::sqrt(*median), meanEdge(mesh));
+  const float farthest = outlierDistance(std::sqrt(*median), mesh.meanEdge());
 
   double sum = 0., weights = 0.;
   std::size_t outliers = 0;

@@ -21,7 +21,8 @@ constexpr std::size_t Margin = EmptyLayers + 1;
 constexpr double LeastPartOfUsual = 0.15;
 /// Where so many are usual, a single point in a voxel is most probably an outlier.
 constexpr std::uint32_t EnoughPoints = 5;
-/// Pieces with less than this part of all occupied voxels are stray points.
+/// Pieces with less than this part of the voxels of the largest one are stray points: of all, and of
+/// many equal objects none would be left.
 constexpr double LeastPartOfPiece = 0.02;
 /// Pieces with less than that part are clusters of outliers if they are so much fuller than the
 /// largest piece.
@@ -157,7 +158,7 @@ void dropStrayPieces(const VoxelGrid& grid, Voxels& inside)
   Voxels kept = inside;
   for (const auto& piece : pieces)
   {
-    const bool isSmall = double(piece.size()) < LeastPartOfPiece * double(all);
+    const bool isSmall = double(piece.size()) < LeastPartOfPiece * double(largest->size());
     const bool isCluster = double(piece.size()) < MostPartOfCluster * double(all) &&
       fullness(grid, inside, piece) > ClusterFullness * usual + ClusterFullnessOffset;
     if (isSmall || isCluster)

@@ -2,6 +2,7 @@
 #include "OneSheet.h"
 
 #include "BoundaryFilling.h"
+#include "NumberedTriangles.h"
 #include "SmallPieces.h"
 
 #include <Eigen/Eigenvalues>
@@ -61,37 +62,27 @@ public:
   SheetFlood(const Mesh& skin, float thickness)
     : skin_(skin)
     , thickness_(thickness)
-    , firstOf_(skin.indexEnd() + 1, 0)
+    , triangles_(skin)
   {
-    for (VertexIndex v = 0; v < skin.indexEnd(); ++v)
+    for (const auto& [a, b, c] : this->triangles_.all())
     {
-      this->firstOf_[v + 1] = this->firstOf_[v] + skin.ring(v).triangleCount();
+      const auto number = std::uint32_t(this->centers_.size());
+      const Vector4 p = skin.position(a), q = skin.position(b), r = skin.position(c);
+      const Vector4 normal = cross(q - p, r - p);
+      const float length = std::sqrt(squaredNorm(normal));
+      this->normals_.push_back(length > 0.f ? 1.f / length * normal : Vector4());
+      this->centers_.push_back(1.f / 3.f * (p + q + r));
+      this->cells_[keyOf(cellPlace(this->centers_.back(), this->radius()))].push_back(number);
+      this->moments_[keyOf(cellPlace(this->centers_.back(), this->planeCell()))].add(
+        this->centers_.back().toDouble());
     }
-    this->numberOf_.resize(this->firstOf_.back());
-    skin.forEachTriangle(
-      [&](VertexIndex a, VertexIndex b, VertexIndex c)
-      {
-        const auto number = std::uint32_t(this->triangles_.size());
-        this->triangles_.push_back({ a, b, c });
-        this->numberOf_[this->place(a, b)] = number;
-        this->numberOf_[this->place(b, c)] = number;
-        this->numberOf_[this->place(c, a)] = number;
-        const Vector4 p = skin.position(a), q = skin.position(b), r = skin.position(c);
-        const Vector4 normal = cross(q - p, r - p);
-        const float length = std::sqrt(squaredNorm(normal));
-        this->normals_.push_back(length > 0.f ? 1.f / length * normal : Vector4());
-        this->centers_.push_back(1.f / 3.f * (p + q + r));
-        this->cells_[keyOf(cellPlace(this->centers_.back(), this->radius()))].push_back(number);
-        this->moments_[keyOf(cellPlace(this->centers_.back(), this->planeCell()))].add(
-          this->centers_.back().toDouble());
-      });
     this->findSteepness();
   }
 
   /// The triangles that do not belong to the side that is kept.
   std::vector<Triangle> otherSide()
   {
-    std::vector<std::uint32_t> byFlatness(this->triangles_.size());
+    std::vector<std::uint32_t> byFlatness(this->triangles_.all().size());
     for (std::uint32_t t = 0; t < byFlatness.size(); ++t)
     {
       byFlatness[t] = t;
@@ -99,7 +90,7 @@ public:
     std::sort(byFlatness.begin(), byFlatness.end(),
       [&](std::uint32_t a, std::uint32_t b)
       { return std::tie(this->steepness_[a], a) < std::tie(this->steepness_[b], b); });
-    this->sides_.assign(this->triangles_.size(), Side::Unknown);
+    this->sides_.assign(this->triangles_.all().size(), Side::Unknown);
     for (const std::uint32_t seed : byFlatness)
     {
       if (this->sides_[seed] == Side::Unknown)
@@ -108,11 +99,11 @@ public:
       }
     }
     std::vector<Triangle> result;
-    for (std::size_t t = 0; t < this->triangles_.size(); ++t)
+    for (std::size_t t = 0; t < this->triangles_.all().size(); ++t)
     {
       if (this->sides_[t] != Side::Kept)
       {
-        result.push_back(this->triangles_[t]);
+        result.push_back(this->triangles_.all()[t]);
       }
     }
     return result;
@@ -125,11 +116,6 @@ private:
     Kept,
     Other
   };
-
-  std::size_t place(VertexIndex v, VertexIndex next) const
-  {
-    return this->firstOf_[v] + this->skin_.ring(v).find(next);
-  }
 
   static std::uint64_t key(int x, int y, int z)
   {
@@ -173,8 +159,8 @@ private:
   /// its rim. Both sides together tell that plane.
   void findSteepness()
   {
-    this->steepness_.resize(this->triangles_.size());
-    for (std::size_t t = 0; t < this->triangles_.size(); ++t)
+    this->steepness_.resize(this->triangles_.all().size());
+    for (std::size_t t = 0; t < this->triangles_.all().size(); ++t)
     {
       Moments sum;
       forEachCellAround(this->moments_, this->centers_[t], this->planeCell(),
@@ -201,11 +187,11 @@ private:
       }
       this->sides_[t] = Side::Kept;
       this->markOtherSide(t);
-      const auto& [a, b, c] = this->triangles_[t];
+      const auto& [a, b, c] = this->triangles_.all()[t];
       for (const auto& [from, to] : { std::pair(a, b), std::pair(b, c), std::pair(c, a) })
       {
         // The triangle on the other side of the edge.
-        const std::uint32_t next = this->numberOf_[this->place(to, from)];
+        const std::uint32_t next = this->triangles_.number(to, from);
         if (this->sides_[next] == Side::Unknown)
         {
           open.emplace(this->steepness_[next], next);
@@ -237,9 +223,7 @@ private:
 
   const Mesh& skin_;
   float thickness_;
-  std::vector<std::size_t> firstOf_;
-  std::vector<std::uint32_t> numberOf_; ///< of the triangle after each slot of each ring
-  std::vector<Triangle> triangles_;
+  NumberedTriangles triangles_;
   std::vector<Vector4> normals_;
   std::vector<Vector4> centers_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;

@@ -134,21 +134,6 @@ PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near)
   }
 }
 
-double meanEdge(const Mesh& mesh)
-{
-  double sum = 0.;
-  std::size_t count = 0;
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    for (const VertexIndex neighbor : mesh.ring(v))
-    {
-      sum += std::sqrt(double(squaredNorm(mesh.position(neighbor) - mesh.position(v))));
-      ++count;
-    }
-  }
-  return sum / double(count);
-}
-
 VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud)
 {
   constexpr float EdgesPerCell = 2.f;
@@ -159,7 +144,7 @@ VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud)
   const float spread = std::sqrt(squaredNorm(size) / float(mesh.indexEnd()));
   VertexGrid grid;
   grid.reset(cloud.bulkMin(), cloud.bulkMax(),
-    EdgesPerCell * std::max(float(meanEdge(mesh)), LeastPartOfSpread * spread), mesh.indexEnd());
+    EdgesPerCell * std::max(float(mesh.meanEdge()), LeastPartOfSpread * spread), mesh.indexEnd());
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
     grid.insert(v, mesh.position(v));

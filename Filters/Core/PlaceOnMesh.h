@@ -27,9 +27,6 @@ PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near);
 /// Whether the place lies on the boundary.
 bool isOnBoundary(const PlaceOnMesh& place, const Mesh& mesh);
 
-/// Mean length of the edges.
-double meanEdge(const Mesh& mesh);
-
 /// All vertices, for closestPlace(), in a grid over the bulk of the cloud.
 VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SmallPieces.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace neuralmesh
@@ -40,11 +41,12 @@ std::vector<Triangle> findSmallPieces(const Mesh& mesh)
       }
     }
   }
+  const auto largest = double(*std::max_element(sizes.begin(), sizes.end()));
   std::vector<Triangle> result;
   mesh.forEachTriangle(
     [&](VertexIndex a, VertexIndex b, VertexIndex c)
     {
-      if (double(sizes[pieceOf[a]]) < LeastPart * double(mesh.vertexCount()))
+      if (double(sizes[pieceOf[a]]) < LeastPart * largest)
       {
         result.push_back({ a, b, c });
       }

@@ -7,7 +7,7 @@
 
 namespace neuralmesh
 {
-/// The triangles of all pieces of a mesh, connected by edges, that have less than 2 % of its
-/// vertices: what is left over where a mesh was cut.
+/// The triangles of all pieces of a mesh, connected by edges, that have less than 2 % of the
+/// vertices of the largest one: what is left over where a mesh was cut.
 std::vector<Triangle> findSmallPieces(const Mesh& mesh);
 }

@@ -82,7 +82,7 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   std::nth_element(distances.begin(), median, distances.end());
   this->medianDistance_ = std::sqrt(*median);
   this->outlierDistance_ =
-    neuralmesh::outlierDistance(this->medianDistance_, meanEdge(this->mesh_), edges);
+    neuralmesh::outlierDistance(this->medianDistance_, this->mesh_.meanEdge(), edges);
   this->fillSystem();
   return true;
 }

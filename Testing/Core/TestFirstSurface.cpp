@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace neuralmesh::testing
 {
 namespace
@@ -63,20 +65,28 @@ TriangleMesh heightField()
 }
 
 /// Two spheres of radius 1, at this distance of their centres.
-TriangleMesh twoSpheres(double distance)
+TriangleMesh spheresAt(std::span<const Eigen::Vector3d> centers)
 {
-  TriangleMesh spheres = makeSphere();
-  const TriangleMesh other = spheres;
-  const auto first = std::uint32_t(spheres.points.size());
-  for (const Eigen::Vector3d& point : other.points)
+  const TriangleMesh sphere = makeSphere();
+  TriangleMesh spheres;
+  for (const Eigen::Vector3d& center : centers)
   {
-    spheres.points.emplace_back(point + Eigen::Vector3d(distance, 0., 0.));
-  }
-  for (const auto& [a, b, c] : other.triangles)
-  {
-    spheres.triangles.push_back({ a + first, b + first, c + first });
+    const auto first = std::uint32_t(spheres.points.size());
+    for (const Eigen::Vector3d& point : sphere.points)
+    {
+      spheres.points.emplace_back(point + center);
+    }
+    for (const auto& [a, b, c] : sphere.triangles)
+    {
+      spheres.triangles.push_back({ a + first, b + first, c + first });
+    }
   }
   return spheres;
+}
+
+TriangleMesh twoSpheres(double distance)
+{
+  return spheresAt(std::array{ Eigen::Vector3d(0., 0., 0.), Eigen::Vector3d(distance, 0., 0.) });
 }
 
 PointCloud cloudOf(const TriangleMesh& surface, CloudOptions options = {})
@@ -154,6 +164,22 @@ TEST(FirstSurface, SeparateSpheres)
     EXPECT_EQ(report.components, 2u);
     EXPECT_EQ(report.genus(), 0);
   }
+}
+
+// However many objects of one size a scan has, none is taken for a stray piece.
+TEST(FirstSurface, ManyEqualSpheres)
+{
+  std::vector<Eigen::Vector3d> centers;
+  for (int i = 0; i < 64; ++i)
+  {
+    centers.emplace_back(3. * (i % 4), 3. * (i / 4 % 4), 3. * (i / 16));
+  }
+  CloudOptions options;
+  options.count = 100000;
+  const auto first =
+    firstSurface(cloudOf(spheresAt(centers), options), 4 * MostVertices, Boundaries::Keep, goOn);
+  ASSERT_TRUE(first.has_value());
+  EXPECT_EQ(reportOf(first->mesh).components, 64u);
 }
 
 // Of an open scan one sheet is made, as large as the surface, and with one boundary.
