@@ -37,8 +37,8 @@ private:
   static constexpr float Infinity = std::numeric_limits<float>::infinity();
 };
 
-/// Finds which of many boxes overlap: a binary tree over the boxes in Morton order. However
-/// different the boxes are in size, n of them with m overlaps take about O(n log n + m).
+/// Finds which of many boxes overlap: a binary tree over those that are asked for, in Morton order.
+/// However different the boxes are in size, n of them with m overlaps take about O(n log n + m).
 class BoxTree
 {
 public:
@@ -49,9 +49,14 @@ public:
   template <typename Use>
   void forEachOverlap(Use use) const
   {
-    if (!this->nodes_.empty())
+    if (this->nodes_.empty())
     {
-      this->visitWithin(0, use);
+      return;
+    }
+    this->visitWithin(0, use);
+    for (const Item& other : this->others_)
+    {
+      this->visitFrom(other, 0, use);
     }
   }
 
@@ -60,7 +65,6 @@ private:
   {
     Box box;
     std::uint32_t index;
-    bool isAsked;
   };
   /// The first child of an inner node follows it.
   struct Node
@@ -69,7 +73,6 @@ private:
     std::uint32_t begin; ///< of its items
     std::uint32_t end;
     std::uint32_t secondChild; ///< 0 for a leaf
-    bool isAsked;              ///< whether one of its items is
 
     bool isLeaf() const { return this->secondChild == 0; }
   };
@@ -80,10 +83,6 @@ private:
   void visitWithin(std::uint32_t index, Use& use) const
   {
     const Node& node = this->nodes_[index];
-    if (!node.isAsked)
-    {
-      return;
-    }
     if (!node.isLeaf())
     {
       this->visitWithin(index + 1, use);
@@ -101,30 +100,44 @@ private:
   void visitBetween(std::uint32_t first, std::uint32_t second, Use& use) const
   {
     const Node &a = this->nodes_[first], &b = this->nodes_[second];
-    if (!(a.isAsked || b.isAsked) || !a.box.overlaps(b.box))
+    if (!a.box.overlaps(b.box))
     {
       return;
     }
-    if (a.isLeaf() && b.isLeaf())
+    if (a.isLeaf())
     {
       for (std::uint32_t i = a.begin; i < a.end; ++i)
       {
-        if (this->items_[i].box.overlaps(b.box))
-        {
-          this->visitItems(this->items_[i], b.begin, b.end, use);
-        }
+        this->visitFrom(this->items_[i], second, use);
       }
     }
-    else if (b.isLeaf() || (!a.isLeaf() && a.end - a.begin >= b.end - b.begin))
-    {
-      this->visitBetween(first + 1, second, use);
-      this->visitBetween(a.secondChild, second, use);
-    }
-    else
+    else if (!b.isLeaf() && a.end - a.begin < b.end - b.begin)
     {
       this->visitBetween(first, second + 1, use);
       this->visitBetween(first, b.secondChild, use);
     }
+    else
+    {
+      this->visitBetween(first + 1, second, use);
+      this->visitBetween(a.secondChild, second, use);
+    }
+  }
+
+  template <typename Use>
+  void visitFrom(const Item& item, std::uint32_t index, Use& use) const
+  {
+    const Node& node = this->nodes_[index];
+    if (!item.box.overlaps(node.box))
+    {
+      return;
+    }
+    if (node.isLeaf())
+    {
+      this->visitItems(item, node.begin, node.end, use);
+      return;
+    }
+    this->visitFrom(item, index + 1, use);
+    this->visitFrom(item, node.secondChild, use);
   }
 
   template <typename Use>
@@ -133,14 +146,15 @@ private:
     for (std::uint32_t j = begin; j < end; ++j)
     {
       const Item& other = this->items_[j];
-      if ((item.isAsked || other.isAsked) && item.box.overlaps(other.box))
+      if (item.box.overlaps(other.box))
       {
         use(item.index, other.index);
       }
     }
   }
 
-  std::vector<Item> items_;
+  std::vector<Item> items_; ///< that are asked for
+  std::vector<Item> others_;
   std::vector<Node> nodes_;
 };
 }

@@ -3,6 +3,8 @@
 
 #include "UmbrellaLaplacian.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -86,9 +88,19 @@ void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vecto
   }
 }
 
-std::vector<Vector4> FitSystem::inverseDiagonal(double lambda) const
+FitSystem::Block FitSystem::Block::inverse() const
 {
-  std::vector<Vector4> result(this->diagonal_.size());
+  const Eigen::Vector3d d = this->diagonal.toDouble(), o = this->others.toDouble();
+  Eigen::Matrix3d matrix;
+  matrix << d.x(), o.x(), o.z(), o.x(), d.y(), o.y(), o.z(), o.y(), d.z();
+  const Eigen::Matrix3d inverse = matrix.inverse();
+  return { Vector4(Eigen::Vector3d(inverse.diagonal())),
+    Vector4(Eigen::Vector3d(inverse(0, 1), inverse(1, 2), inverse(2, 0))) };
+}
+
+std::vector<FitSystem::Block> FitSystem::inverseDiagonal(double lambda) const
+{
+  std::vector<Block> result = this->diagonal_;
   for (VertexIndex v = 0; v < result.size(); ++v)
   {
     float squares = 1.f;
@@ -98,18 +110,18 @@ std::vector<Vector4> FitSystem::inverseDiagonal(double lambda) const
       squares += weight * weight;
     }
     const float smooth = float(lambda) * squares;
-    const Vector4 data = this->diagonal_[v].diagonal;
-    result[v] =
-      Vector4(1.f / (data[0] + smooth), 1.f / (data[1] + smooth), 1.f / (data[2] + smooth));
+    result[v].diagonal += Vector4(smooth, smooth, smooth);
+    result[v] = result[v].inverse();
   }
   return result;
 }
 
-bool FitSystem::solve(
-  double lambda, double tolerance, std::span<Vector4> x, const Progress& progress) const
+bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<Vector4> x,
+  const Progress& progress) const
 {
   const std::size_t n = x.size();
-  const std::vector<Vector4> inverse = this->inverseDiagonal(lambda);
+  // Across the surface the system is stiff, along it not: a whole block tells these apart.
+  const std::vector<Block> inverse = this->inverseDiagonal(lambda);
   std::vector<Vector4> residual(n), direction(n), product(n), laplacian(n);
   const auto squaredResidual = [&]
   {
@@ -127,7 +139,8 @@ bool FitSystem::solve(
     direction[v] = inverse[v] * residual[v];
   }
   double squared = squaredResidual();
-  const double start = squared, end = tolerance * tolerance * start;
+  scale = std::max(scale, std::sqrt(squared));
+  const double start = squared, end = tolerance * tolerance * scale * scale;
   double done = 0.;
   for (int i = 0; i < MostIterations && squared > end; ++i)
   {

@@ -14,7 +14,7 @@ namespace neuralmesh
 /// The linear system of a fit, (B^T W B + lambda L^T L) x = B^T W p, for the positions x of all
 /// vertices of a mesh: B are the barycentric coordinates of the places of samples p, W how much they
 /// weigh in each direction, L is the umbrella Laplacian (of a vertex on a boundary, that along it).
-/// Solved by conjugate gradients; the matrices are kept beside the rings. About 300 bytes a vertex.
+/// Solved by conjugate gradients; the matrices are kept beside the rings. About 330 bytes a vertex.
 class FitSystem
 {
 public:
@@ -25,9 +25,10 @@ public:
   /// Adds a sample whose place is on a triangle with this normal (of any length).
   void add(const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight);
 
-  /// Improves `x` until the residual is `tolerance` times what it was. Returns false if it was ended
-  /// before.
-  bool solve(double lambda, double tolerance, std::span<Vector4> x, const Progress& progress) const;
+  /// Improves `x` until the residual is `tolerance` times `scale`, which is raised first to the
+  /// residual of the given `x`. Returns false if it was ended before.
+  bool solve(double lambda, double tolerance, double& scale, std::span<Vector4> x,
+    const Progress& progress) const;
 
   /// L x.
   void applyLaplacian(std::span<const Vector4> x, std::span<Vector4> result) const;
@@ -45,6 +46,7 @@ private:
       this->others += b.others;
       return *this;
     }
+    Block inverse() const;
     friend Block operator*(float s, const Block& b) { return { s * b.diagonal, s * b.others }; }
     friend Vector4 operator*(const Block& b, Vector4 x)
     {
@@ -54,7 +56,7 @@ private:
 
   void apply(double lambda, std::span<const Vector4> x, std::span<Vector4> laplacian,
     std::span<Vector4> result) const;
-  std::vector<Vector4> inverseDiagonal(double lambda) const;
+  std::vector<Block> inverseDiagonal(double lambda) const;
 
   const Mesh& mesh_;
   float slip_;

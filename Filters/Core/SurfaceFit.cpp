@@ -16,8 +16,9 @@ constexpr double Slip = 0.01;
 constexpr float FirstOutlierEdges = 1.f;
 constexpr float LaterOutlierEdges = 0.5f;
 constexpr std::size_t SamplesPerCheck = 16384;
-/// Of the residual of the equations, against that at the start.
+/// Of the residual of the equations, against the largest at the start of a round.
 constexpr double Tolerance = 3e-3;
+/// While lambda is chosen, against that at the start.
 constexpr double ToleranceOfChoice = 1e-2;
 
 // The choice of lambda
@@ -115,7 +116,8 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
     return false;
   }
   std::vector<Vector4> positions(this->mesh_.positions().begin(), this->mesh_.positions().end());
-  if (!this->system_->solve(this->smoothness_, Tolerance, positions, partOf(progress, choice, 1.)))
+  if (!this->system_->solve(
+        this->smoothness_, Tolerance, this->scale_, positions, partOf(progress, choice, 1.)))
   {
     return false;
   }
@@ -136,7 +138,8 @@ bool SurfaceFit::chooseSmoothness(const Progress& progress)
   std::vector<Vector4> positions(this->mesh_.positions().begin(), this->mesh_.positions().end());
   for (int i = 0; i < MostChoices; ++i)
   {
-    if (!this->system_->solve(this->smoothness_, ToleranceOfChoice, positions,
+    double scale = 0.;
+    if (!this->system_->solve(this->smoothness_, ToleranceOfChoice, scale, positions,
           partOf(progress, double(i) / MostChoices, double(i + 1) / MostChoices)))
     {
       return false;

@@ -82,6 +82,7 @@ private:
   float outlierDistance_ = 0.f;
   float medianDistance_ = 0.f;
   double smoothness_ = 0.;
+  double scale_ = 0.; ///< of the residual of the equations
   double noise_ = 0.;
 };
 }

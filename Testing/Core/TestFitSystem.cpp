@@ -183,7 +183,9 @@ TEST(FitSystem, SolvesTheDenseSystem)
           system.add(sample.place, sample.point, sample.normal, sample.weight);
         }
         std::vector<Vector4> x = positionsOf(mesh);
-        ASSERT_TRUE(system.solve(lambda, 1e-6, x, goOn));
+        double scale = 0.;
+        ASSERT_TRUE(system.solve(lambda, 1e-6, scale, x, goOn));
+        EXPECT_GT(scale, 0.);
         const Eigen::VectorXd expected = denseSolution(mesh, samples, slip, lambda);
         for (std::size_t v = 0; v < x.size(); ++v)
         {
@@ -191,6 +193,27 @@ TEST(FitSystem, SolvesTheDenseSystem)
         }
       }
     }
+  }
+}
+
+// The tolerance is one of the scale: what is near enough for it stays as it is.
+TEST(FitSystem, NearEnoughIsLeft)
+{
+  Random random(4);
+  const Mesh mesh = makeRandomMesh(200, random);
+  FitSystem system(mesh, 0.01);
+  for (const Sample& sample : makeSamples(mesh, 2000, random))
+  {
+    system.add(sample.place, sample.point, sample.normal, sample.weight);
+  }
+  const std::vector<Vector4> start = positionsOf(mesh);
+  std::vector<Vector4> x = start;
+  double scale = 1e9;
+  ASSERT_TRUE(system.solve(10., 1e-3, scale, x, goOn));
+  EXPECT_EQ(scale, 1e9);
+  for (std::size_t v = 0; v < x.size(); ++v)
+  {
+    EXPECT_EQ(squaredNorm(x[v] - start[v]), 0.f);
   }
 }
 
@@ -206,7 +229,8 @@ TEST(FitSystem, CanBeEnded)
   }
   std::vector<Vector4> x = positionsOf(mesh);
   std::vector<double> told;
-  ASSERT_TRUE(system.solve(10., 1e-4, x,
+  double scale = 0.;
+  ASSERT_TRUE(system.solve(10., 1e-4, scale, x,
     [&](double fraction)
     {
       told.push_back(fraction);
@@ -220,7 +244,7 @@ TEST(FitSystem, CanBeEnded)
   {
     std::size_t left = last;
     x = positionsOf(mesh);
-    EXPECT_FALSE(system.solve(10., 1e-4, x, [&](double) { return left-- > 0; }));
+    EXPECT_FALSE(system.solve(10., 1e-4, scale, x, [&](double) { return left-- > 0; }));
   }
 }
 }
