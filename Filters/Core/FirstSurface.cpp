@@ -25,11 +25,8 @@ namespace
 {
 /// Tried until what is enclosed becomes less: then gaps between points are wider than what is closed.
 constexpr std::array<unsigned, 5> Resolutions{ 16, 24, 32, 48, 64 };
-/// A solid encloses something if so many of its voxels with points lie beside what is enclosed: of
-/// closed shapes, most; of open ones only those at chance pockets.
-constexpr double LeastEnclosingPart = 0.15;
 /// Tried where those do not agree.
-constexpr unsigned FinestResolution = 80;
+constexpr std::array<unsigned, 2> FinestResolutions{ 80, 96 };
 constexpr int SmoothingSteps = 4;
 
 constexpr unsigned OpenResolution = 48;
@@ -53,7 +50,7 @@ struct Candidate
   unsigned resolution;
   TriangleMesh surface;
   std::size_t interior;
-  double enclosingPart;
+  bool enclosesSomething;
   std::size_t components;
   long genus;
 };
@@ -62,7 +59,7 @@ Candidate candidate(const PointCloud& cloud, unsigned resolution)
 {
   const OccupiedSolid solid = occupiedSolid(cloud, resolution);
   Candidate result{ resolution, voxelSurface(solid.grid, solid.inside), solid.interiorCount,
-    solid.enclosingPart, 0, 0 };
+    solid.enclosesSomething(), 0, 0 };
   DisjointSets sets(result.surface.points.size());
   result.components = result.surface.points.size();
   for (const auto& [a, b, c] : result.surface.triangles)
@@ -140,13 +137,13 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progres
   std::vector<Candidate> candidates;
   for (const unsigned resolution : Resolutions)
   {
-    if (!progress(double(resolution) / FinestResolution))
+    if (!progress(double(resolution) / FinestResolutions.back()))
     {
       break;
     }
     Candidate next = candidate(cloud, resolution);
     const bool isLeaky = !candidates.empty() && next.interior < candidates.back().interior;
-    if (next.enclosingPart >= LeastEnclosingPart && !isLeaky)
+    if (next.enclosesSomething && !isLeaky)
     {
       candidates.push_back(std::move(next));
     }
@@ -159,14 +156,20 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progres
   {
     return {};
   }
-  const bool isAgreed = candidates.size() > 1 && agree(candidates.back(), *(candidates.end() - 2));
-  if (!isAgreed && candidates.back().resolution == Resolutions.back())
+  for (const unsigned resolution : FinestResolutions)
   {
-    Candidate finest = candidate(cloud, FinestResolution);
-    if (finest.interior > candidates.back().interior && agree(finest, candidates.back()))
+    const std::size_t count = candidates.size();
+    if (candidates.back().resolution < Resolutions.back() ||
+      (count > 1 && agree(candidates[count - 1], candidates[count - 2])))
     {
-      candidates.push_back(std::move(finest));
+      break;
     }
+    Candidate next = candidate(cloud, resolution);
+    if (next.interior < candidates.back().interior)
+    {
+      break;
+    }
+    candidates.push_back(std::move(next));
   }
   // On fine grids outliers can make handles that coarser ones are without.
   const auto confirmed = std::adjacent_find(candidates.rbegin(), candidates.rend(), agree);

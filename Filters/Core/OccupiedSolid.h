@@ -17,6 +17,10 @@ struct OccupiedSolid
   std::size_t occupiedCount = 0; ///< voxels that hold points
   std::size_t interiorCount = 0; ///< voxels inside, farther from points than the closing reaches
   double enclosingPart = 0.;     ///< of the occupied voxels, those beside the interior
+
+  /// Of closed shapes most lie there; of open ones only those at chance pockets.
+  bool enclosesSomething() const { return this->enclosingPart >= LeastEnclosingPart; }
+  static constexpr double LeastEnclosingPart = 0.15;
 };
 
 /// Counts the points in voxels, `resolution` along the longest side of the bulk. A voxel is occupied

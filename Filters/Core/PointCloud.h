@@ -28,6 +28,11 @@ public:
   explicit PointCloud(std::span<const Eigen::Vector3d> points, std::span<const double> weights = {},
     bool keepsOrigins = false);
 
+  /// The cloud less those points for which `isLeftOut(point)`. Unit, diagonal and weights
+  /// stay as they are.
+  template <typename Condition>
+  PointCloud without(Condition isLeftOut) const;
+
   std::span<const Vector4> points() const { return this->points_; }
   /// Of the points, 1 on average; empty if all weigh alike.
   std::span<const float> weights() const { return this->weights_; }
@@ -78,4 +83,37 @@ private:
   Vector4 bulkMin_;
   Vector4 bulkMax_;
 };
+
+template <typename Condition>
+PointCloud PointCloud::without(Condition isLeftOut) const
+{
+  PointCloud result = *this;
+  std::size_t kept = 0;
+  Vector4 low = this->bulkMax_, high = this->bulkMin_;
+  for (std::size_t i = 0; i < this->points_.size(); ++i)
+  {
+    if (isLeftOut(this->points_[i]))
+    {
+      continue;
+    }
+    result.points_[kept] = this->points_[i];
+    if (!this->weights_.empty())
+    {
+      result.weights_[kept] = this->weights_[i];
+    }
+    if (!this->origins_.empty())
+    {
+      result.origins_[kept] = this->origins_[i];
+    }
+    low = min(low, this->points_[i]);
+    high = max(high, this->points_[i]);
+    ++kept;
+  }
+  result.bulkMin_ = max(result.bulkMin_, low);
+  result.bulkMax_ = min(result.bulkMax_, high);
+  result.points_.resize(kept);
+  result.weights_.resize(this->weights_.empty() ? 0 : kept);
+  result.origins_.resize(this->origins_.empty() ? 0 : kept);
+  return result;
+}
 }

@@ -4,6 +4,7 @@
 #include "FirstSurface.h"
 #include "MeshBuilder.h"
 #include "Orientation.h"
+#include "OutlierClusters.h"
 
 #include <algorithm>
 #include <ctime>
@@ -59,7 +60,7 @@ bool isTimeLeft(StopReason reason)
 
 double cpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
-Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
+Reconstruction reconstruct(const PointCloud& all, const Parameters& parameters,
   const Progress& tell, const std::optional<Mesh>& first)
 {
   Reconstruction result;
@@ -70,6 +71,9 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
   const double begin = cpuSeconds();
   std::optional<Mesh> start = first;
   const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
+  const std::optional<PointCloud> cleaned =
+    startsFromSpace ? withoutClusters(all) : std::optional<PointCloud>();
+  const PointCloud& cloud = cleaned ? *cleaned : all;
   if (startsFromSpace)
   {
     auto surface = firstSurface(cloud, firstVertices(parameters.numberOfVertices),
@@ -126,7 +130,7 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
   }
   if (result.stopReason != StopReason::Cancelled)
   {
-    result.quality = measureQuality(cloud, mesh, result.mesh);
+    result.quality = measureQuality(all, mesh, result.mesh);
   }
   result.surface = std::move(mesh);
   result.startSeconds = learningBegin - begin;

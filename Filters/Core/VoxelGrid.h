@@ -26,6 +26,23 @@ struct VoxelGrid
   {
     return this->first + this->width * Eigen::Vector3d(double(x), double(y), double(z));
   }
+  /// The voxel that holds a point; size() if none does.
+  std::size_t voxelAt(const Eigen::Vector3d& point) const
+  {
+    const auto strides = this->strides();
+    std::size_t voxel = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto a = Eigen::Index(axis);
+      const double place = (point[a] - this->first[a]) / this->width + 0.5;
+      if (!(place >= 0. && place < double(this->counts[axis])))
+      {
+        return this->size();
+      }
+      voxel += std::size_t(place) * strides[axis];
+    }
+    return voxel;
+  }
 };
 
 /// Calls `use(index, x, y, z)` for every voxel, in order.

@@ -125,6 +125,38 @@ TEST(FirstSurface, ClosedShapes)
   }
 }
 
+// However the density falls along an axis, shapes come out closed, with the genus that they have, and
+// open scans are one sheet.
+TEST(FirstSurface, DensityGradients)
+{
+  for (const double gradient : { 10., 30. })
+  {
+    for (const unsigned axis : { 0u, 1u })
+    {
+      CloudOptions options;
+      options.count = 100000;
+      options.gradient = gradient;
+      options.gradientAxis = axis;
+      for (const TrueSurface& shape : { trueSphere(), trueTorus(), trueCube() })
+      {
+        SCOPED_TRACE(shape.name + ", " + std::to_string(gradient) + ", " + std::to_string(axis));
+        const PointCloud cloud(generateCloud(shape.triangles, options));
+        const auto first = firstSurface(cloud, MostVertices, Boundaries::Keep, goOn);
+        ASSERT_TRUE(first.has_value());
+        EXPECT_TRUE(reportOf(first->mesh).isClosed());
+        EXPECT_EQ(reportOf(first->mesh).genus(), shape.genus);
+      }
+      options.gradient = 10.;
+      const PointCloud open(generateCloud(heightField(), options));
+      const auto sheet = firstSurface(open, MostVertices, Boundaries::Keep, goOn);
+      ASSERT_TRUE(sheet.has_value());
+      EXPECT_TRUE(sheet->isOpen);
+      EXPECT_EQ(reportOf(sheet->mesh).components, 1u);
+      EXPECT_EQ(reportOf(sheet->mesh).genus(), 0);
+    }
+  }
+}
+
 // Outliers that the grid joins to the shape by a corner only are no pieces of their own.
 TEST(FirstSurface, OutliersAreNoComponents)
 {

@@ -137,6 +137,28 @@ TEST(OccupiedSolid, OutliersAreLeftOut)
   }
 }
 
+// Thin parts of a cloud count as well as dense ones, even with outliers.
+TEST(OccupiedSolid, FollowsTheDensity)
+{
+  for (const double outliers : { 0., 0.05 })
+  {
+    for (const unsigned resolution : { 24u, 48u })
+    {
+      CloudOptions options;
+      options.gradient = 20.;
+      options.gradientAxis = 0;
+      options.outliers = outliers;
+      const PointCloud even = cloudOf(makeTorus());
+      const PointCloud cloud(generateCloud(makeTorus(), options));
+      const OccupiedSolid solid = occupiedSolid(cloud, resolution);
+      const double volume = volumeOf(occupiedSolid(even, resolution), even);
+      EXPECT_NEAR(volumeOf(solid, cloud), volume, 0.1 * volume);
+      EXPECT_EQ(surfaceReport(solid).components, 1u);
+      EXPECT_EQ(surfaceReport(solid).genus(), 1);
+    }
+  }
+}
+
 // The surface is a closed manifold, of whatever points: even in a cube, on lines, few or many.
 TEST(OccupiedSolid, SurfaceIsAlwaysAManifold)
 {

@@ -278,4 +278,31 @@ TEST(PointCloud, Weights)
     EXPECT_NEAR(sum / double(kept.size()), 1., 1e-6);
   }
 }
+
+// Without some of its points it is the same cloud otherwise: origins, weights and units.
+TEST(PointCloud, Without)
+{
+  const std::vector<Eigen::Vector3d> points = cube(1000, 5);
+  std::vector<double> weights(points.size(), 1.);
+  weights[0] = 3.;
+  const PointCloud cloud(points, weights, true);
+  const PointCloud rest = cloud.without([](Vector4 point) { return point[0] > 0.f; });
+  EXPECT_EQ(rest.unit(), cloud.unit());
+  EXPECT_LE(rest.bulkMax()[0], 0.f);
+  EXPECT_GE(rest.bulkMin()[1], cloud.bulkMin()[1]);
+  ASSERT_EQ(rest.origins().size(), rest.points().size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < cloud.points().size(); ++i)
+  {
+    if (cloud.points()[i][0] <= 0.f)
+    {
+      ASSERT_LT(next, rest.points().size());
+      EXPECT_TRUE(sameCoordinates(rest.points()[next], cloud.points()[i]));
+      EXPECT_EQ(rest.origins()[next], cloud.origins()[i]);
+      EXPECT_EQ(rest.weight(next), cloud.weight(i));
+      ++next;
+    }
+  }
+  EXPECT_EQ(next, rest.points().size());
+}
 }
