@@ -54,8 +54,9 @@ struct Ball
 Eigen::Vector3d placeOf(const VoxelGrid& grid, std::size_t voxel)
 {
   const auto strides = grid.strides();
-  return { double(voxel % strides[1]), double(voxel % strides[2] / strides[1]),
-    double(voxel / strides[2]) };
+  const std::size_t x = voxel % strides[1], y = voxel % strides[2] / strides[1];
+  const std::size_t z = voxel / strides[2];
+  return { double(x), double(y), double(z) };
 }
 
 bool isCompact(const VoxelGrid& grid, const std::vector<std::size_t>& core)
