@@ -86,6 +86,7 @@ std::vector<LearningParameter> MakeParameters()
     PARAMETER(ListVertices, "counters until there are so many vertices (list)"),
     PARAMETER(BatchSize, "samples drawn at once at most"),
     WithWords(PARAMETER(Start, "what learning starts from"), { "occupied_space", "tetrahedron" }),
+    PARAMETER(CurvatureDensity, "denser where it bends, by its curvature to that power; 0: not"),
     PARAMETER(FitRounds, "rounds of the fit after learning; 0: none"),
     PARAMETER(FitSmoothness, "how smooth the fit is; 0: by the noise and the shape"),
     PARAMETER(FitSamples, "samples per vertex in the fit"),

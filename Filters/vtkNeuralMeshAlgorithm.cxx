@@ -51,6 +51,7 @@
   use(ListVertices, listVertices)                           \
   use(BatchSize, batchSize)                                 \
   use(Start, start)                                         \
+  use(CurvatureDensity, curvatureDensity)                   \
   use(FitRounds, fitRounds)                                 \
   use(FitSmoothness, fitSmoothness)                         \
   use(FitSamples, fitSamples)

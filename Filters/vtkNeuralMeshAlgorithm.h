@@ -123,6 +123,16 @@ public:
   void SetBoundariesToClose() { this->SetBoundaries(CLOSE); }
   ///@}
 
+  ///@{
+  /**
+   * With Start OCCUPIED_SPACE, but neither in the variant NORMAL_BASED nor with
+   * ComputeFeatureStrength: how much denser vertices are where the surface bends, the exponent of its
+   * mean curvature by which samples are drawn. 0 draws all alike. Default 0.5 (thesis 0), range 0 to 1.
+   */
+  vtkNeuralMeshSetClampMacro(CurvatureDensity, double, 0.0, 1.0);
+  vtkGetMacro(CurvatureDensity, double);
+  ///@}
+
   enum JumpType
   {
     CONSTANT,
@@ -303,19 +313,13 @@ public:
 
   ///@{
   /**
-   * Noise-filtering variant: samples farther from their winner than this multiple of epsilon_t are
+   * Noise-filtering variant: samples farther from their winner than OutlierLimit times epsilon_t are
    * outliers, from which nothing is learnt; 0 learns from all. Default 5 (thesis 0), range 0 to
-   * 1000000.
+   * 1000000. It holds from OutlierLimitVertices on (default 1000, at least 4): before, the mesh does
+   * not know the rough shape, and what is far from it need not be an outlier.
    */
   vtkNeuralMeshSetClampMacro(OutlierLimit, double, 0.0, 1e6);
   vtkGetMacro(OutlierLimit, double);
-  ///@}
-
-  ///@{
-  /**
-   * OutlierLimit holds from so many vertices on: before, the mesh does not know the rough shape,
-   * and what is far from it need not be an outlier. Default 1000, at least 4.
-   */
   vtkNeuralMeshSetClampMacro(OutlierLimitVertices, int, 4, VTK_INT_MAX);
   vtkGetMacro(OutlierLimitVertices, int);
   ///@}
@@ -481,18 +485,12 @@ public:
 
   ///@{
   /**
-   * Jump distance of chapter 11, with the list: how far a winner jumps, as a fraction of the number
-   * of vertices. Default 1/3 (thesis 1/3), range 0 to 1.
+   * Jump distance of chapter 11, with the list. JumpFraction: how far a winner jumps, as a fraction
+   * of the number of vertices; default 1/3 (thesis 1/3), range 0 to 1. Parts of the four figures in
+   * the WEIGHTED Jump, which divides by their sum: one must be above 0; defaults 1, range 0 to 1000.
    */
   vtkNeuralMeshSetClampMacro(JumpFraction, double, 0.0, 1.0);
   vtkGetMacro(JumpFraction, double);
-  ///@}
-
-  ///@{
-  /**
-   * Parts of the four figures in the WEIGHTED Jump, which divides by their sum: one must be above 0.
-   * Defaults 1, range 0 to 1000.
-   */
   vtkNeuralMeshSetClampMacro(ConstantWeight, double, 0.0, 1000.0);
   vtkGetMacro(ConstantWeight, double);
   vtkNeuralMeshSetClampMacro(NormalWeight, double, 0.0, 1000.0);
@@ -590,6 +588,7 @@ private:
   int ListVertices = 0;
   int BatchSize = 0;
   int Start = 0;
+  double CurvatureDensity = 0;
   int FitRounds = 0;
   double FitSmoothness = 0;
   double FitSamples = 0;

@@ -4,9 +4,9 @@
 import sys
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersGeneral import vtkVertexGlyphFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
@@ -39,8 +39,35 @@ def cloud_data(points):
     return glyphs.GetOutput()
 
 
-def scene(data, up, azimuth, elevation, scalars=None, zoom=1.25):
-    """A renderer with the points or the triangles, their edges drawn."""
+def mesh_data(points, triangles):
+    offsets, corners = vtkIdTypeArray(), vtkIdTypeArray()
+    offsets.DeepCopy(numpy_to_vtk(np.arange(len(triangles) + 1, dtype=np.int64) * 3))
+    corners.DeepCopy(numpy_to_vtk(triangles.astype(np.int64).ravel()))
+    cells = vtkCellArray()
+    cells.SetData(offsets, corners)
+    mesh = vtkPolyData()
+    mesh.SetPoints(cloud_data(points).GetPoints())
+    mesh.SetPolys(cells)
+    return mesh
+
+
+def with_errors(mesh, points, triangles):
+    """The mesh with its distances from the surface as `Distance`, in percent of the diagonal."""
+    comparison = neuralmesh.vtkNeuralMeshComparison()
+    comparison.SetInputData(mesh)
+    comparison.SetReferenceData(mesh_data(points, triangles))
+    comparison.Update()
+    compared = comparison.GetOutput()
+    distance = compared.GetPointData().GetArray("Distance")
+    vtk_to_numpy(distance)[:] *= 100 / np.linalg.norm(np.ptp(points, axis=0))
+    return compared
+
+
+def scene(data, up, azimuth, elevation, scalars=None, zoom=1.25, values=None, near=None, edges=None):
+    """A renderer with the points or the triangles, their edges drawn unless there are scalars.
+
+    `values` is the range of the scalars that is coloured, `near` what is looked at instead of all:
+    a place and how much of the height is seen."""
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(data)
     mapper.SetScalarVisibility(scalars is not None)
@@ -58,9 +85,11 @@ def scene(data, up, azimuth, elevation, scalars=None, zoom=1.25):
         looks.SetPointSize(1.5)
     if scalars is not None:
         data.GetPointData().SetActiveScalars(scalars)
-        mapper.SetScalarRange(data.GetPointData().GetArray(scalars).GetRange())
+        mapper.SetScalarRange(values or data.GetPointData().GetArray(scalars).GetRange())
         mapper.GetLookupTable().SetHueRange(2 / 3, 0)  # from blue to red
         looks.EdgeVisibilityOff()
+    if edges is not None:
+        looks.SetEdgeVisibility(edges)
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     renderer.AddActor(actor)
@@ -73,6 +102,13 @@ def scene(data, up, azimuth, elevation, scalars=None, zoom=1.25):
     camera.OrthogonalizeViewUp()
     renderer.ResetCamera()
     camera.Zoom(zoom)
+    if near is not None:
+        place, height = near
+        camera.ParallelProjectionOn()
+        camera.SetPosition(*(np.array(camera.GetPosition()) + place - camera.GetFocalPoint()))
+        camera.SetFocalPoint(*place)
+        camera.SetParallelScale(height / 2)
+        renderer.ResetCameraClippingRange()
     return renderer
 
 
@@ -101,12 +137,16 @@ def growth():
     return [scene(mesh, "y", 30, 10) for mesh in meshes]
 
 
-def noise():
+def spoilt(points, noise, outliers):
+    """With noise of this part of the diagonal and so many outliers."""
     random = np.random.default_rng(1)
-    points = clouds.sample(*bunny(), 60000)
     low, high = points.min(axis=0), points.max(axis=0)
-    points += random.normal(0, 0.005 * np.linalg.norm(high - low), points.shape)
-    points = np.vstack((points, random.uniform(low, high, (1200, 3))))
+    points = points + random.normal(0, noise * np.linalg.norm(high - low), points.shape)
+    return np.vstack((points, random.uniform(low, high, (outliers, 3))))
+
+
+def noise():
+    points = spoilt(clouds.sample(*bunny(), 60000), 0.005, 1200)
     return [scene(cloud_data(points), "y", 30, 10),
             scene(neuralmesh.reconstruct(points, 3000), "y", 30, 10)]
 
@@ -153,7 +193,48 @@ def openings():
         for boundaries in ("keep", "close")]
 
 
-PICTURES = {"growth": growth, "noise": noise, "topology": topology, "normals": normals,
+def leap():
+    models = [clouds.cgal_mesh("armadillo"), clouds.cgal_mesh("elephant")]
+    scan, other = (clouds.sample(*model, 200000) for model in models)
+    scan = spoilt(scan, 0.005, 4000)
+    return [scene(cloud_data(scan[::5]), "y", 200, 10),
+            scene(neuralmesh.reconstruct(scan), "y", 200, 10, edges=0),
+            scene(neuralmesh.reconstruct(other), "y", 40, 10),
+            scene(with_errors(neuralmesh.reconstruct(other), *models[1]), "y", 40, 10, "Distance",
+                  values=(0, 0.1))]
+
+
+def errors():
+    scenes = []
+    for model, up, azimuth in ((bunny(), "y", 30), (clouds.cgal_mesh("armadillo"), "y", 200),
+                               (clouds.cgal_mesh("elephant"), "y", 40),
+                               (clouds.cgal_mesh("knot1"), "z", 30)):
+        mesh = neuralmesh.reconstruct(clouds.sample(*model, 200000))
+        scenes.append(scene(with_errors(mesh, *model), up, azimuth, 15, "Distance", values=(0, 0.1)))
+    return scenes
+
+
+def details():
+    points = clouds.sample(*bunny(), 200000)
+    size = np.linalg.norm(np.ptp(points, axis=0))
+    ear = points[np.argmax(points[:, 1])]
+    away = points[7]
+    seen = points[np.linalg.norm(points - away, axis=1) > 0.06 * size]
+    eight = clouds.sample(*clouds.cgal_mesh("eight"), 200000)
+    return [scene(neuralmesh.reconstruct(points), "y", 30, 10, near=(ear, 0.2 * size)),
+            scene(neuralmesh.reconstruct(seen), "y", *direction(away - points.mean(axis=0)),
+                  near=(away, 0.2 * size)),
+            scene(neuralmesh.reconstruct(eight, 5000), "y", 20, 30)]
+
+
+def direction(towards):
+    """Azimuth and elevation of a camera that looks from there, with y upwards."""
+    x, y, z = towards / np.linalg.norm(towards)
+    return np.degrees(np.arctan2(x, z)), np.degrees(np.arcsin(y))
+
+
+PICTURES = {"leap": leap, "errors": errors, "details": details,
+            "growth": growth, "noise": noise, "topology": topology, "normals": normals,
             "ensemble": ensemble, "first_mesh": first_mesh, "openings": openings}
 
 

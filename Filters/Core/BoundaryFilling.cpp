@@ -2,7 +2,6 @@
 #include "BoundaryFilling.h"
 
 #include <algorithm>
-#include <functional>
 #include <queue>
 
 namespace neuralmesh
@@ -24,7 +23,8 @@ Corner cornerAt(const Mesh& mesh, VertexIndex v)
 }
 
 /// Fills a loop corner by corner; leaves it as it was if it cannot be filled wholly.
-bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLongestEdge)
+bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLongestEdge,
+  const std::function<bool(const Triangle&)>& isAllowed)
 {
   const auto isTooLong = [&](VertexIndex v)
   {
@@ -56,6 +56,10 @@ bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLon
     if (mesh.isBoundary(v) && corner == cornerAt(mesh, v) && mesh.canFill(v))
     {
       const Triangle triangle{ mesh.ring(v).front(), v, mesh.ring(v).back() };
+      if (isAllowed && !isAllowed(triangle))
+      {
+        break;
+      }
       mesh.fill(v);
       filled.push_back(triangle);
       if (mesh.isBoundary(triangle[0]))
@@ -74,13 +78,14 @@ bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLon
 }
 }
 
-std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longestEdge)
+std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longestEdge,
+  const std::function<bool(const Triangle&)>& isAllowed)
 {
   std::size_t filled = 0;
   for (BoundaryManager::LoopIndex index = 0; index < boundaries.loops().size(); ++index)
   {
     const std::vector<VertexIndex> loop = boundaries.vertices(mesh, index);
-    if (!loop.empty() && fillLoop(mesh, loop, float(longestEdge * longestEdge)))
+    if (!loop.empty() && fillLoop(mesh, loop, float(longestEdge * longestEdge), isAllowed))
     {
       boundaries.retrace(mesh, loop);
       ++filled;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DataGaps.h"
 
+#include "BoundaryFilling.h"
+#include "BoundaryManager.h"
+#include "BoundaryMerging.h"
 #include "DisjointSets.h"
 #include "NumberedTriangles.h"
+#include "SmallPieces.h"
 #include "VertexGrid.h"
 
 #include <algorithm>
@@ -29,6 +33,22 @@ double areaOf(const Mesh& mesh, const Triangle& triangle)
   return 0.5 *
     std::sqrt(
       double(squaredNorm(cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a))));
+}
+
+double areaOf(const Mesh& mesh)
+{
+  double area = 0.;
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+      area += areaOf(mesh, { a, b, c });
+    });
+  return area;
+}
+
+Vector4 centerOf(const Mesh& mesh, const Triangle& triangle)
+{
+  return 1.f / 3.f *
+    (mesh.position(triangle[0]) + mesh.position(triangle[1]) + mesh.position(triangle[2]));
 }
 
 /// A piece of triangles without samples.
@@ -161,24 +181,15 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   const SomePoints points(cloud, places.size());
   // Where triangles are smaller than the distance between samples, those with samples tell nothing
   // of the density.
-  double area = 0.;
-  for (const Triangle& triangle : triangles.all())
-  {
-    area += areaOf(mesh, triangle);
-  }
   const double meanSpacing = places.size() < LeastSamplesPerTriangle * triangles.all().size()
-    ? std::sqrt(area / double(places.size()))
+    ? std::sqrt(areaOf(mesh) / double(places.size()))
     : 0.;
   for (const Piece& piece : pieces)
   {
     const double spacing = std::max(meanSpacing, 1. / std::sqrt(piece.density()));
     const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
     const auto isFar = [&](std::uint32_t t)
-    {
-      const auto& [a, b, c] = triangles.all()[t];
-      return points.distance(1.f / 3.f * (mesh.position(a) + mesh.position(b) + mesh.position(c))) >
-        reach;
-    };
+    { return points.distance(centerOf(mesh, triangles.all()[t])) > reach; };
     if (piece.isAtBoundary || std::any_of(piece.triangles.begin(), piece.triangles.end(), isFar))
     {
       for (const std::uint32_t t : piece.triangles)
@@ -188,5 +199,29 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
     }
   }
   return gaps;
+}
+OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const PlaceOnMesh> places,
+  float medianDistance, double bridgeWidth)
+{
+  OpenedGaps result;
+  const std::vector<Triangle> gaps = findDataGaps(cloud, mesh, places, medianDistance);
+  result.triangles = gaps.size();
+  mesh.removeTriangles(gaps);
+  if (!gaps.empty())
+  {
+    mesh.removeTriangles(findSmallPieces(mesh));
+  }
+  BoundaryManager boundaries(mesh);
+  if (boundaries.loopCount() == 0)
+  {
+    return result;
+  }
+  result.joined = mergeBoundaries(mesh, boundaries, bridgeWidth, LoopDistance::Mean);
+  const SomePoints points(cloud, places.size());
+  const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
+  const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
+  result.filled = fillBoundaries(mesh, boundaries, bridgeWidth,
+    [&](const Triangle& triangle) { return points.distance(centerOf(mesh, triangle)) <= reach; });
+  return result;
 }
 }

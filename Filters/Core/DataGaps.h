@@ -19,4 +19,20 @@ namespace neuralmesh
 /// samples to the mesh.
 std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   std::span<const PlaceOnMesh> places, float medianDistance);
+
+struct OpenedGaps
+{
+  std::size_t triangles = 0; ///< that were gaps
+  std::size_t joined = 0;    ///< pairs of boundaries
+  std::size_t filled = 0;    ///< boundaries
+
+  bool any() const { return this->triangles + this->joined + this->filled > 0; }
+};
+
+/// Takes the gaps away, and small pieces that are left over. Boundaries that face each other, on
+/// average closer than `bridgeWidth`, are joined: they are both sides of a web that lay across a
+/// handle. Slits narrower than that which are close to points all along are closed: webs lay in
+/// creases there. Some vertices may be erased.
+OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const PlaceOnMesh> places,
+  float medianDistance, double bridgeWidth);
 }

@@ -4,17 +4,17 @@
 #include "DataGaps.h"
 #include "EdgeFlips.h"
 #include "Refinement.h"
-#include "SmallPieces.h"
 
 #include <numeric>
 
 namespace neuralmesh
 {
-Finish::Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters, bool opensGaps)
+Finish::Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters,
+  std::optional<double> bridgeWidth)
   : cloud_(cloud)
   , mesh_(mesh)
   , parameters_(parameters)
-  , opensGaps_(opensGaps)
+  , bridgeWidth_(bridgeWidth)
   , vertexCount_(mesh.vertexCount())
   , origins_(mesh.vertexCount())
 {
@@ -37,7 +37,7 @@ bool Finish::run(const Progress& progress)
     if (round == 0)
     {
       smoothness = this->report_.smoothness;
-      if (this->opensGaps_ && this->openGaps(*surfaceFit))
+      if (this->bridgeWidth_ && this->openGaps(*surfaceFit))
       {
         surfaceFit.emplace(this->cloud_, this->mesh_, samples);
       }
@@ -66,15 +66,13 @@ bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& prog
 
 bool Finish::openGaps(const SurfaceFit& surfaceFit)
 {
-  const std::vector<Triangle> gaps =
-    findDataGaps(this->cloud_, this->mesh_, surfaceFit.places(), surfaceFit.medianDistance());
-  if (gaps.empty())
+  const OpenedGaps gaps = openDataGaps(this->cloud_, this->mesh_, surfaceFit.places(),
+    surfaceFit.medianDistance(), *this->bridgeWidth_);
+  if (!gaps.any())
   {
     return false;
   }
-  this->report_.gapTriangles = gaps.size();
-  this->mesh_.removeTriangles(gaps);
-  this->mesh_.removeTriangles(findSmallPieces(this->mesh_));
+  this->report_.gapTriangles = gaps.triangles;
   this->origins_ = this->mesh_.dropErased();
   for (const VertexIndex origin : refine(this->mesh_, this->vertexCount_))
   {

@@ -8,6 +8,7 @@
 #include "SurfaceFit.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace neuralmesh
@@ -24,12 +25,13 @@ struct FinishReport
 };
 
 /// What is done with a mesh once it is learnt: it is fitted to the cloud, opened where the scan has
-/// no data if `opensGaps`, and made more regular. It keeps its number of vertices. No vertex may be
-/// erased, and none is in the end.
+/// no data if there is a `bridgeWidth`, as openDataGaps() takes it, and made more regular. It keeps
+/// its number of vertices. No vertex may be erased, and none is in the end.
 class Finish
 {
 public:
-  Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters, bool opensGaps);
+  Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters,
+    std::optional<double> bridgeWidth);
 
   /// Returns false if it was ended before its end; then the mesh is valid all the same.
   bool run(const Progress& progress);
@@ -45,7 +47,7 @@ private:
   const PointCloud& cloud_;
   Mesh& mesh_;
   const Parameters& parameters_;
-  bool opensGaps_;
+  std::optional<double> bridgeWidth_;
   std::size_t vertexCount_;
   std::vector<VertexIndex> origins_;
   FinishReport report_;

@@ -9,7 +9,6 @@
 #include "OccupiedSolid.h"
 #include "OneSheet.h"
 #include "Simplification.h"
-#include "SmallPieces.h"
 #include "SurfaceFit.h"
 #include "VoxelSurface.h"
 
@@ -28,6 +27,8 @@ constexpr std::array<unsigned, 5> Resolutions{ 16, 24, 32, 48, 64 };
 /// Tried where those do not agree.
 constexpr std::array<unsigned, 2> FinestResolutions{ 80, 96 };
 constexpr int SmoothingSteps = 4;
+/// Gaps of so many are closed by a grid.
+constexpr double ClosedVoxels = 2.;
 
 constexpr unsigned OpenResolution = 48;
 /// Of the skin around an open surface, in voxels.
@@ -53,13 +54,14 @@ struct Candidate
   bool enclosesSomething;
   std::size_t components;
   long genus;
+  double bridgeWidth;
 };
 
 Candidate candidate(const PointCloud& cloud, unsigned resolution)
 {
   const OccupiedSolid solid = occupiedSolid(cloud, resolution);
   Candidate result{ resolution, voxelSurface(solid.grid, solid.inside), solid.interiorCount,
-    solid.enclosesSomething(), 0, 0 };
+    solid.enclosesSomething(), 0, 0, ClosedVoxels * double(solid.grid.width) };
   DisjointSets sets(result.surface.points.size());
   result.components = result.surface.points.size();
   for (const auto& [a, b, c] : result.surface.triangles)
@@ -127,6 +129,7 @@ std::optional<FirstSurface> skin(const PointCloud& cloud)
     return {};
   }
   FirstSurface result{ meshOf(std::move(surface), cloud), OpenResolution };
+  result.bridgeWidth = ClosedVoxels * double(solid.grid.width);
   result.skinThickness = float(SkinThickness * solid.grid.width);
   return result;
 }
@@ -176,7 +179,7 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progres
   const bool isCertain = confirmed != candidates.rend();
   Candidate& best = isCertain ? *confirmed : candidates.back();
   return FirstSurface{ meshOf(std::move(best.surface), cloud), best.resolution, best.genus,
-    best.components, false, isCertain };
+    best.components, false, isCertain, best.bridgeWidth };
 }
 
 /// Of points in Morton order, in which equal ones are neighbours.
@@ -227,11 +230,10 @@ public:
   /// Whether the points lie in two layers, with the mesh between them.
   bool isBetweenLayers() const { return this->fit_.distanceEvenness() > EvennessOfLayers; }
 
-  void openGaps()
+  void openGaps(double bridgeWidth)
   {
-    this->mesh_.removeTriangles(
-      findDataGaps(this->cloud_, this->mesh_, this->fit_.places(), this->fit_.medianDistance()));
-    this->mesh_.removeTriangles(findSmallPieces(this->mesh_));
+    openDataGaps(
+      this->cloud_, this->mesh_, this->fit_.places(), this->fit_.medianDistance(), bridgeWidth);
     this->mesh_.dropErased();
   }
 
@@ -259,7 +261,7 @@ std::optional<FirstSurface> openSurface(const PointCloud& cloud, const FirstSurf
   }
   if (boundaries == Boundaries::Keep)
   {
-    fit.openGaps();
+    fit.openGaps(result.bridgeWidth);
   }
   else
   {
@@ -305,7 +307,7 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
   // Of a thin solid any gap would show the other side.
   if (hasInterior && boundaries == Boundaries::Keep)
   {
-    fit.openGaps();
+    fit.openGaps(result->bridgeWidth);
   }
   return hasRightSize(*result) ? std::move(result) : std::nullopt;
 }

@@ -20,6 +20,7 @@ struct FirstSurface
   std::size_t components = 0;
   bool isOpen = false;
   bool isCertain = false;    ///< whether the next coarser grid gives the same topology
+  double bridgeWidth = 0.;   ///< gaps up to about that were closed
   float skinThickness = 0.f; ///< about, if it is a skin around points that enclose nothing
 };
 

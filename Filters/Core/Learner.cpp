@@ -75,9 +75,14 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters)
   this->isListDue_ = parameters.order == Order::List;
 }
 
-Learner::Learner(const PointCloud& cloud, const Parameters& parameters, const Mesh& mesh)
+Learner::Learner(const PointCloud& cloud, const Parameters& parameters, const Mesh& mesh,
+  std::span<const float> weights)
   : Learner(cloud, parameters, mesh, orderAfterOneWin(mesh.indexEnd()))
 {
+  if (!weights.empty())
+  {
+    this->samples_ = SampleStream(cloud.points(), parameters.seed, weights);
+  }
   this->isListDue_ = parameters.order == Order::List;
   this->enterListIfDue();
   this->observeFirstMesh();

@@ -45,8 +45,10 @@ public:
   Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh,
     std::unique_ptr<ActivityOrder> order);
   /// Starts from `mesh` with exact counters, as if each vertex had just won once; with the list,
-  /// the counters are dropped as soon as the mesh is large enough.
-  Learner(const PointCloud& cloud, const Parameters& parameters, const Mesh& mesh);
+  /// the counters are dropped as soon as the mesh is large enough. Samples are drawn in proportion
+  /// to `weights`, one for each point, instead of those of the cloud, if there are any.
+  Learner(const PointCloud& cloud, const Parameters& parameters, const Mesh& mesh,
+    std::span<const float> weights = {});
   /// Starts from a tetrahedron in the middle of the cloud.
   Learner(const PointCloud& cloud, const Parameters& parameters);
 

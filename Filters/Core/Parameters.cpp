@@ -13,6 +13,7 @@ Parameters Parameters::of(Preset preset, Variant variant, Order order)
   if (preset == Preset::Thesis)
   {
     parameters.start = Start::Tetrahedron;
+    parameters.curvatureDensity = 0.;
     parameters.fitRounds = 0;
     parameters.smoothingRate = order == Order::List ? 0.2 : 0.05;
     parameters.smoothingIterations =

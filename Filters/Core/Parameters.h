@@ -88,6 +88,7 @@ struct Parameters
   // Start
   Start start = Start::OccupiedSpace;
   Boundaries boundaries = Boundaries::Keep;
+  double curvatureDensity = 0.5; ///< exponent; 0 = samples are drawn alike
 
   // Geometry learning
   double winnerRate = 0.1;         ///< alpha_w (6.1), (9.1)

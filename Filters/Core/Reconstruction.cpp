@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Reconstruction.h"
 
+#include "CurvatureDensity.h"
 #include "FirstSurface.h"
 #include "MeshBuilder.h"
 #include "Orientation.h"
@@ -56,6 +57,42 @@ bool isTimeLeft(StopReason reason)
 {
   return reason != StopReason::Cancelled && reason != StopReason::TimeLimit;
 }
+
+/// What is known before learning.
+struct Beginning
+{
+  std::optional<PointCloud> cloud;   ///< without clusters of outliers; nothing if there are none
+  std::optional<Mesh> mesh;          ///< to start from; nothing: a tetrahedron
+  std::optional<double> bridgeWidth; ///< for openDataGaps(); nothing: gaps stay closed
+  std::vector<float> weights;        ///< to draw samples by; empty: those of the cloud
+};
+
+Beginning beginFromSpace(
+  const PointCloud& cloud, const Parameters& parameters, const Progress& progress)
+{
+  Beginning result;
+  result.cloud = withoutClusters(cloud);
+  const PointCloud& used = result.cloud ? *result.cloud : cloud;
+  auto surface =
+    firstSurface(used, firstVertices(parameters.numberOfVertices), parameters.boundaries, progress);
+  if (!surface)
+  {
+    return result;
+  }
+  result.mesh = std::move(surface->mesh);
+  if (parameters.boundaries == Boundaries::Keep)
+  {
+    result.bridgeWidth = surface->bridgeWidth;
+  }
+  // The normal-based variant has a way of its own to be dense where the surface bends; and feature
+  // strength tells edges best where vertices are spread evenly.
+  if (parameters.curvatureDensity > 0. && parameters.variant != Variant::NormalBased &&
+    !parameters.computeFeatureStrength)
+  {
+    result.weights = curvatureDensity(used, *result.mesh, parameters.curvatureDensity);
+  }
+  return result;
+}
 }
 
 double cpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
@@ -69,22 +106,14 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& parameters,
   const Progress progress = [&](double fraction)
   { return !isCancelled && !(isCancelled = !tell(fraction)); };
   const double begin = cpuSeconds();
-  std::optional<Mesh> start = first;
   const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
-  const std::optional<PointCloud> cleaned =
-    startsFromSpace ? withoutClusters(all) : std::optional<PointCloud>();
-  const PointCloud& cloud = cleaned ? *cleaned : all;
-  if (startsFromSpace)
-  {
-    auto surface = firstSurface(cloud, firstVertices(parameters.numberOfVertices),
-      parameters.boundaries, partOf(progress, 0., EndOfStart));
-    if (surface)
-    {
-      start = std::move(surface->mesh);
-    }
-  }
+  const Beginning beginning = startsFromSpace
+    ? beginFromSpace(all, parameters, partOf(progress, 0., EndOfStart))
+    : Beginning{ {}, first, {}, {} };
+  const PointCloud& cloud = beginning.cloud ? *beginning.cloud : all;
   const double learningBegin = cpuSeconds();
-  Learner learner = start ? Learner(cloud, parameters, *start) : Learner(cloud, parameters);
+  Learner learner = beginning.mesh ? Learner(cloud, parameters, *beginning.mesh, beginning.weights)
+                                   : Learner(cloud, parameters);
   const double endOfStart = startsFromSpace ? EndOfStart : 0.;
   const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
   StoppingRules rules(cloud, parameters, learner.mesh().vertexCount());
@@ -95,8 +124,7 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& parameters,
   learner.renumber();
   const double learningEnd = cpuSeconds();
   Mesh mesh = learner.mesh();
-  const bool opensGaps = startsFromSpace && start && parameters.boundaries == Boundaries::Keep;
-  Finish finish(cloud, mesh, parameters, opensGaps);
+  Finish finish(cloud, mesh, parameters, beginning.bridgeWidth);
   if (parameters.fitRounds > 0 && isTimeLeft(result.stopReason) && result.counts.iterations > 0)
   {
     const Progress finishing = partOf(progress, endOfLearning, 1.);

@@ -17,7 +17,7 @@ constexpr float FirstOutlierEdges = 1.f;
 constexpr float LaterOutlierEdges = 0.5f;
 constexpr std::size_t SamplesPerCheck = 16384;
 /// Of the residual of the equations, against the largest at the start of a round.
-constexpr double Tolerance = 3e-3;
+constexpr double Tolerance = 1e-3;
 /// While lambda is chosen, against that at the start.
 constexpr double ToleranceOfChoice = 1e-2;
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints how good meshes are at defaults: quality.py COMMAND FOLDER [CLOUD,REFERENCE,BOUNDARIES...]"""
+"""Prints how good meshes are: quality.py COMMAND FOLDER [NAME=VALUE...] [CLOUD,REFERENCE,BOUNDARIES...]"""
 
 import json
 import os
@@ -37,10 +37,11 @@ def own_runs(folder):
             yield path, reference, "keep"
 
 
-def measure(command, cloud, reference, boundaries, seed, mesh):
+def measure(command, options, cloud, reference, boundaries, seed, mesh):
     """The figures of a run, by name."""
     said = run(command, "reconstruct", cloud, mesh, "--vertices", str(VERTICES), "--seed", str(seed),
-               "--boundaries", boundaries)
+               "--boundaries", boundaries, *options)
+    cuts = re.search(r"(\d+) intersecting", said)
     phases = re.search(r"phases +([\d.]+) CPU s .*learning ([\d.]+),", said)
     distances = json.loads(
         run(command, "compare", reference, mesh, "--json", "--samples", "30000"))
@@ -57,6 +58,7 @@ def measure(command, cloud, reference, boundaries, seed, mesh):
         "regular": -100 * info["regular_ratio"],
         "quality": -info["triangle_quality"],
         "folds": info["folded_edges"],
+        "cuts": int(cuts[1]) if cuts else 0,
         "ratio": float(phases[1]) / float(phases[2]),
         "cpu": float(phases[1]),
     }
@@ -64,14 +66,15 @@ def measure(command, cloud, reference, boundaries, seed, mesh):
 
 def main():
     command, folder, *given = sys.argv[1:]
-    runs = [run.split(",") for run in given] or own_runs(folder)
+    options = [word for run in given if "=" in run for word in ("--set", run)]
+    runs = [run.split(",") for run in given if "=" not in run] or own_runs(folder)
     print("The worst of the seeds 1 to 5; distances in % of the diagonal of the reference, mean and RMS"
           " of both ways.\nCPU: all, in seconds, and over that of learning.\n")
     print("| cloud | closed / pieces / genus / loops | mean | to result | to reference | RMS | Hausdorff"
-          " | normals | regular | 2r/R | folds | CPU |")
+          " | normals | regular | 2r/R | folds, cuts | CPU |")
     print("|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|")
     for cloud, reference, boundaries in runs:
-        found = [measure(command, cloud, reference, boundaries, seed, f"{folder}/mesh.ply")
+        found = [measure(command, options, cloud, reference, boundaries, seed, f"{folder}/mesh.ply")
                  for seed in SEEDS]
         worst = {name: max(figures[name] for figures in found)
                  for name in found[0] if name != "topology"}
@@ -83,7 +86,7 @@ def main():
         print(f"| {name}{', close' if boundaries == 'close' else ''} | {topology} | {worst['mean']:.4f} "
               f"| {worst['to']:.4f} | {worst['back']:.4f} | {worst['rms']:.4f} | {worst['hausdorff']:.2f} "
               f"| {worst['normals']:.1f}° | {-worst['regular']:.1f} % | {-worst['quality']:.3f} "
-              f"| {worst['folds']} | {worst['cpu']:.1f}, {worst['ratio']:.1f} × |", flush=True)
+              f"| {worst['folds']}, {worst['cuts']} | {worst['cpu']:.1f}, {worst['ratio']:.1f} × |", flush=True)
 
 
 if __name__ == "__main__":

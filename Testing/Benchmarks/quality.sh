@@ -1,12 +1,17 @@
 #!/usr/bin/env bash
 # Prints how good the meshes are that come out with no parameter touched, seeds 1 to 5:
 #
-#   quality.sh [CLOUD,REFERENCE[,close]...]
+#   quality.sh [NAME=VALUE...] [CLOUD,REFERENCE[,close]...]
 #
-# without arguments, of clouds that it draws from models of Debian packages. Some minutes.
+# or with these properties set; without clouds, of some that it draws from models of Debian packages.
+# Some minutes.
 set -euo pipefail
 runs=()
 for run in "$@"; do
+  if [[ $run == *=* ]]; then
+    runs+=("$run")
+    continue
+  fi
   IFS=, read -r cloud reference boundaries <<< "$run"
   runs+=("$(realpath "$cloud"),$(realpath "$reference"),${boundaries:-keep}")
 done

@@ -3,6 +3,7 @@
 
 #include "MeshBuilder.h"
 #include "MeshTools.h"
+#include "Random.h"
 #include "SphereRuns.h"
 #include "SurfaceFit.h"
 
@@ -24,6 +25,13 @@ std::vector<Triangle> gapsOf(const PointCloud& cloud, Mesh& mesh)
   SurfaceFit fit(cloud, mesh, SamplesPerVertex * mesh.vertexCount());
   EXPECT_TRUE(fit.findPlaces(goOn));
   return findDataGaps(cloud, mesh, fit.places(), fit.medianDistance());
+}
+
+OpenedGaps openedGaps(const PointCloud& cloud, Mesh& mesh, double bridgeWidth)
+{
+  SurfaceFit fit(cloud, mesh, SamplesPerVertex * mesh.vertexCount());
+  EXPECT_TRUE(fit.findPlaces(goOn));
+  return openDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), bridgeWidth);
 }
 
 /// Points of a unit sphere on circles around its axis, `spacing` apart, and by a part of that from
@@ -142,6 +150,68 @@ TEST(DataGaps, NoneBetweenScanLines)
         EXPECT_TRUE(gapsOf(cloud, mesh).empty());
       }
     }
+  }
+}
+
+// A hole through a cube, with a web on both sides: the webs are cut, and their rims joined to a
+// handle. Farther from each other than bridges are wide, they stay open.
+TEST(DataGaps, WebsAcrossHandlesAreCut)
+{
+  constexpr double Radius = 0.2, Depth = 1.;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeCube(), CloudOptions{ .count = 60000 });
+  std::erase_if(points,
+    [](const Eigen::Vector3d& point)
+    { return std::abs(point.z()) > 0.499 && std::hypot(point.x(), point.y()) < Radius; });
+  Random random(1);
+  for (int i = 0; i < 10000; ++i)
+  {
+    const double angle = 2. * std::numbers::pi * random.uniform();
+    points.emplace_back(
+      Radius * std::cos(angle), Radius * std::sin(angle), Depth * (random.uniform() - 0.5));
+  }
+  const PointCloud cloud(points);
+  for (const double bridge : { 1.3, 0.7 })
+  {
+    const bool isJoined = bridge > Depth;
+    Mesh mesh = buildMesh(makeCube(20), cloud);
+    const OpenedGaps gaps = openedGaps(cloud, mesh, bridge * Depth / cloud.unit());
+    EXPECT_GT(gaps.triangles, 0u);
+    EXPECT_EQ(gaps.joined, isJoined ? 1u : 0u);
+    EXPECT_EQ(gaps.filled, 0u);
+    mesh.dropErased();
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(reportOf(mesh).boundaryLoops, isJoined ? 0u : 2u);
+    EXPECT_EQ(reportOf(mesh).genus(), isJoined ? 1 : 0);
+  }
+}
+
+// Where all of a slit lies close to points it is closed; where a part of the shape has no data, it
+// stays open.
+TEST(DataGaps, SlitsAreClosed)
+{
+  for (const bool isCut : { false, true })
+  {
+    std::vector<Eigen::Vector3d> points =
+      generateCloud(makeSphere(), CloudOptions{ .count = 60000 });
+    std::erase_if(points, [&](const Eigen::Vector3d& point) { return isCut && point.z() > 0.8; });
+    const PointCloud cloud(points);
+    TriangleMesh slit = makeSphere(16);
+    std::erase_if(slit.triangles,
+      [&](const auto& triangle)
+      {
+        const Eigen::Vector3d center =
+          (slit.points[triangle[0]] + slit.points[triangle[1]] + slit.points[triangle[2]]) / 3.;
+        return center.x() > 0.2 && center.z() > 0. && center.z() < 0.11;
+      });
+    Mesh mesh = buildMesh(slit, cloud);
+    ASSERT_EQ(reportOf(mesh).boundaryLoops, 1u);
+    const OpenedGaps gaps = openedGaps(cloud, mesh, 0.3 / cloud.unit());
+    EXPECT_EQ(gaps.filled, 1u);
+    EXPECT_EQ(gaps.triangles > 0, isCut);
+    mesh.dropErased();
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(reportOf(mesh).boundaryLoops, isCut ? 1u : 0u);
+    EXPECT_EQ(reportOf(mesh).genus(), 0);
   }
 }
 }

@@ -16,6 +16,8 @@ namespace neuralmesh::testing
 {
 namespace
 {
+/// In units of the cloud, whose bulk is about 1.
+constexpr double BridgeWidth = 0.03;
 constexpr std::size_t Vertices = 1500;
 
 PointCloud noisySphere(double noise, double outliers, bool hasHole)
@@ -72,7 +74,7 @@ TEST(Finish, ClosedMeshes)
     Mesh mesh = learnt(cloud);
     const Mesh before = mesh;
     const Parameters parameters;
-    Finish finish(cloud, mesh, parameters, true);
+    Finish finish(cloud, mesh, parameters, BridgeWidth);
     ASSERT_TRUE(finish.run(goOn));
     EXPECT_EQ(mesh.vertexCount(), Vertices);
     EXPECT_EQ(mesh.indexEnd(), Vertices);
@@ -102,7 +104,7 @@ TEST(Finish, GapsAreOpened)
   {
     Mesh mesh = before;
     const Parameters parameters;
-    Finish finish(cloud, mesh, parameters, opensGaps);
+    Finish finish(cloud, mesh, parameters, opensGaps ? std::optional(BridgeWidth) : std::nullopt);
     ASSERT_TRUE(finish.run(goOn));
     EXPECT_EQ(mesh.vertexCount(), Vertices);
     EXPECT_EQ(mesh.indexEnd(), Vertices);
@@ -128,7 +130,7 @@ TEST(Finish, OriginsAreNear)
   Mesh mesh = learnt(cloud);
   const Mesh before = mesh;
   const Parameters parameters;
-  Finish finish(cloud, mesh, parameters, true);
+  Finish finish(cloud, mesh, parameters, BridgeWidth);
   ASSERT_TRUE(finish.run(goOn));
   ASSERT_GT(finish.report().gapTriangles, 0u);
   ASSERT_EQ(finish.origins().size(), mesh.vertexCount());
@@ -145,7 +147,7 @@ TEST(Finish, ReportsTheCloud)
   const PointCloud cloud = noisySphere(0.005, 0.05, false);
   Mesh mesh = learnt(cloud);
   const Parameters parameters;
-  Finish finish(cloud, mesh, parameters, true);
+  Finish finish(cloud, mesh, parameters, BridgeWidth);
   ASSERT_TRUE(finish.run(goOn));
   const double noise = 0.005 * SphereDiagonal;
   EXPECT_NEAR(finish.report().noise * cloud.unit(), noise, 0.2 * noise);
@@ -164,7 +166,7 @@ TEST(Finish, CanBeEnded)
   for (; !isDone; calls += 5)
   {
     Mesh mesh = before;
-    Finish finish(cloud, mesh, parameters, true);
+    Finish finish(cloud, mesh, parameters, BridgeWidth);
     int left = calls;
     isDone = finish.run([&](double) { return left-- > 0; });
     EXPECT_EQ(defectOf(mesh), "");

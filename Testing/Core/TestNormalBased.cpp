@@ -35,6 +35,7 @@ Reconstruction reconstructCube(Variant variant, std::uint64_t seed, bool feature
   parameters.seed = seed;
   parameters.numberOfVertices = 2000;
   parameters.computeFeatureStrength = features;
+  parameters.curvatureDensity = 0.;
   return reconstruct(denseCube(), parameters, [](double) { return true; });
 }
 

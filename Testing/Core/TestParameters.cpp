@@ -25,6 +25,7 @@ TEST(Parameters, ThesisPreset)
   EXPECT_EQ(noise.earlyPatience, 1.);
   EXPECT_EQ(noise.batchSize, 1);
   EXPECT_FALSE(noise.edgeFlips);
+  EXPECT_EQ(noise.curvatureDensity, 0.);
 
   const Parameters basic = Parameters::of(Preset::Thesis, Variant::Basic);
   EXPECT_EQ(basic.variant, Variant::Basic);

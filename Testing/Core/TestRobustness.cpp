@@ -72,7 +72,7 @@ TEST(Robustness, Clusters)
           options.count / 60, random);
       }
       const TriangleMesh mesh = reconstruct(PointCloud(points), defaults(3000), goOn).mesh;
-      expectRight(shape, mesh, 2. * Near);
+      expectRight(shape, mesh, 2.5 * Near);
       EXPECT_LT(largestDistanceTo(mesh, shape, 1000), Near * shape.diagonal);
     }
   }
