@@ -24,7 +24,7 @@ struct CloudOptions
   double gradient = 1.; ///< density at the low end of an axis over that at its high end
   unsigned gradientAxis = 2;
   /// Where the scanner stands, in coordinates of the mesh: what it does not see is taken away.
-  std::optional<Eigen::Vector3d> viewpoint;
+  std::optional<Eigen::Vector3d> viewpoint = {};
 };
 
 /// Points spread evenly over the area of a triangle mesh (or ever thinner along an axis), without
