@@ -11,6 +11,8 @@ using Corners = std::array<Eigen::Vector3d, 3>;
 
 /// As a fraction of the diagonal.
 constexpr double Tolerance = 1e-6;
+/// As a fraction of a triangle: nothing is seen through the edge between two.
+constexpr double Rim = 1e-12;
 
 Corners cornersOf(const TriangleMesh& surface, std::uint32_t triangle)
 {
@@ -77,7 +79,7 @@ public:
     const double v = this->way_.dot(across) / determinant;
     const double place = ac.dot(across) / determinant;
     // All false where the segment is parallel to the triangle.
-    this->isFound_ = u >= 0. && v >= 0. && u + v <= 1. && place >= 0. && place <= 1.;
+    this->isFound_ = u >= -Rim && v >= -Rim && u + v <= 1. + Rim && place >= 0. && place <= 1.;
     return this->isFound_;
   }
 

@@ -6,7 +6,8 @@ import os
 import paraview
 from paraview import servermanager, simple
 
-PLUGIN = os.path.join(os.environ["NEURALMESH_PLUGIN_FOLDER"], "NeuralMesh.so")
+CONFIGURATION = os.environ["NEURALMESH_PLUGIN_CONFIG"]
+PLUGIN = os.path.join(os.path.dirname(CONFIGURATION), "NeuralMesh", "NeuralMesh.so")
 
 paraview.options.batch = True
 

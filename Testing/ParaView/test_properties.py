@@ -27,10 +27,12 @@ OTHERWISE = {
 }
 # Up to here a maximum gives a slider; with larger ones nobody could aim, so that the proxy has none.
 LARGEST_SLIDER = 1000
+LARGEST_INT = 2**31 - 1
 KINDS = {
     "int": "vtkSMIntVectorProperty",
     "vtkTypeBool": "vtkSMIntVectorProperty",
-    "vtkIdType": "vtkSMIdTypeVectorProperty",
+    # The panel of ParaView 5.11 has no field for a vtkSMIdTypeVectorProperty with a range.
+    "vtkIdType": "vtkSMIntVectorProperty",
     "double": "vtkSMDoubleVectorProperty",
     "char": "vtkSMStringVectorProperty",
 }
@@ -225,7 +227,7 @@ class Properties(unittest.TestCase):
         if choices_of(sm_property):
             return next(other for other in choices_of(sm_property).values() if other != value)
         if hasattr(vtk_object, f"Get{key}MaxValue"):
-            high = getattr(vtk_object, f"Get{key}MaxValue")()
+            high = min(getattr(vtk_object, f"Get{key}MaxValue")(), LARGEST_INT)
             return high if value != high else getattr(vtk_object, f"Get{key}MinValue")()
         return 1 - value
 
