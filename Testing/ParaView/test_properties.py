@@ -25,7 +25,7 @@ OTHERWISE = {
     "ReferenceData": "the input Reference",
     "WeightArrayName": "the property WeightArray, a choice among the arrays of the input",
 }
-# Up to here a maximum gives a slider; with larger ones nobody could aim, so that the proxy has none.
+# Up to here a maximum gives a slider; with larger ones nobody could aim: the proxy has none then.
 LARGEST_SLIDER = 1000
 LARGEST_INT = 2**31 - 1
 KINDS = {
@@ -270,16 +270,15 @@ class Panel(unittest.TestCase):
 
     # Promise: few properties are shown at first, and those are the ones that most people need.
     def test_advanced(self):
-        shown = {
-            name: {
-                key for key, p in properties_of(prototype(name)) if p.GetPanelVisibility() == "default"
-            }
-            for name in CLASSES
-        }
         most = {"NumberOfVertices", "Variant", "Seed", "TimeLimit", "Boundaries",
                 "TopologyLearning", "CarryPointData"}
-        self.assertEqual(shown["NeuralMesh"], most)
-        self.assertEqual(shown["NeuralMeshEnsemble"], most | {"NumberOfMembers"})
+        for name, wanted in (
+            ("NeuralMesh", most),
+            ("NeuralMeshEnsemble", most | {"NumberOfMembers"}),
+        ):
+            properties = properties_of(prototype(name))
+            shown = {key for key, p in properties if p.GetPanelVisibility() == "default"}
+            self.assertEqual(shown, wanted)
 
     # Promise: what decides whether a property is shown is there, and can have that value.
     def test_decorators(self):
@@ -287,7 +286,8 @@ class Panel(unittest.TestCase):
         for name in CLASSES:
             proxy = prototype(name)
             for key, sm_property in properties_of(proxy):
-                for element in elements_with_name(sm_property.GetHints(), "PropertyWidgetDecorator"):
+                hints = sm_property.GetHints()
+                for element in elements_with_name(hints, "PropertyWidgetDecorator"):
                     with self.subTest(proxy=name, property=key):
                         self.assertEqual(element.GetAttribute("type"), "GenericDecorator")
                         self.assertEqual(element.GetAttribute("mode"), "visibility")

@@ -62,8 +62,8 @@ class Here(Runs, unittest.TestCase):
     def setUpClass(cls):
         support.load_plugin()
 
-    # Promise: an abort from an observer of progress ends the run and keeps the mesh; the next run is
-    # as ever.
+    # Promise: an abort from an observer of progress ends the run and keeps the mesh; the next run
+    # is as ever.
     def test_abort(self):
         mesh = simple.NeuralMesh(Input=support.scan(100000), NumberOfVertices=50000)
         mesh.Input.UpdatePipeline()

@@ -52,8 +52,8 @@ class Views(unittest.TestCase):
             different = (pixels != pixels[0]).any(axis=1).mean()
             self.assertGreater(different, 0.05)
 
-    # Promise: the learning curve opens in a line chart, the figures of a comparison in a table; what
-    # would lie on top of the mesh does not open by itself.
+    # Promise: the learning curve opens in a line chart, the figures of a comparison in a table;
+    # what would lie on top of the mesh does not open by itself.
     def test_preferred_views(self):
         scan = support.scan(5000)
         mesh = simple.NeuralMesh(Input=scan, NumberOfVertices=300)
@@ -61,7 +61,9 @@ class Views(unittest.TestCase):
             Input=scan, NumberOfVertices=300, NumberOfMembers=1, VerticesPerMember=100,
             GridResolution=16,
         )
-        comparison = simple.NeuralMeshComparison(Input=mesh, Reference=scan.Input)
+        comparison = simple.NeuralMeshComparison(
+            Input=mesh, Reference=scan.Input, NumberOfSamples=2000
+        )
         self.assertEqual(shown(mesh, 1).GetXMLName(), "XYChartView")
         self.assertEqual(shown(ensemble, 1).GetXMLName(), "XYChartView")
         self.assertEqual(shown(comparison, 2).GetXMLName(), "SpreadSheetView")
