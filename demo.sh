@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 source Utilities/build.sh
 
-install_packages "${build_packages[@]}" libcgal-demo glmark2-data xvfb xauth libgl1-mesa-dri
+install_packages "${build_packages[@]}" libcgal-demo glmark2-data "${screen_packages[@]}"
 build build neuralmesh
 
 mkdir -p demo

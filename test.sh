@@ -4,6 +4,6 @@ set -euo pipefail
 cd "$(dirname "$0")"
 source Utilities/build.sh
 
-install_packages "${build_packages[@]}" libgtest-dev libcgal-demo
+install_packages "${build_packages[@]}" "${test_packages[@]}"
 build build all -DNEURALMESH_BUILD_TESTING=ON -DNEURALMESH_WARNINGS_AS_ERRORS="${CI:+ON}"
 ctest --test-dir build --output-on-failure --no-tests=error "$@"

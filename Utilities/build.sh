@@ -2,10 +2,14 @@
 
 # NEURALMESH_VTK says which VTK to install: ParaView's, or with `plain` Debian's own, which excludes
 # the other.
+# For what is drawn where there is no screen.
+screen_packages=(xvfb xauth libgl1-mesa-dri)
 if [ "${NEURALMESH_VTK:-paraview}" = plain ]; then
   vtk_packages=(libvtk9-dev python3-vtk9 libeigen3-dev)
+  test_packages=(libgtest-dev libcgal-demo)
 else
   vtk_packages=(paraview-dev python3-paraview libopenmpi-dev)
+  test_packages=(libgtest-dev libcgal-demo "${screen_packages[@]}")
 fi
 build_packages=(g++ cmake ninja-build "${vtk_packages[@]}" libcli11-dev
   nlohmann-json3-dev python3-numpy)

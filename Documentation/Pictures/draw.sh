@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 source Utilities/build.sh
 
-install_packages "${build_packages[@]}" glmark2-data libcgal-demo xvfb xauth libgl1-mesa-dri
+install_packages "${build_packages[@]}" glmark2-data libcgal-demo "${screen_packages[@]}"
 build build all
 PYTHONPATH=build/lib/python3/dist-packages:Testing/Support xvfb-run -a \
   /usr/bin/python3 Documentation/Pictures/draw.py Documentation/Pictures "$@"

@@ -211,6 +211,53 @@ TEST(CloudGenerator, HolesAreEmpty)
   EXPECT_LT(generateCloud(sphere, options).size(), cloud.size());
 }
 
+// What the scanner does not see is taken away, and nothing else: of a cube just the faces that are
+// turned towards it.
+TEST(CloudGenerator, OnlyWhatIsSeen)
+{
+  CloudOptions options;
+  options.count = 30000;
+  const Cloud whole = generateCloud(makeCube(3), options);
+  options.viewpoint = Eigen::Vector3d(0.2, 3., 0.1);
+  const Cloud front = generateCloud(makeCube(3), options);
+  EXPECT_EQ(std::size_t(std::count_if(whole.begin(), whole.end(),
+              [](const Eigen::Vector3d& point) { return point.y() > 0.5 - 1e-9; })),
+    front.size());
+  EXPECT_TRUE(missing(front, whole).empty());
+  EXPECT_NEAR(double(front.size()), 5000., 6. * std::sqrt(5000.));
+  options.viewpoint = Eigen::Vector3d(-2., 3., 4.);
+  EXPECT_NEAR(double(generateCloud(makeCube(3), options).size()), 15000., 6. * std::sqrt(15000.));
+  // From inside all faces are seen.
+  options.viewpoint = Eigen::Vector3d(0.1, 0.2, -0.3);
+  EXPECT_EQ(generateCloud(makeCube(3), options), whole);
+}
+
+// Progress rises to the end, and ends the run when it is told to: then there is no cloud.
+TEST(CloudGenerator, ProgressIsToldAndObeyed)
+{
+  CloudOptions options;
+  options.count = 50000;
+  options.viewpoint = Eigen::Vector3d(3., 0., 0.);
+  const TriangleMesh sphere = makeSphere(16);
+  std::vector<double> fractions;
+  const Cloud cloud = generateCloud(sphere, options,
+    [&](double fraction)
+    {
+      fractions.push_back(fraction);
+      return true;
+    });
+  EXPECT_FALSE(cloud.empty());
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_GE(fractions.front(), 0.);
+  EXPECT_GT(fractions.back(), 0.9);
+  EXPECT_LE(fractions.back(), 1.);
+  for (const double end : { 0., 0.2, 0.6, 0.95 })
+  {
+    EXPECT_TRUE(
+      generateCloud(sphere, options, [end](double fraction) { return fraction < end; }).empty());
+  }
+}
+
 // The density falls along the axis by the ratio asked for.
 TEST(CloudGenerator, GradientHasItsRatio)
 {

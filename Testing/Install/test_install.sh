@@ -85,4 +85,18 @@ case_command()
   [ "$("$prefix/bin/neuralmesh" --version)" = "$version" ] || fail "another version"
 }
 
+# Promise: ParaView loads the plugin from the prefix when it is told of its configuration.
+case_paraview()
+{
+  uses_prefix "$prefix/lib/neuralmesh/NeuralMesh/NeuralMesh.so"
+  cat > "$scratch/reconstruct.py" << 'END'
+from paraview.simple import *
+mesh = NeuralMesh(Input=NeuralMeshScan(Input=Sphere(), NumberOfPoints=1000), NumberOfVertices=50)
+mesh.UpdatePipeline()
+assert mesh.GetDataInformation().GetNumberOfPoints() == 50
+END
+  PV_PLUGIN_CONFIG_FILE=$prefix/lib/neuralmesh/neuralmesh.plugins.xml \
+    pvpython "$scratch/reconstruct.py"
+}
+
 "case_$case"

@@ -7,6 +7,7 @@ import neuralmesh
 import support
 from vtkmodules.vtkCommonExecutionModel import vtkPolyDataAlgorithm, vtkTrivialProducer
 from vtkmodules.vtkFiltersCore import vtkMassProperties
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 
 class Pipeline(unittest.TestCase):
@@ -27,6 +28,26 @@ class Pipeline(unittest.TestCase):
         mesh.SetNumberOfVertices(600)
         volume.Update()
         self.assertEqual(mesh.GetOutput().GetNumberOfPoints(), 600)
+
+    # Promise: a known shape can be scanned, reconstructed and compared with.
+    def test_scan(self):
+        shape = vtkSphereSource()
+        shape.SetRadius(1.0)
+        shape.SetThetaResolution(64)
+        shape.SetPhiResolution(64)
+        scan = neuralmesh.vtkNeuralMeshScan()
+        scan.SetInputConnection(shape.GetOutputPort())
+        scan.SetNumberOfPoints(20000)
+        scan.SetNoise(0.001)
+        mesh = neuralmesh.vtkNeuralMesh()
+        mesh.SetInputConnection(scan.GetOutputPort())
+        mesh.SetNumberOfVertices(1000)
+        comparison = neuralmesh.vtkNeuralMeshComparison()
+        comparison.SetInputConnection(mesh.GetOutputPort())
+        comparison.SetReferenceConnection(shape.GetOutputPort())
+        comparison.SetNumberOfSamples(5000)
+        comparison.Update()
+        self.assertLess(comparison.GetMean(comparison.RESULT_TO_REFERENCE), 0.005)
 
     # Promise: a filter is shown with all its properties, and the setters say what they are for.
     def test_documentation(self):

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Visibility.h"
+
+#include <numeric>
+
+namespace neuralmesh
+{
+namespace
+{
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+/// As a fraction of the diagonal.
+constexpr double Tolerance = 1e-6;
+/// As a fraction of a triangle: nothing is seen through the edge between two.
+constexpr double Rim = 1e-12;
+
+Corners cornersOf(const TriangleMesh& surface, std::uint32_t triangle)
+{
+  const auto& [a, b, c] = surface.triangles[triangle];
+  return { surface.points[a], surface.points[b], surface.points[c] };
+}
+
+Eigen::AlignedBox3d boxOf(const Corners& corners)
+{
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& corner : corners)
+  {
+    box.extend(corner);
+  }
+  return box;
+}
+
+/// Looks for a triangle that meets a segment: what Eigen::BVIntersect() asks.
+class SegmentSearch
+{
+public:
+  SegmentSearch(
+    const TriangleMesh& surface, const Eigen::Vector3d& begin, const Eigen::Vector3d& end)
+    : surface_(surface)
+    , begin_(begin)
+    , way_(end - begin)
+  {
+  }
+
+  bool isFound() const { return this->isFound_; }
+
+  /// By separating axes: those of the box, and their cross products with the segment.
+  bool intersectVolume(const Eigen::AlignedBox3d& box) const
+  {
+    const Eigen::Vector3d half = 0.5 * this->way_, reach = half.cwiseAbs();
+    const Eigen::Vector3d extent = 0.5 * box.sizes();
+    const Eigen::Vector3d between = this->begin_ + half - box.center();
+    if ((between.cwiseAbs().array() > (extent + reach).array()).any())
+    {
+      return false;
+    }
+    const Eigen::Vector3d across = between.cross(half).cwiseAbs();
+    for (int k = 0; k < 3; ++k)
+    {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      const double limit = extent[i] * reach[j] + extent[j] * reach[i];
+      // What rounding makes of the cross product of parallels must not separate.
+      if (across[k] > limit + 1e-14 * between.cwiseAbs().maxCoeff() * reach.maxCoeff())
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// T. Moeller, B. Trumbore, Fast, minimum storage ray-triangle intersection, 1997.
+  bool intersectObject(std::uint32_t triangle)
+  {
+    const auto [a, b, c] = cornersOf(this->surface_, triangle);
+    const Eigen::Vector3d ab = b - a, ac = c - a, fromA = this->begin_ - a;
+    const Eigen::Vector3d normal = this->way_.cross(ac), across = fromA.cross(ab);
+    const double determinant = ab.dot(normal);
+    const double u = fromA.dot(normal) / determinant;
+    const double v = this->way_.dot(across) / determinant;
+    const double place = ac.dot(across) / determinant;
+    // All false where the segment is parallel to the triangle.
+    this->isFound_ = u >= -Rim && v >= -Rim && u + v <= 1. + Rim && place >= 0. && place <= 1.;
+    return this->isFound_;
+  }
+
+private:
+  const TriangleMesh& surface_;
+  Eigen::Vector3d begin_;
+  Eigen::Vector3d way_;
+  bool isFound_ = false;
+};
+}
+
+Visibility::Visibility(const TriangleMesh& surface, const Eigen::Vector3d& viewpoint)
+  : surface_(surface)
+  , viewpoint_(viewpoint)
+{
+  std::vector<std::uint32_t> indices(surface.triangles.size());
+  std::iota(indices.begin(), indices.end(), 0u);
+  std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(indices.size());
+  Eigen::AlignedBox3d bounds;
+  for (const std::uint32_t triangle : indices)
+  {
+    bounds.extend(boxes.emplace_back(boxOf(cornersOf(surface, triangle))));
+  }
+  this->tree_.init(indices.begin(), indices.end(), boxes.begin(), boxes.end());
+  this->tolerance_ = boxes.empty() ? 0. : Tolerance * bounds.diagonal().norm();
+}
+
+bool Visibility::isSeen(const Eigen::Vector3d& point) const
+{
+  const Eigen::Vector3d way = point - this->viewpoint_;
+  const double length = way.norm();
+  if (length <= this->tolerance_)
+  {
+    return true;
+  }
+  SegmentSearch search(
+    this->surface_, this->viewpoint_, this->viewpoint_ + (1. - this->tolerance_ / length) * way);
+  Eigen::BVIntersect(this->tree_, search);
+  return !search.isFound();
+}
+}

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The plugin, and shapes to try it on."""
+
+import os
+
+import paraview
+from paraview import servermanager, simple
+
+CONFIGURATION = os.environ["NEURALMESH_PLUGIN_CONFIG"]
+PLUGIN = os.path.join(os.path.dirname(CONFIGURATION), "NeuralMesh", "NeuralMesh.so")
+
+paraview.options.batch = True
+
+
+def load_plugin():
+    """Load it where the server runs and, where that is elsewhere, here."""
+    if servermanager.ActiveConnection.IsRemote():
+        simple.LoadPlugin(PLUGIN, remote=True, ns=vars(simple))
+    simple.LoadPlugin(PLUGIN, remote=False, ns=vars(simple))
+
+
+def scan(points=20000, **properties):
+    """A scan of a sphere of radius 1."""
+    sphere = simple.Sphere(Radius=1.0, ThetaResolution=64, PhiResolution=64)
+    return simple.NeuralMeshScan(Input=sphere, NumberOfPoints=points, **properties)
+
+
+def information_of(source, port=0):
+    """What ParaView knows of an output, brought up to date."""
+    source.UpdatePipeline()
+    return simple.OutputPort(source, port).GetDataInformation()
+
+
+def fetch(source, port=0):
+    """The data of an output."""
+    return servermanager.Fetch(source, idx=port)
+
+
+def field_value(source, name):
+    """The one value of an array of the field data."""
+    return fetch(source).GetFieldData().GetAbstractArray(name).GetValue(0)
+
+
+def points_of(source):
+    """The coordinates, as bytes."""
+    return memoryview(fetch(source).GetPoints().GetData()).tobytes()

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What outputs look like: each opens in the view that suits it."""
+
+import os
+import tempfile
+import unittest
+
+import support
+from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+
+def setUpModule():
+    support.load_plugin()
+
+
+# Views that are left to the end of the process end it with an error of X.
+def tearDownModule():
+    for view in simple.GetViews():
+        simple.Delete(view)
+
+
+def picture_of(view):
+    """The pixels of a screenshot, an array of shape (height * width, 3)."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "view.png")
+        simple.SaveScreenshot(path, view, ImageResolution=[200, 200])
+        reader = vtkPNGReader()
+        reader.SetFileName(path)
+        reader.Update()
+        return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).copy()
+
+
+def shown(source, port=0):
+    """The view that ParaView chooses by itself for an output."""
+    source.UpdatePipeline()
+    controller = simple.servermanager.ParaViewPipelineController()
+    return controller.ShowInPreferredView(source.SMProxy, port, None)
+
+
+class Views(unittest.TestCase):
+    # Promise: meshes and scans are seen in a render view, without any more clicks.
+    def test_surfaces(self):
+        scan = support.scan(20000)
+        mesh = simple.NeuralMesh(Input=scan, NumberOfVertices=1000)
+        for source in (scan, mesh):
+            view = simple.CreateView("RenderView")
+            simple.Show(source, view)
+            simple.ResetCamera(view)
+            pixels = picture_of(view)
+            different = (pixels != pixels[0]).any(axis=1).mean()
+            self.assertGreater(different, 0.05)
+
+    # Promise: the learning curve opens in a line chart, the figures of a comparison in a table;
+    # what would lie on top of the mesh does not open by itself.
+    def test_preferred_views(self):
+        scan = support.scan(5000)
+        mesh = simple.NeuralMesh(Input=scan, NumberOfVertices=300)
+        ensemble = simple.NeuralMeshEnsemble(
+            Input=scan, NumberOfVertices=300, NumberOfMembers=1, VerticesPerMember=100,
+            GridResolution=16,
+        )
+        comparison = simple.NeuralMeshComparison(
+            Input=mesh, Reference=scan.Input, NumberOfSamples=2000
+        )
+        self.assertEqual(shown(mesh, 1).GetXMLName(), "XYChartView")
+        self.assertEqual(shown(ensemble, 1).GetXMLName(), "XYChartView")
+        self.assertEqual(shown(comparison, 2).GetXMLName(), "SpreadSheetView")
+        for source, port in ((ensemble, 2), (ensemble, 3), (comparison, 1)):
+            self.assertIsNone(shown(source, port))
+
+
+if __name__ == "__main__":
+    unittest.main()
