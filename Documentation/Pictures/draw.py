@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersGeneral import vtkVertexGlyphFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
-    vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
+    vtkActor, vtkPolyDataMapper, vtkProperty, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (the renderer behind the classes above)
 
 import clouds
@@ -90,6 +90,10 @@ def scene(data, up, azimuth, elevation, scalars=None, zoom=1.25, values=None, ne
         looks.EdgeVisibilityOff()
     if edges is not None:
         looks.SetEdgeVisibility(edges)
+    inside = vtkProperty()
+    inside.DeepCopy(looks)
+    inside.SetColor(0.95, 0.75, 0.5)
+    actor.SetBackfaceProperty(inside)
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     renderer.AddActor(actor)
@@ -218,7 +222,7 @@ def details():
     points = clouds.sample(*bunny(), 200000)
     size = np.linalg.norm(np.ptp(points, axis=0))
     ear = points[np.argmax(points[:, 1])]
-    away = points[7]
+    away = points[np.argmax(points[:, 2])]
     seen = points[np.linalg.norm(points - away, axis=1) > 0.06 * size]
     eight = clouds.sample(*clouds.cgal_mesh("eight"), 200000)
     return [scene(neuralmesh.reconstruct(points), "y", 30, 10, near=(ear, 0.2 * size)),
