@@ -13,13 +13,13 @@ from .vtkFiltersNeuralMesh import vtkNeuralMesh, vtkNeuralMeshEnsemble
 
 # Those that have names or places of their own in the signature.
 _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
-_PARAMETERS = {
+PARAMETERS = {
     name: parameter
     for name, parameter in parameters_of(vtkNeuralMesh).items()
     if name not in _NAMED
 }
 
-_ENSEMBLE_PARAMETERS = {
+ENSEMBLE_PARAMETERS = {
     name: parameter
     for name, parameter in parameters_of(vtkNeuralMeshEnsemble).items()
     if name not in (*_NAMED, "number_of_members")
@@ -124,7 +124,7 @@ def reconstruct(
 
 
 if reconstruct.__doc__:
-    reconstruct.__doc__ = reconstruct.__doc__.replace("{table}\n", table(_PARAMETERS))
+    reconstruct.__doc__ = reconstruct.__doc__.replace("{table}\n", table(PARAMETERS))
 
 
 def make_filter(
@@ -138,7 +138,7 @@ def make_filter(
     **parameters: float | bool | str,
 ) -> vtkNeuralMesh:
     """The filter that reconstruct() executes, without input; the same errors."""
-    known = _PARAMETERS if ensemble is None else _ENSEMBLE_PARAMETERS
+    known = PARAMETERS if ensemble is None else ENSEMBLE_PARAMETERS
     refuse_unknown("reconstruct", parameters, known)
     mesh = vtkNeuralMesh() if ensemble is None else vtkNeuralMeshEnsemble()
     if ensemble is not None:
