@@ -87,7 +87,7 @@ def _parser() -> argparse.ArgumentParser:
         "--output",
         type=Path,
         metavar="FOLDER",
-        help="where the results go (default: beside the recipe, its name without .json)",
+        help="where the results go (default: jobs-results beside jobs.json)",
     )
     batch.add_argument(
         "--processes",
@@ -111,7 +111,6 @@ def _batch(recipe_path: Path, output: Path | None, processes: int) -> int:
     folder = (output or recipe_path.parent / f"{recipe_path.stem}-results").absolute()
     folder.mkdir(parents=True, exist_ok=True)
     with _alone_in(folder):
-        remove_unfinished(folder)
         failed = _run(recipe, folder, processes)
         write_summary(folder, recipe)
         print(f"summary    {folder / 'summary.csv'}")
@@ -143,10 +142,14 @@ def _run(recipe: Recipe, folder: Path, processes: int) -> int:
 
 @contextlib.contextmanager
 def _alone_in(folder: Path) -> Iterator[None]:
-    """Refuse to work in a folder in which another batch does; its end, however, gives it free."""
+    """Refuse to work where another batch does; and leave nothing half, nor what others have left."""
     with open(folder / ".lock", "w", encoding="ascii") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             raise OSError(f"{folder}: another batch is working there") from None
-        yield
+        remove_unfinished(folder)
+        try:
+            yield
+        finally:
+            remove_unfinished(folder)

@@ -48,7 +48,7 @@ def write_gallery(folder: Path, recipe: Recipe, title: str) -> list[str]:
         shutil.copyfile(_PAGE / name, parts / name)
     reports = {job: read_report(folder, job.name) for job in recipe.jobs}
     done = [job for job in recipe.jobs if reports[job].get("status") == "done"]
-    problems = [] if has_viewer else ["no 3D views: this package was built without npm, see README"]
+    problems = [] if has_viewer else ["no 3D views: this package was built without vtk.js"]
 
     meshes = {job: result_path(folder, job.name, recipe.format) for job in done}
     if has_viewer:
@@ -56,8 +56,7 @@ def write_gallery(folder: Path, recipe: Recipe, title: str) -> list[str]:
             path = parts / f"{job.name}.js"
             if _is_older(path, meshes[job]):
                 write_text(path, page_mesh(job.name, read_points(meshes[job])))
-    pictures = [(meshes[job], parts / f"{job.name}.png") for job in done]
-    problem = draw_pictures([pair for pair in pictures if _is_older(pair[1], pair[0])], recipe.view)
+    problem = _draw(meshes, parts, recipe.view)
     if problem:
         problems.append(problem)
 
@@ -72,6 +71,20 @@ def write_gallery(folder: Path, recipe: Recipe, title: str) -> list[str]:
     )
     write_text(folder / "index.html", page)
     return problems
+
+
+def _draw(meshes: dict[Job, Path], parts: Path, view: dict[str, Any]) -> str:
+    """Draw the pictures that are missing, are older than their meshes or show another view."""
+    view_path = parts / "view.json"
+    view_text = json.dumps(view)
+    is_same = view_path.exists() and view_path.read_text(encoding="utf-8") == view_text
+    pictures = [(mesh, parts / f"{job.name}.png") for job, mesh in meshes.items()]
+    problem = draw_pictures(
+        [(mesh, path) for mesh, path in pictures if not is_same or _is_older(path, mesh)], view
+    )
+    if not problem:
+        write_text(view_path, view_text)
+    return problem
 
 
 def _is_older(path: Path, source: Path) -> bool:

@@ -74,7 +74,7 @@ def _recipe(content: Any, folder: Path) -> Recipe:
     scans = _scans(content.get("scans"), folder)
     matrix = _matrix(content.get("matrix", {}))
     mesh_format = content.get("format", "vtp")
-    if mesh_format not in WRITERS:
+    if mesh_format not in tuple(WRITERS):
         raise RecipeError(f"format: must be one of {', '.join(WRITERS)}, not {_shown(mesh_format)}")
     gallery = content.get("gallery", True)
     if not isinstance(gallery, bool):
