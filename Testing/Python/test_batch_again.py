@@ -114,7 +114,7 @@ class Ends(BatchTest):
     def test_interrupted(self):
         self.process.send_signal(signal.SIGINT)
         errors = self.process.stderr.read()
-        self.assertEqual(self.process.wait(10), 130)
+        self.assertEqual(self.process.wait(60), 130)
         self.assertEqual(errors, "neuralmesh: interrupted; the same command does the rest\n")
         self.wait_for_the_end_of_jobs()
         self.assertLess(len(self.reports()), 8)
@@ -123,7 +123,7 @@ class Ends(BatchTest):
         again = start(["jobs.json", "--processes", "2"], self.folder)
         again.stdout.readline()
         again.send_signal(signal.SIGTERM)
-        again.communicate(timeout=10)
+        again.communicate(timeout=60)
         self.assertEqual(again.returncode, 128 + signal.SIGTERM)
         self.wait_for_the_end_of_jobs()
 

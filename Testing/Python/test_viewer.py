@@ -69,7 +69,7 @@ class Viewer(BatchTest):
     def wait_for(self, name):
         """Until the view of that name has been drawn."""
         viewer = self.browser.find_element(By.ID, "viewer")
-        WebDriverWait(self.browser, 30).until(lambda _: viewer.get_attribute("data-ready") == name)
+        WebDriverWait(self.browser, 100).until(lambda _: viewer.get_attribute("data-ready") == name)
         time.sleep(0.3)
 
     def pixels(self):
@@ -183,7 +183,7 @@ class Viewer(BatchTest):
         path.unlink()
         self.open("#red_vertices-300")
         state = self.browser.find_element(By.ID, "state")
-        WebDriverWait(self.browser, 30).until(lambda _: "There is no 3D view" in state.text)
+        WebDriverWait(self.browser, 100).until(lambda _: "There is no 3D view" in state.text)
         self.browser.get_log("browser")
 
 
