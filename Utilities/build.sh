@@ -6,11 +6,13 @@
 screen_packages=(xvfb xauth libgl1-mesa-dri)
 if [ "${NEURALMESH_VTK:-paraview}" = plain ]; then
   vtk_packages=(libvtk9-dev python3-vtk9 libeigen3-dev)
-  test_packages=(libgtest-dev libcgal-demo)
 else
   vtk_packages=(paraview-dev python3-paraview libopenmpi-dev)
-  test_packages=(libgtest-dev libcgal-demo "${screen_packages[@]}")
 fi
+test_packages=(libgtest-dev libcgal-demo "${screen_packages[@]}"
+  chromium chromium-driver python3-selenium)
+# For the 3D views of galleries; npm may have come in another way than by this package.
+command -v npm > /dev/null || test_packages+=(npm)
 build_packages=(g++ cmake ninja-build "${vtk_packages[@]}" libcli11-dev
   nlohmann-json3-dev python3-numpy)
 
@@ -39,6 +41,8 @@ build()
   shift 2
   cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" > "$folder.log" 2>&1 ||
     { cat "$folder.log"; return 1; }
+  # What is left out, and why.
+  grep '^-- Galleries' "$folder.log" || true
   rm -f "$folder.log"
   cmake --build "$folder" --target "$target"
 }

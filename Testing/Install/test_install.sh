@@ -72,8 +72,9 @@ assert neuralmesh.__version__ == sys.argv[2]
 points = [(math.cos(i), math.sin(i), math.sin(0.1 * i)) for i in range(1000)]
 assert neuralmesh.reconstruct(points, 100).GetNumberOfPoints() == 100
 END
+  [ "$("$python" -m neuralmesh --version)" = "$version" ] || fail "another version of the commands"
   local file
-  for file in py.typed vtkFiltersNeuralMesh.pyi; do
+  for file in py.typed vtkFiltersNeuralMesh.pyi batch/page/index.html batch/page/viewer.js; do
     [ -e "$prefix/lib/python3/dist-packages/neuralmesh/$file" ] || fail "no $file"
   done
 }

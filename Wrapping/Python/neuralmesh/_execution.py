@@ -30,6 +30,14 @@ def execute(algorithm: vtkAlgorithm, progress: Progress | None = None) -> None:
     execution.report()
 
 
+def check_parameters(algorithm: vtkAlgorithm) -> None:
+    """Raise ValueError if the properties of one of our filters do not go together."""
+    execution = _Execution(algorithm, None)
+    with execution.observed():
+        algorithm.CheckParameters()
+    execution.report()
+
+
 class _Execution:
     """What is seen of a filter while it runs. No exception may pass through VTK."""
 

@@ -114,11 +114,15 @@ def refuse_unknown(function: str, names: Any, known: Any) -> None:
     """Raise TypeError for the first of the names that is not known, with those that are near."""
     for name in names:
         if name not in known:
-            near = difflib.get_close_matches(name, known) or sorted(known)
             raise TypeError(
                 f"{function}() got an unexpected keyword argument '{name}'; "
-                f"is it one of these: {', '.join(near)}?"
+                f"is it one of these: {', '.join(near_names(name, known))}?"
             )
+
+
+def near_names(name: str, known: Any) -> list[str]:
+    """Those of the known names that are like this one, or all of them."""
+    return difflib.get_close_matches(name, known) or sorted(known)
 
 
 def table(parameters: Mapping[str, Parameter]) -> str:

@@ -13,13 +13,13 @@ from .vtkFiltersNeuralMesh import vtkNeuralMesh, vtkNeuralMeshEnsemble
 
 # Those that have names or places of their own in the signature.
 _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
-_PARAMETERS = {
+PARAMETERS = {
     name: parameter
     for name, parameter in parameters_of(vtkNeuralMesh).items()
     if name not in _NAMED
 }
 
-_ENSEMBLE_PARAMETERS = {
+ENSEMBLE_PARAMETERS = {
     name: parameter
     for name, parameter in parameters_of(vtkNeuralMeshEnsemble).items()
     if name not in (*_NAMED, "number_of_members")
@@ -102,13 +102,47 @@ def reconstruct(
         >>> mesh.GetNumberOfPoints()
         5000
     """
-    known = _PARAMETERS if ensemble is None else _ENSEMBLE_PARAMETERS
+    mesh = make_filter(
+        vertices,
+        seed,
+        variant=variant,
+        order=order,
+        preset=preset,
+        ensemble=ensemble,
+        **parameters,
+    )
+    if ensemble is not None and first_mesh is not None:
+        raise ValueError("ensemble and first_mesh exclude each other: it makes its first mesh")
+    set_input(mesh, points, weights)
+    if first_mesh is not None:
+        if not isinstance(first_mesh, vtkPolyData):
+            raise ValueError(f"first_mesh must be a vtkPolyData, not {type(first_mesh).__name__}")
+        mesh.SetFirstMeshData(first_mesh)
+
+    execute(mesh, progress)
+    return result_of(mesh)
+
+
+if reconstruct.__doc__:
+    reconstruct.__doc__ = reconstruct.__doc__.replace("{table}\n", table(PARAMETERS))
+
+
+def make_filter(
+    vertices: int = 20000,
+    seed: int = 1,
+    *,
+    variant: str = "noise",
+    order: str = "exact",
+    preset: str = "default",
+    ensemble: int | None = None,
+    **parameters: float | bool | str,
+) -> vtkNeuralMesh:
+    """The filter that reconstruct() executes, without input; the same errors."""
+    known = PARAMETERS if ensemble is None else ENSEMBLE_PARAMETERS
     refuse_unknown("reconstruct", parameters, known)
     mesh = vtkNeuralMesh() if ensemble is None else vtkNeuralMeshEnsemble()
     if ensemble is not None:
         assign(mesh, "number_of_members", ensemble, shown_name="ensemble")
-        if first_mesh is not None:
-            raise ValueError("ensemble and first_mesh exclude each other: it makes its first mesh")
     assign(mesh, "number_of_vertices", vertices, shown_name="vertices")
     assign(mesh, "seed", seed)
     # A preset sets parameters, and to what depends on variant and order.
@@ -117,23 +151,26 @@ def reconstruct(
     assign(mesh, "preset", preset)
     for name, value in parameters.items():
         assign(mesh, name, value)
+    return mesh
+
+
+def set_input(
+    mesh: vtkNeuralMesh,
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet,
+    weights: ArrayLike | str | None,
+) -> None:
+    """Give the filter its points and their weights, as reconstruct() takes them."""
     dataset = as_dataset(points)
     if weights is not None:
         dataset, name = with_weights(dataset, weights)
         mesh.SetWeightArrayName(name)
     mesh.SetInputData(dataset)
-    if first_mesh is not None:
-        if not isinstance(first_mesh, vtkPolyData):
-            raise ValueError(f"first_mesh must be a vtkPolyData, not {type(first_mesh).__name__}")
-        mesh.SetFirstMeshData(first_mesh)
 
-    execute(mesh, progress)
+
+def result_of(mesh: vtkNeuralMesh) -> vtkPolyData:
+    """What the executed filter has made, without its pipeline."""
     result = vtkPolyData()
     result.ShallowCopy(mesh.GetOutput())
     if result.GetNumberOfPoints() == 0:
         raise ValueError("points: there are none")
     return result
-
-
-if reconstruct.__doc__:
-    reconstruct.__doc__ = reconstruct.__doc__.replace("{table}\n", table(_PARAMETERS))

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The batch command: what comes out, and what fails."""
+
+import csv
+import os
+import pathlib
+import unittest
+
+import neuralmesh
+import numpy as np
+import support
+from batch_testing import BatchTest, write_scan
+from neuralmesh.batch.meshes import read_points, write_mesh
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+QUALITY = ("residual", "noise", "regular_ratio", "triangle_quality", "components", "genus")
+
+
+class Example(BatchTest):
+    """The example of the documentation, with two scans that are sound and one that is not."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.write_example()
+        cls.output, cls.errors, cls.status = cls.run_batch("--processes", 2)
+
+    # Promise: each scan is reconstructed with each set of parameters, with the bytes of
+    # reconstruct(); a scan that is broken fails alone, and the exit status tells.
+    def test_results(self):
+        self.assertEqual((self.errors, self.status), ("", 1))
+        self.assertIn("jobs       8 done, 4 failed", self.output)
+        self.assertEqual(len(self.times()), 8)
+        for scan in ("ball", "egg"):
+            points = np.loadtxt(self.folder / "scans" / f"{scan}.xyz")
+            for vertices in (200, 800):
+                for seed in (1, 2):
+                    name = f"{scan}_vertices-{vertices}_seed-{seed}"
+                    with self.subTest(name):
+                        wanted = neuralmesh.reconstruct(points, vertices, seed)
+                        mesh = read_points(self.results / f"{name}.vtp")
+                        self.assertEqual(support.arrays_of(mesh), support.arrays_of(wanted))
+
+    # Promise: each result has a report, with its parameters, times and quality.
+    def test_reports(self):
+        report = self.report("egg_vertices-800_seed-2")
+        self.assertEqual(report["status"], "done")
+        self.assertEqual(report["scan"]["path"], str(self.folder / "scans" / "egg.xyz"))
+        self.assertEqual(report["parameters"], {"vertices": 800, "seed": 2, "variant": "noise"})
+        self.assertEqual(report["version"], neuralmesh.__version__)
+        self.assertEqual(report["result"]["file"], "egg_vertices-800_seed-2.vtp")
+        self.assertEqual(report["result"]["points"], 2000)
+        self.assertEqual(report["result"]["vertices"], 800)
+        self.assertEqual(set(report["seconds"]), {"reading", "reconstruction", "writing"})
+        self.assertEqual(set(report["phases"]), {"cloud", "start", "learning", "finish"})
+        self.assertGreater(report["seconds"]["reconstruction"], 0)
+        mesh = neuralmesh.reconstruct(np.loadtxt(self.folder / "scans" / "egg.xyz"), 800, 2)
+        residual = mesh.GetFieldData().GetArray("Residual").GetValue(0)
+        self.assertEqual(report["quality"]["residual"], residual)
+        for name in QUALITY:
+            self.assertIn(name, report["quality"])
+
+        failed = self.report("broken_vertices-200_seed-1")
+        self.assertEqual(failed["status"], "failed")
+        self.assertIn("nd of file", failed["error"])
+        self.assertNotIn("result", failed)
+
+    # Promise: the summary has a row for each job, with its parameters, figures and its error.
+    def test_summary(self):
+        with open(self.results / "summary.csv", encoding="utf-8", newline="") as file:
+            rows = {row["job"]: row for row in csv.DictReader(file)}
+        self.assertEqual(len(rows), 12)
+        row = rows["ball_vertices-200_seed-2"]
+        columns = ("scan", "vertices", "seed", "variant", "status", "result", "points", "triangles",
+                   "reconstruction_seconds", "learning_cpu_seconds", *QUALITY, "error")  # fmt: skip
+        self.assertLessEqual(set(columns), set(row))
+        self.assertEqual((row["vertices"], row["seed"], row["variant"]), ("200", "2", "noise"))
+        self.assertEqual((row["status"], row["points"], row["error"]), ("done", "2000", ""))
+        report = self.report("ball_vertices-200_seed-2")
+        self.assertEqual(float(row["residual"]), report["quality"]["residual"])
+        failed = rows["broken_vertices-800_seed-1"]
+        self.assertEqual((failed["status"], failed["vertices"], failed["seed"]), ("failed", "800", "1"))
+        self.assertEqual(failed["error"], self.report("broken_vertices-800_seed-1")["error"])
+
+
+class Files(BatchTest):
+    """The formats of scans and of meshes."""
+
+    def setUp(self):
+        self.clear()
+
+    # Promise: each format of meshes can be had, in the folder that is named.
+    def test_formats(self):
+        write_scan(self.folder / "ball.xyz")
+        for mesh_format in ("vtp", "ply", "obj", "stl"):
+            with self.subTest(mesh_format):
+                self.write_recipe(
+                    scans=["ball.xyz"], matrix={"vertices": 100}, format=mesh_format
+                )
+                _, errors, status = self.run_batch("--output", f"in/{mesh_format}")
+                self.assertEqual((errors, status), ("", 0))
+                mesh = read_points(self.folder / "in" / mesh_format / f"ball.{mesh_format}")
+                self.assertEqual(mesh.GetNumberOfPoints(), 100)
+                self.assertTrue(support.is_closed_manifold(mesh))
+        self.assertFalse(self.results.exists())
+
+    # Promise: text is read with blanks, commas or semicolons between numbers, with names of columns, a
+    # count or comments before them, and more numbers behind them.
+    def test_text(self):
+        points = support.sphere(5)
+        lines = {
+            "blanks.xyz": ("", "{} {} {}\n"),
+            "count.pts": ("5\n", "{}\t{} {} 7 8 9\n"),
+            "names.csv": ("# a comment\nx,y,z\n", "{}, {},{}\n"),
+            "semicolons.txt": ("// x; y; z\n\n", "{};{};{};1\n"),
+        }
+        for name, (head, line) in lines.items():
+            with self.subTest(name):
+                path = self.folder / name
+                path.write_text(head + "".join(line.format(*point) for point in points), "utf-8")
+                read = support.coordinates(read_points(path))
+                self.assertTrue((read == points).all())
+
+    # Promise: what is no scan fails with words that say why.
+    def test_no_scans(self):
+        (self.folder / "folder.ply").mkdir()
+        os.mkfifo(self.folder / "pipe.ply")
+        files = {"empty.xyz": "", "words.txt": "these are no points\n", "a.doc": "",
+                 "rows.csv": "1,2,3\n4,5\n", "one.xyz": "1 2 3\n", "half.vtp": "<VTKFile"}  # fmt: skip
+        for name, text in files.items():
+            (self.folder / name).write_text(text, encoding="utf-8")
+        stl = b"a title".ljust(80, b"\0") + (100).to_bytes(4, "little") + bytes(60)
+        (self.folder / "half.stl").write_bytes(stl)
+        names = [*files, "folder.ply", "pipe.ply", "none.ply", "half.stl"]
+        self.write_recipe(scans=names, matrix={"vertices": 50})
+        output, errors, status = self.run_batch()
+        self.assertEqual((errors, status), ("", 1))
+        self.assertIn(f"jobs       0 done, {len(names)} failed", output)
+        wanted = {
+            "empty": "there are no points",
+            "words": "there are no points",
+            "a": "unknown extension",
+            "rows": "rows.csv",
+            "one": "one.xyz",
+            "half.vtp": "half.vtp",
+            "folder": "no regular file",
+            "pipe": "no regular file",
+            "none": "no such file",
+            "half.stl": "damaged",
+        }
+        for job in (path.stem for path in self.results.glob("[!.]*.json")):
+            report = self.report(job)
+            scan = pathlib.Path(report["scan"]["path"])
+            self.assertIn(wanted.get(scan.name) or wanted[scan.stem], report["error"])
+
+    # Promise: colours of a scan are those of the mesh, in .ply, too, and weights are arrays of it.
+    def test_point_data(self):
+        cloud = vtkPolyData()
+        cloud.ShallowCopy(support.point_set(support.sphere()))
+        colors = numpy_to_vtk(np.tile(np.uint8([250, 20, 10]), (2000, 1)), deep=True)
+        colors.SetName("RGB")
+        cloud.GetPointData().SetScalars(colors)
+        trust = numpy_to_vtk(np.ones(2000), deep=True)
+        trust.SetName("Trust")
+        cloud.GetPointData().AddArray(trust)
+        write_mesh(cloud, self.folder / "red.vtp")
+        matrix = {"vertices": 100, "weights": ["Trust", "Mistrust"]}
+        self.write_recipe(scans=["red.vtp"], matrix=matrix, format="ply")
+        self.assertEqual(self.run_batch()[2], 1)
+        mesh = read_points(self.results / "red_weights-Trust.ply")
+        self.assertEqual(mesh.GetPointData().GetScalars().GetTuple3(7), (250, 20, 10))
+        self.assertIn("Mistrust", self.report("red_weights-Mistrust")["error"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The batch command again: what is done is not done again, however the first run ended."""
+
+import json
+import os
+import pathlib
+import signal
+import time
+import unittest
+
+from batch_testing import BatchTest, start, write_scan
+
+
+class Again(BatchTest):
+    """The example of the documentation, after it has run."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.write_example()
+        cls.scans = cls.folder / "scans"
+        cls.run_batch("--processes", 2)
+
+    # Promise: what is done is not done again, unless its scan, its parameters, its mesh or the version
+    # has changed; what failed is tried again.
+    def test_again(self):
+        before = self.times()
+        self.assertIn("8 of 12 jobs were done before", self.run_batch()[0])
+        self.assertEqual(self.times(), before)
+
+        write_scan(self.scans / "broken.ply")  # still no .ply, and now of another size
+        os.utime(self.scans / "egg.xyz", ns=(0, 0))
+        self.assertIn("4 of 12 jobs were done before", self.run_batch()[0])
+        self.assert_written_again(before, lambda name: name.startswith("egg"))
+
+        before = self.times()
+        (self.results / "ball_vertices-200_seed-1.vtp").unlink()
+        os.truncate(self.results / "ball_vertices-200_seed-2.vtp", 1000)
+        report = self.report("ball_vertices-800_seed-1")
+        report["version"] = "0.0.1"
+        (self.results / "ball_vertices-800_seed-1.json").write_text(json.dumps(report), "utf-8")
+        (self.results / "ball_vertices-800_seed-2.json").write_text("{", "utf-8")
+        self.assertIn("4 of 12 jobs were done before", self.run_batch()[0])
+        self.assert_written_again(before, lambda name: name.startswith("ball"))
+
+        before = self.times()
+        text = self.recipe.read_text("utf-8").replace('"variant": "noise"', '"winner_rate": 0.05')
+        self.recipe.write_text(text, encoding="utf-8")
+        self.assertNotIn("done before", self.run_batch()[0])
+        self.assert_written_again(before, lambda name: True)
+
+    def assert_written_again(self, before, expected):
+        now = self.times()
+        self.assertEqual(set(now), set(before))
+        changed = {name for name in now if now[name] != before[name]}
+        self.assertEqual(changed, set(filter(expected, before)))
+
+
+class Ends(BatchTest):
+    """Batches that are ended in the middle."""
+
+    def setUp(self):
+        self.clear()
+        write_scan(self.folder / "ball.xyz", 20000)
+        self.write_recipe(scans=["ball.xyz"], matrix={"vertices": 8000, "seed": list(range(1, 9))})
+        self.process = start(["jobs.json", "--processes", "2"], self.folder)
+        self.addCleanup(self.process.stdout.close)
+        self.addCleanup(self.process.stderr.close)
+        for _ in range(2):
+            self.process.stdout.readline()
+
+    def reports(self):
+        return {path.stem for path in self.results.glob("[!.]*.json")}
+
+    def wait_for_the_end_of_jobs(self):
+        """No process works in the folder any more."""
+        deadline = time.monotonic() + 60
+        while any(os.path.realpath(cwd) == str(self.folder) for cwd in self.working_folders()):
+            self.assertLess(time.monotonic(), deadline, "a process of a job is left")
+            time.sleep(0.05)
+
+    def working_folders(self):
+        for process in pathlib.Path("/proc").glob("[0-9]*/cwd"):
+            try:
+                yield os.readlink(process)
+            except OSError:
+                pass  # it has ended, or belongs to somebody else
+
+    # Promise: after SIGKILL the same command does what is missing, and only that; the end of the
+    # batch is that of its jobs.
+    def test_killed(self):
+        self.process.kill()
+        self.process.wait()
+        self.wait_for_the_end_of_jobs()
+        before = self.times()
+        done = self.reports()
+        self.assertGreaterEqual(len(done), 2)
+        self.assertLess(len(done), 8)
+        for name in done:
+            self.assertEqual(self.report(name)["result"]["vertices"], 8000)
+        (self.results / ".ball_seed-8.1.part.vtp").write_text("half of a mesh", encoding="utf-8")
+
+        output, errors, status = self.run_batch("--processes", 2)
+        self.assertEqual((errors, status), ("", 0))
+        self.assertIn(f"{len(done)} of 8 jobs were done before", output)
+        self.assertEqual(output.count(": done"), 8 - len(done))
+        now = self.times()
+        self.assertEqual(len(now), 8)
+        for name in done:
+            self.assertEqual(now[name], before[name])
+        self.assertEqual(list(self.results.glob(".*.part*")), [])
+
+    # Promise: Ctrl-C and SIGTERM end the batch and its jobs at once, without half files.
+    def test_interrupted(self):
+        self.process.send_signal(signal.SIGINT)
+        errors = self.process.stderr.read()
+        self.assertEqual(self.process.wait(60), 130)
+        self.assertEqual(errors, "neuralmesh: interrupted; the same command does the rest\n")
+        self.wait_for_the_end_of_jobs()
+        self.assertLess(len(self.reports()), 8)
+        self.assertEqual(list(self.results.glob(".*.part*")), [])
+
+        again = start(["jobs.json", "--processes", "2"], self.folder)
+        again.stdout.readline()
+        again.send_signal(signal.SIGTERM)
+        again.communicate(timeout=60)
+        self.assertEqual(again.returncode, 128 + signal.SIGTERM)
+        self.wait_for_the_end_of_jobs()
+
+    # Promise: two batches do not work in one folder at a time.
+    def test_two(self):
+        _, errors, status = self.run_batch()
+        self.assertEqual(status, 1)
+        self.assertIn("another batch is working there", errors)
+        self.process.terminate()
+        self.process.wait()
+
+
+if __name__ == "__main__":
+    unittest.main()

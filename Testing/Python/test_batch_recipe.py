@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Recipes: what they mean, and that a bad one is refused as a whole."""
+
+import contextlib
+import io
+import json
+import unittest
+
+from batch_testing import BatchTest, write_scan
+from neuralmesh.batch.command import main
+from neuralmesh.batch.recipe import read_recipe
+
+BAD = {
+    # The text of the recipe, and what its message says.
+    "": ("jobs.json, line 1, column 1", "no JSON"),
+    '{"scans": ["a.xyz"],}': ("line 1, column 21", "no JSON"),
+    "[]": ("the recipe: must be an object, not []",),
+    "{}": ("scans: must be a list",),
+    '{"scans": []}': ("scans: must be a list",),
+    '{"scans": "a.xyz"}': ("scans: must be a list",),
+    '{"scans": ["a.xyz", 5]}': ("scans[1]: must be a path, not 5",),
+    '{"scans": ["a.xyz", "none/*.ply"]}': ("scans[1]: no file matches none/*.ply",),
+    '{"scan": ["a.xyz"]}': ('there is no "scan"', "scans"),
+    '{"scans": ["a.xyz"], "scans": ["a.xyz"]}': ('"scans" stands there twice',),
+    '{"scans": ["a.xyz"], "format": "doc"}': ("format: must be one of vtp, ply, obj, stl",),
+    '{"scans": ["a.xyz"], "format": ["ply"]}': ("format: must be one of",),
+    '{"scans": ["a.xyz"], "gallery": 1}': ("gallery: must be true or false",),
+    '{"scans": ["a.xyz"], "view": {"up": "w"}}': ('view.up: must be x, y or z, not "w"',),
+    '{"scans": ["a.xyz"], "view": {"up": ["x"]}}': ("view.up: must be x, y or z",),
+    '{"scans": ["a.xyz"], "view": {"azimuth": true}}': ("view.azimuth: must be degrees",),
+    '{"scans": ["a.xyz"], "view": {"zoom": 2}}': ('view: there is no "zoom"',),
+    '{"scans": ["a.xyz"], "matrix": [1]}': ("matrix: must be an object",),
+    '{"scans": ["a.xyz"], "matrix": {"vertice": 100}}': ('there is no "vertice"', "vertices"),
+    '{"scans": ["a.xyz"], "matrix": {"progress": 1}}': ('matrix: there is no "progress"',),
+    '{"scans": ["a.xyz"], "matrix": {"vertices": []}}': ("matrix.vertices: the list is empty",),
+    '{"scans": ["a.xyz"], "matrix": {"vertices": [100, 3]}}': (
+        "matrix.vertices[1]: vertices must be an integer from 4 to 1000000000, not 3",
+    ),
+    '{"scans": ["a.xyz"], "matrix": {"vertices": "many"}}': ("matrix.vertices: vertices must be",),
+    '{"scans": ["a.xyz"], "matrix": {"vertices": [[100]]}}': ("matrix.vertices[0]: vertices",),
+    '{"scans": ["a.xyz"], "matrix": {"winner_rate": NaN}}': ("NaN is no number of JSON",),
+    '{"scans": ["a.xyz"], "matrix": {"winner_rate": 1e999}}': ("matrix.winner_rate: winner_rate",),
+    '{"scans": ["a.xyz"], "matrix": {"seed": [1, 2, 1]}}': ("matrix.seed[2]: 1 stands there twice",),
+    '{"scans": ["a.xyz"], "matrix": {"variant": "best"}}': ("matrix.variant: variant must be",),
+    '{"scans": ["a.xyz"], "matrix": {"weights": 1}}': ("matrix.weights: must be the name",),
+    '{"scans": ["a.xyz"], "matrix": {"weights": ["a/b", "a b"]}}': ("the same name, a_weights-a_b",),
+    '{"scans": ["a.xyz"], "matrix": {"order": ["exact", "list"], "jump": "area_change"}}': (
+        'matrix: {"order": "exact", "jump": "area_change"} do not go together',
+    ),
+}
+
+
+class Recipes(BatchTest):
+    def setUp(self):
+        self.clear()
+        write_scan(self.folder / "a.xyz")
+
+    def names(self, **content):
+        self.write_recipe(**content)
+        return [job.name for job in read_recipe(self.recipe).jobs]
+
+    # Promise: a bad recipe is refused before anything is run or written, with the place.
+    def test_bad(self):
+        for text, parts in BAD.items():
+            with self.subTest(text):
+                self.recipe.write_text(text, encoding="utf-8")
+                errors = io.StringIO()
+                with contextlib.redirect_stderr(errors):
+                    self.assertEqual(main(["batch", str(self.recipe)]), 2)
+                for part in (str(self.recipe), *parts):
+                    self.assertIn(part, errors.getvalue())
+                self.assertEqual(len(errors.getvalue().splitlines()), 1)
+                self.assertFalse(self.results.exists())
+
+    # Promise: so is one that cannot be read, and wrong use; the command's exit status tells.
+    def test_unreadable(self):
+        output, errors, status = self.run_batch()
+        self.assertEqual((output, status), ("", 2))
+        self.assertIn("jobs.json: cannot be read", errors)
+        self.recipe.write_bytes(b'{"scans": ["\xff"]}')
+        self.assertEqual(self.run_batch()[2], 2)
+        self.write_recipe(scans=["a.xyz"])
+        for count in ("0", "-1", "many"):
+            self.assertEqual(self.run_batch("--processes", count)[2], 2)
+
+    # Promise: all lists of the matrix are crossed, for each scan; they, and not what is fixed, are in
+    # the names.
+    def test_matrix(self):
+        write_scan(self.folder / "b.xyz")
+        matrix = {"vertices": [100, 200], "seed": [1, 2, 3], "variant": "basic", "ensemble": [None, 2]}
+        names = self.names(scans=["*.xyz"], matrix=matrix)
+        self.assertEqual(len(names), 2 * 2 * 3 * 2)
+        self.assertEqual(names[0], "a_vertices-100_seed-1_ensemble-null")
+        self.assertEqual(names[-1], "b_vertices-200_seed-3_ensemble-2")
+        for job in read_recipe(self.recipe).jobs:
+            self.assertEqual(list(job.parameters), list(matrix))
+            self.assertEqual(job.parameters["variant"], "basic")
+        self.assertEqual(self.names(scans=["a.xyz"]), ["a"])
+
+    # Promise: every parameter of reconstruct() and of ensembles is one of recipes.
+    def test_parameters(self):
+        matrix = {"winner_rate": 0.05, "compute_feature_strength": True, "boundaries": "close"}
+        self.assertEqual(len(self.names(scans=["a.xyz"], matrix=matrix)), 1)
+        matrix = {"ensemble": 3, "topology_learning": False, "weights": "Confidence"}
+        self.assertEqual(len(self.names(scans=["a.xyz"], matrix=matrix)), 1)
+
+    # Promise: a scan that two patterns match is there once, and scans of the same name in different
+    # folders, or with different extensions, are told apart.
+    def test_names(self):
+        self.assertEqual(self.names(scans=["*.xyz", "a.xyz", "./a.xyz"]), ["a"])
+        write_scan(self.folder / "b" / "a.xyz")
+        self.assertEqual(self.names(scans=["a.xyz", "b/a.xyz"])[1], "b-a.xyz")
+        self.assertEqual(self.names(scans=["a.xyz", "a.ply"]), ["a.xyz", "a.ply"])
+        self.assertEqual(self.names(scans=["**/a.xyz"])[1], "b-a.xyz")
+        write_scan(self.folder / "[1].xyz")
+        self.assertEqual(self.names(scans=["[1].xyz"]), ["_1_"])
+
+    # Promise: the help shows a recipe that is sound.
+    def test_help(self):
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output), self.assertRaises(SystemExit) as ended:
+            main(["batch", "--help"])
+        self.assertEqual(ended.exception.code, 0)
+        text = output.getvalue()
+        content = json.loads(text[text.index("  {\n") : text.index("\n  }") + 4])
+        write_scan(self.folder / "scans" / "c.ply")
+        self.assertEqual(len(self.names(**content)), 8)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command: python3 -m neuralmesh batch jobs.json."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import fcntl
+import os
+import signal
+import sys
+from pathlib import Path
+from typing import Iterator
+
+from .. import __version__
+from .gallery import write_gallery
+from .recipe import Job, Recipe, RecipeError, read_recipe
+from .report import is_done, write_summary
+from .running import run_jobs
+from .whole_file import remove_unfinished
+
+_EPILOG = """\
+A recipe is JSON; of its keys only `scans` must be there:
+
+  {
+    "scans": ["scans/*.ply", "bunny.obj"],
+    "matrix": {"vertices": [5000, 20000], "seed": [1, 2], "variant": "noise"},
+    "format": "vtp",
+    "gallery": true,
+    "view": {"up": "y", "azimuth": 30, "elevation": 15}
+  }
+
+scans    files of points, relative to the recipe, with wildcards or without:
+         .ply .vtp .vtk .vtu .obj .stl .xyz .pts .txt .csv
+matrix   parameters of neuralmesh.reconstruct(), except progress and first_mesh; a list holds the
+         values to try, and all lists are crossed
+format   of the meshes: vtp (default), ply, obj or stl
+gallery  whether there is one (default: true)
+view     of the pictures: which axis points upwards, and from where one looks, in degrees
+
+The folder gets for each job a mesh and a report (.json), for all of them summary.csv and the gallery,
+index.html. A job is not run again while its result is there, and its scan (by size and time of
+modification), its parameters, the format and the version of NeuralMesh are the same.
+
+Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 130 after Ctrl-C. What
+is done by then stays, and the same command does the rest."""
+
+_INTERRUPTED = 128 + signal.SIGINT
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command and return its exit status."""
+    options = _parser().parse_args(arguments)
+    # However the command is told to end, its processes end first.
+    signal.signal(signal.SIGTERM, lambda number, _frame: sys.exit(128 + number))
+    try:
+        return _batch(options.recipe, options.output, options.processes)
+    except RecipeError as error:
+        return _say(error, 2)
+    except OSError as error:
+        return _say(error, 1)
+    except KeyboardInterrupt:
+        return _say("interrupted; the same command does the rest", _INTERRUPTED)
+
+
+def _say(message: object, status: int) -> int:
+    print(f"neuralmesh: {message}", file=sys.stderr)
+    return status
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python3 -m neuralmesh", description="The commands of NeuralMesh that are Python."
+    )
+    parser.add_argument("--version", action="version", version=__version__)
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    batch = commands.add_parser(
+        "batch",
+        help="reconstruct many scans by one recipe",
+        description="Reconstruct many scans by one recipe: each with each set of parameters, in "
+        "processes of their own.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    batch.add_argument("recipe", type=Path, metavar="RECIPE", help="the .json file, see below")
+    batch.add_argument(
+        "--output",
+        type=Path,
+        metavar="FOLDER",
+        help="where the results go (default: jobs-results beside jobs.json)",
+    )
+    batch.add_argument(
+        "--processes",
+        type=_count,
+        default=len(os.sched_getaffinity(0)),
+        metavar="N",
+        help="how many jobs run at a time (default: as many as there are processors, %(default)s)",
+    )
+    return parser
+
+
+def _count(text: str) -> int:
+    number = int(text)
+    if not 1 <= number <= 1024:
+        raise argparse.ArgumentTypeError(f"{text} is not from 1 to 1024")
+    return number
+
+
+def _batch(recipe_path: Path, output: Path | None, processes: int) -> int:
+    recipe = read_recipe(recipe_path)
+    folder = (output or recipe_path.parent / f"{recipe_path.stem}-results").absolute()
+    folder.mkdir(parents=True, exist_ok=True)
+    with _alone_in(folder):
+        failed = _run(recipe, folder, processes)
+        write_summary(folder, recipe)
+        print(f"summary    {folder / 'summary.csv'}")
+        if recipe.gallery:
+            for problem in write_gallery(folder, recipe, recipe_path.stem):
+                print(f"neuralmesh: {problem}", file=sys.stderr)
+            print(f"gallery    {folder / 'index.html'}")
+    print(f"jobs       {len(recipe.jobs) - failed} done, {failed} failed")
+    return 1 if failed else 0
+
+
+def _run(recipe: Recipe, folder: Path, processes: int) -> int:
+    """Run the jobs that are not done; how many of them failed."""
+    jobs = [job for job in recipe.jobs if not is_done(folder, job, recipe.format)]
+    ended = len(recipe.jobs) - len(jobs)
+    if ended:
+        print(f"{ended} of {len(recipe.jobs)} jobs were done before", flush=True)
+    failed = 0
+
+    def on_end(job: Job, error: str) -> None:
+        nonlocal ended, failed
+        ended += 1
+        failed += bool(error)
+        print(f"[{ended}/{len(recipe.jobs)}] {job.name}: {error or 'done'}", flush=True)
+
+    run_jobs(jobs, folder, recipe.format, processes, on_end)
+    return failed
+
+
+@contextlib.contextmanager
+def _alone_in(folder: Path) -> Iterator[None]:
+    """Refuse to work where another batch does; and leave nothing half, nor what others have left."""
+    with open(folder / ".lock", "w", encoding="ascii") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise OSError(f"{folder}: another batch is working there") from None
+        remove_unfinished(folder)
+        try:
+            yield
+        finally:
+            remove_unfinished(folder)

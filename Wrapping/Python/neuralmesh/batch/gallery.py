@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The gallery: a page with a picture, figures and a 3D view of each result, which needs no server."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import string
+from html import escape
+from pathlib import Path
+from typing import Any, Iterator
+from urllib.parse import quote
+
+from .meshes import read_points
+from .page_mesh import page_mesh
+from .pictures import draw_pictures
+from .recipe import Job, Recipe
+from .report import read_report, report_path, result_path
+from .whole_file import write_text
+
+_PAGE = Path(__file__).with_name("page")
+_VIEWER = ("vtk.js", "vtk.js.LICENSE")
+# What is said of a mesh at once, and what to those who ask, by the names in its report.
+_FIGURES = {
+    "residual": "residual",
+    "noise": "noise",
+    "components": "pieces",
+    "genus": "genus",
+    "boundary_loops": "boundaries",
+}
+_MORE_FIGURES = {
+    "triangle_quality": "triangle quality",
+    "regular_ratio": "regular vertices",
+    "folded_edges": "folded edges",
+    "intersecting_triangles": "intersecting triangles",
+    "outlier_share": "outliers",
+    "dropped_points": "dropped points",
+    "stop_reason": "ended by",
+}
+
+
+def write_gallery(folder: Path, recipe: Recipe, title: str) -> list[str]:
+    """Write index.html and what it shows; what is not as it should be, if anything."""
+    parts = folder / "gallery"
+    parts.mkdir(exist_ok=True)
+    has_viewer = (_PAGE / "vtk.js").is_file()
+    for name in ("gallery.css", "viewer.js", *(_VIEWER if has_viewer else ())):
+        shutil.copyfile(_PAGE / name, parts / name)
+    reports = {job: read_report(folder, job.name) for job in recipe.jobs}
+    done = [job for job in recipe.jobs if reports[job].get("status") == "done"]
+    problems = [] if has_viewer else ["no 3D views: this package was built without vtk.js"]
+
+    meshes = {job: result_path(folder, job.name, recipe.format) for job in done}
+    if has_viewer:
+        for job in done:
+            path = parts / f"{job.name}.js"
+            if _is_older(path, meshes[job]):
+                write_text(path, page_mesh(job.name, read_points(meshes[job])))
+    problem = _draw(meshes, parts, recipe.view)
+    if problem:
+        problems.append(problem)
+
+    template = string.Template((_PAGE / "index.html").read_text(encoding="utf-8"))
+    page = template.substitute(
+        title=escape(title),
+        jobs=f"{len(recipe.jobs)} jobs: {len(done)} done, {len(recipe.jobs) - len(done)} failed",
+        problems="".join(f'<p class="problem">{escape(problem)}</p>\n' for problem in problems),
+        sections="".join(_sections(reports, parts, recipe, has_viewer)),
+        scripts='<script src="gallery/viewer.js"></script>' if has_viewer else "",
+        view=escape(json.dumps(recipe.view)),
+    )
+    write_text(folder / "index.html", page)
+    return problems
+
+
+def _draw(meshes: dict[Job, Path], parts: Path, view: dict[str, Any]) -> str:
+    """Draw the pictures that are missing, are older than their meshes or show another view."""
+    view_path = parts / "view.json"
+    view_text = json.dumps(view)
+    is_same = view_path.exists() and view_path.read_text(encoding="utf-8") == view_text
+    pictures = [(mesh, parts / f"{job.name}.png") for job, mesh in meshes.items()]
+    problem = draw_pictures(
+        [(mesh, path) for mesh, path in pictures if not is_same or _is_older(path, mesh)], view
+    )
+    if not problem:
+        write_text(view_path, view_text)
+    return problem
+
+
+def _is_older(path: Path, source: Path) -> bool:
+    return not path.exists() or path.stat().st_mtime_ns < source.stat().st_mtime_ns
+
+
+def _sections(
+    reports: dict[Job, dict], parts: Path, recipe: Recipe, has_viewer: bool
+) -> Iterator[str]:
+    """A section for each scan, a card for each of its jobs."""
+    for scan in dict.fromkeys(job.scan for job in reports):
+        yield f'<section>\n<h2 title="{escape(str(scan))}">{escape(scan.name)}</h2>\n'
+        for job, report in reports.items():
+            if job.scan == scan:
+                yield _card(job, report, parts, recipe, has_viewer)
+        yield "</section>\n"
+
+
+def _card(job: Job, report: dict, parts: Path, recipe: Recipe, has_viewer: bool) -> str:
+    parameters = ", ".join(f"{name} {_plain(job.parameters[name])}" for name in job.parameters)
+    title = f"<h3>{escape(parameters or 'defaults')}</h3>\n"
+    name = escape(quote(job.name))
+    report_link = f'<a href="{name}.json">report</a>'
+    if report.get("status") != "done":
+        error = escape(report.get("error", "there is no report"))
+        return (
+            f'<article class="failed">\n{title}<pre>{error}</pre>\n<p>{report_link}</p>\n</article>\n'
+        )
+    has_picture = (parts / f"{job.name}.png").exists()
+    picture = (
+        f'<img src="gallery/{name}.png" alt="{escape(job.name)}" loading="lazy">'
+        if has_picture
+        else "<span>no picture</span>"
+    )
+    if has_viewer:
+        picture = f'<a class="view" href="#{name}" title="3D view">{picture}</a>'
+    result = escape(quote(report["result"]["file"]))
+    links = f'<a href="{result}">{recipe.format}</a> {report_link}'
+    return (
+        f'<article id="card-{escape(job.name)}" data-name="{escape(job.name)}">\n{picture}\n{title}'
+        f"{_table(_figures(report))}<details><summary>more</summary>\n"
+        f"{_table(_more_figures(report))}</details>\n<p>{links}</p>\n</article>\n"
+    )
+
+
+def _figures(report: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    result = report["result"]
+    yield "points", f"{result['points']:,}"
+    yield "vertices", f"{result['vertices']:,}"
+    yield "triangles", f"{result['triangles']:,}"
+    yield "time", f"{sum(report['seconds'].values()):.2f} s"
+    yield from _chosen(report["quality"], _FIGURES)
+
+
+def _more_figures(report: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    yield from _chosen(report["quality"], _MORE_FIGURES)
+    for warning in report["warnings"]:
+        yield "warning", warning
+
+
+def _chosen(quality: dict[str, Any], labels: dict[str, str]) -> Iterator[tuple[str, str]]:
+    return ((label, _plain(quality[name])) for name, label in labels.items() if name in quality)
+
+
+def _table(rows: Iterator[tuple[str, str]]) -> str:
+    lines = (f"<tr><th>{escape(label)}</th><td>{escape(text)}</td></tr>\n" for label, text in rows)
+    return f"<table>\n{''.join(lines)}</table>\n"
+
+
+def _plain(value: Any) -> str:
+    if value is None:
+        return "unknown"
+    return f"{value:.4g}" if isinstance(value, float) else str(value)

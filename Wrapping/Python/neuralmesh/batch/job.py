@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One job in a process of its own: python3 -m neuralmesh.batch.job, with the job on its input.
+
+Writes the result and, after it, the report, so that a report of success never lacks its result. What
+goes wrong is said in one message on the standard error, and the exit status is 1.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import time
+import warnings
+from pathlib import Path
+from typing import Any
+
+from .._execution import execute
+from .._reconstruct import make_filter, result_of, set_input
+from .meshes import read_points, write_mesh
+from .report import PHASES, SECONDS, identity_of, quality_of, report_path, result_path
+from .recipe import Job
+from .whole_file import write_json
+
+
+def main() -> None:
+    content = json.load(sys.stdin)
+    job = Job(content["name"], Path(content["scan"]), content["parameters"])
+    try:
+        run(job, Path(content["folder"]), content["format"])
+    except Exception as error:  # whatever it is: it goes into the report
+        sys.exit(f"{job.scan}: {error or type(error).__name__}")
+
+
+def run(job: Job, folder: Path, mesh_format: str) -> None:
+    # Before the scan is read: if it changes meanwhile, the job is not done.
+    identity = identity_of(job, mesh_format)
+    parameters = dict(job.parameters)
+    weights = parameters.pop("weights", None)
+    times = [time.perf_counter()]
+    with warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("always")
+        points = read_points(job.scan)
+        times.append(time.perf_counter())
+        mesh_filter = make_filter(**parameters)
+        set_input(mesh_filter, points, weights)
+        execute(mesh_filter, _end_with(os.getppid()))
+        mesh = result_of(mesh_filter)
+    times.append(time.perf_counter())
+    path = result_path(folder, job.name, mesh_format)
+    write_mesh(mesh, path)
+    times.append(time.perf_counter())
+    seconds = (round(after - before, 4) for before, after in zip(times, times[1:]))
+    report: dict[str, Any] = {
+        "job": job.name,
+        "status": "done",
+        **identity,
+        "result": {
+            "file": path.name,
+            "size": path.stat().st_size,
+            "points": points.GetNumberOfPoints(),
+            "vertices": mesh.GetNumberOfPoints(),
+            "triangles": mesh.GetNumberOfPolys(),
+        },
+        "seconds": dict(zip(SECONDS, seconds)),
+        "phases": {
+            name: round(getattr(mesh_filter, f"Get{name.title()}Time")(), 4) for name in PHASES
+        },
+        "quality": quality_of(mesh),
+        "warnings": [str(warning.message) for warning in warned],
+    }
+    write_json(report_path(folder, job.name), report)
+
+
+def _end_with(parent: int):
+    """A function of progress that ends this process when the one that started it is gone."""
+
+    def progress(_fraction: float) -> None:
+        if os.getppid() != parent:
+            sys.exit("the batch has ended")
+
+    return progress
+
+
+if __name__ == "__main__":
+    main()

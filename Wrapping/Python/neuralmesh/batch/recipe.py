@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a recipe says: which scans are reconstructed, and with which parameters."""
+
+from __future__ import annotations
+
+import glob
+import inspect
+import itertools
+import json
+import os
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from .._execution import check_parameters
+from .._parameters import near_names
+from .._reconstruct import ENSEMBLE_PARAMETERS, PARAMETERS, make_filter
+from .meshes import WRITERS
+
+KEYS = ("scans", "matrix", "format", "gallery", "view")
+VIEW = {"up": "y", "azimuth": 30.0, "elevation": 15.0}
+
+_SIGNATURE = inspect.signature(make_filter).parameters.values()
+_NAMED = {parameter.name for parameter in _SIGNATURE if parameter.kind != parameter.VAR_KEYWORD}
+_KNOWN = {*_NAMED, "weights", *PARAMETERS, *ENSEMBLE_PARAMETERS}
+
+
+class RecipeError(ValueError):
+    """What is wrong with a recipe; the message begins with the place."""
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """One scan and one set of parameters. The name is that of its files, unique in the recipe."""
+
+    name: str
+    scan: Path
+    parameters: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A recipe that is sound: every parameter is known, in its range, and goes with the others."""
+
+    jobs: list[Job]
+    parameter_names: list[str]
+    format: str
+    gallery: bool
+    view: dict[str, Any]
+
+
+def read_recipe(path: Path) -> Recipe:
+    """Read a recipe, or raise RecipeError with the place that is wrong."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise RecipeError(f"{path}: cannot be read: {error}") from None
+    try:
+        content = json.loads(text, object_pairs_hook=_without_twins, parse_constant=_no_number)
+    except json.JSONDecodeError as error:
+        place = f"{path}, line {error.lineno}, column {error.colno}"
+        raise RecipeError(f"{place}: this is no JSON: {error.msg}") from None
+    except (RecipeError, RecursionError) as error:
+        raise RecipeError(f"{path}: {error}") from None
+    try:
+        return _recipe(content, path.absolute().parent)
+    except RecipeError as error:
+        raise RecipeError(f"{path}: {error}") from None
+
+
+def _recipe(content: Any, folder: Path) -> Recipe:
+    _require_object(content, "the recipe", KEYS)
+    scans = _scans(content.get("scans"), folder)
+    matrix = _matrix(content.get("matrix", {}))
+    mesh_format = content.get("format", "vtp")
+    if mesh_format not in tuple(WRITERS):
+        raise RecipeError(f"format: must be one of {', '.join(WRITERS)}, not {_shown(mesh_format)}")
+    gallery = content.get("gallery", True)
+    if not isinstance(gallery, bool):
+        raise RecipeError(f"gallery: must be true or false, not {_shown(gallery)}")
+    jobs = _jobs(scans, matrix, content.get("matrix", {}))
+    return Recipe(jobs, list(matrix), mesh_format, gallery, _view(content.get("view", {})))
+
+
+def _scans(patterns: Any, folder: Path) -> list[Path]:
+    """The files that are meant, each once, in the order of the recipe."""
+    if not isinstance(patterns, list) or not patterns:
+        raise RecipeError("scans: must be a list of paths, with wildcards or without")
+    found: dict[Path, None] = {}
+    for i, pattern in enumerate(patterns):
+        if not isinstance(pattern, str) or not pattern:
+            raise RecipeError(f"scans[{i}]: must be a path, not {_shown(pattern)}")
+        paths = [pattern]
+        # A file whose name looks like a pattern is meant itself.
+        if glob.has_magic(pattern) and not (folder / pattern).exists():
+            paths = sorted(glob.glob(pattern, root_dir=folder, recursive=True))
+            if not paths:
+                raise RecipeError(f"scans[{i}]: no file matches {pattern}")
+        found.update((Path(os.path.normpath(folder / path)), None) for path in paths)
+    return list(found)
+
+
+def _matrix(content: Any) -> dict[str, list]:
+    """The values of each parameter."""
+    _require_object(content, "matrix", _KNOWN)
+    matrix = {}
+    for name, value in content.items():
+        values = value if isinstance(value, list) else [value]
+        if not values:
+            raise RecipeError(f"matrix.{name}: the list is empty")
+        for i, single in enumerate(values):
+            place = f"matrix.{name}[{i}]" if isinstance(value, list) else f"matrix.{name}"
+            _check_value(place, name, single)
+            if any(single == other and type(single) is type(other) for other in values[:i]):
+                raise RecipeError(f"{place}: {_shown(single)} stands there twice")
+        matrix[name] = values
+    return matrix
+
+
+def _check_value(place: str, name: str, value: Any) -> None:
+    if name == "weights":
+        if not isinstance(value, str):
+            raise RecipeError(f"{place}: must be the name of a point array, not {_shown(value)}")
+        return
+    alone = name in _NAMED or name in PARAMETERS
+    try:
+        make_filter(**{"ensemble": None if alone else 1, name: value})
+    except ValueError as error:
+        raise RecipeError(f"{place}: {error}") from None
+
+
+def _jobs(scans: list[Path], matrix: dict[str, list], content: dict[str, Any]) -> list[Job]:
+    """Each scan with each combination of the values, of which those in lists are in the names."""
+    jobs: dict[str, Job] = {}
+    combinations = [dict(zip(matrix, values)) for values in itertools.product(*matrix.values())]
+    endings = []
+    for parameters in combinations:
+        _check_combination(parameters)
+        listed = [name for name in matrix if isinstance(content[name], list)]
+        endings.append("".join(f"_{name}-{_in_name(parameters[name])}" for name in listed))
+    for scan, scan_name in zip(scans, _names(scans)):
+        for parameters, ending in zip(combinations, endings):
+            job = Job(scan_name + ending, scan, parameters)
+            if job.name in jobs:
+                raise RecipeError(f"matrix: two jobs would have the same name, {job.name}")
+            jobs[job.name] = job
+    return list(jobs.values())
+
+
+def _check_combination(parameters: dict[str, Any]) -> None:
+    try:
+        check_parameters(
+            make_filter(**{name: v for name, v in parameters.items() if name != "weights"})
+        )
+    except (TypeError, ValueError) as error:
+        raise RecipeError(f"matrix: {_shown(parameters)} do not go together: {error}") from None
+
+
+def _names(scans: list[Path]) -> list[str]:
+    """Of each its name without the extension, or as much before and behind it as tells them apart."""
+    depth = max(len(scan.parts) for scan in scans)
+    candidates = [[scan.stem for scan in scans]]
+    candidates += [["-".join(scan.parts[-count:]) for scan in scans] for count in range(1, depth)]
+    for names in candidates:
+        names = [_in_name(name) for name in names]
+        if len(set(names)) == len(names):
+            return names
+    raise RecipeError("scans: their names cannot be told apart")
+
+
+def _in_name(value: Any) -> str:
+    """A value or a file's name as a part of names of files; no word begins with a dot."""
+    text = value if isinstance(value, str) else json.dumps(value)
+    return re.sub(r"[^\w.+-]|^\.", "_", text)
+
+
+def _view(content: Any) -> dict[str, Any]:
+    _require_object(content, "view", VIEW)
+    view = {**VIEW, **content}
+    if view["up"] not in ("x", "y", "z"):
+        raise RecipeError(f"view.up: must be x, y or z, not {_shown(view['up'])}")
+    for name in ("azimuth", "elevation"):
+        is_number = isinstance(view[name], (int, float)) and not isinstance(view[name], bool)
+        if not (is_number and abs(view[name]) <= 360):
+            raise RecipeError(f"view.{name}: must be degrees from -360 to 360, not {_shown(view[name])}")
+    return view
+
+
+def _require_object(content: Any, place: str, known: Any) -> None:
+    if not isinstance(content, dict):
+        raise RecipeError(f"{place}: must be an object, not {_shown(content)}")
+    for name in content:
+        if name not in known:
+            near = ", ".join(near_names(name, known))
+            raise RecipeError(f"{place}: there is no {_shown(name)}; is it one of these: {near}?")
+
+
+def _without_twins(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    content = dict(pairs)
+    if len(content) < len(pairs):
+        names = [name for name, _ in pairs]
+        twin = next(name for name in names if names.count(name) > 1)
+        raise RecipeError(f"{_shown(twin)} stands there twice")
+    return content
+
+
+def _no_number(text: str) -> None:
+    raise RecipeError(f"{text} is no number of JSON")
+
+
+def _shown(value: Any) -> str:
+    text = json.dumps(value, ensure_ascii=False)
+    return text if len(text) <= 200 else text[:200] + "..."

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The report next to each result, and the summary of all."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+from .. import VTK_VERSION, __version__
+from .._parameters import snake_case
+from .recipe import Job, Recipe
+from .whole_file import write_text
+
+PHASES = ("cloud", "start", "learning", "finish")
+SECONDS = ("reading", "reconstruction", "writing")
+
+
+def report_path(folder: Path, job_name: str) -> Path:
+    return folder / f"{job_name}.json"
+
+
+def result_path(folder: Path, job_name: str, mesh_format: str) -> Path:
+    return folder / f"{job_name}.{mesh_format}"
+
+
+def identity_of(job: Job, mesh_format: str) -> dict[str, Any]:
+    """What the result depends on. A scan is known by its path, size and time of modification."""
+    try:
+        status = job.scan.stat()
+        scan = {"size": status.st_size, "mtime_ns": status.st_mtime_ns}
+    except OSError:
+        scan = {}
+    return {
+        "scan": {"path": str(job.scan), **scan},
+        "parameters": job.parameters,
+        "format": mesh_format,
+        "version": __version__,
+        "vtk_version": VTK_VERSION,
+    }
+
+
+def read_report(folder: Path, job_name: str) -> dict[str, Any]:
+    """The report on a job; empty if there is none."""
+    try:
+        content = json.loads(report_path(folder, job_name).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return content if isinstance(content, dict) else {}
+
+
+def is_done(folder: Path, job: Job, mesh_format: str) -> bool:
+    """Whether the result is there, whole, and of the same scan, parameters, format and version."""
+    report = read_report(folder, job.name)
+    identity = identity_of(job, mesh_format)
+    if report.get("status") != "done" or any(report.get(name) != identity[name] for name in identity):
+        return False
+    result = result_path(folder, job.name, mesh_format)
+    return result.is_file() and result.stat().st_size == report["result"]["size"]
+
+
+def quality_of(mesh) -> dict[str, Any]:
+    """The field data of the mesh: how the run went, and how good the mesh is."""
+    fields = mesh.GetFieldData()
+    arrays = [fields.GetAbstractArray(i) for i in range(fields.GetNumberOfArrays())]
+    return {snake_case(array.GetName()): _plain(array.GetValue(0)) for array in arrays}
+
+
+def _plain(value: Any) -> Any:
+    """The value as JSON knows it: no NaN."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def write_summary(folder: Path, recipe: Recipe) -> None:
+    """Write summary.csv, a row for each job. What there is no figure for, is empty."""
+    rows = [_row(job, read_report(folder, job.name), recipe) for job in recipe.jobs]
+    columns: dict[str, None] = {}
+    for row in rows:
+        columns.update(dict.fromkeys(row))
+    # The error stands last, as it is long.
+    names = [name for name in columns if name != "error"] + ["error"]
+    text = io.StringIO()
+    writer = csv.DictWriter(text, names, restval="", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    write_text(folder / "summary.csv", text.getvalue())
+
+
+def _row(job: Job, report: dict[str, Any], recipe: Recipe) -> dict[str, Any]:
+    result = report.get("result", {})
+    # The parameters have columns of their own, before these.
+    quality = {
+        name: value
+        for name, value in report.get("quality", {}).items()
+        if name not in job.parameters
+    }
+    return {
+        "job": job.name,
+        "scan": str(job.scan),
+        **{name: job.parameters[name] for name in recipe.parameter_names},
+        "status": report.get("status", "missing"),
+        "result": result.get("file", ""),
+        "points": result.get("points", ""),
+        "triangles": result.get("triangles", ""),
+        **{f"{name}_seconds": report.get("seconds", {}).get(name, "") for name in SECONDS},
+        **{f"{name}_cpu_seconds": report.get("phases", {}).get(name, "") for name in PHASES},
+        **quality,
+        "error": report.get("error", ""),
+    }

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Jobs in processes of their own, several at a time."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import IO, Callable
+
+from .recipe import Job
+from .report import identity_of, report_path, result_path
+from .whole_file import write_json
+
+_PAUSE = 0.02  # seconds between looks at the processes
+_LONGEST_MESSAGE = 4000  # characters of what a process says in the end
+
+
+def run_jobs(
+    jobs: list[Job],
+    folder: Path,
+    mesh_format: str,
+    processes: int,
+    on_end: Callable[[Job, str], None],
+) -> None:
+    """Run all jobs, so many at a time; on_end is called with what went wrong, or "".
+
+    A process that fails, or crashes, is a failure of its job alone: there is a report on it, and no
+    result. However this function is left, no process is.
+    """
+    waiting = list(reversed(jobs))
+    running: list[_Process] = []
+    threads = max(1, len(os.sched_getaffinity(0)) // processes)
+    try:
+        while waiting or running:
+            while waiting and len(running) < processes:
+                running.append(_Process(waiting.pop(), folder, mesh_format, threads))
+            time.sleep(_PAUSE)
+            for process in [process for process in running if process.has_ended()]:
+                running.remove(process)
+                error = process.error()
+                if error:
+                    _write_failure(process.job, folder, mesh_format, error)
+                on_end(process.job, error)
+    finally:
+        for process in running:
+            process.kill()
+
+
+class _Process:
+    """A process that does a job."""
+
+    def __init__(self, job: Job, folder: Path, mesh_format: str, threads: int):
+        self.job = job
+        self._messages: IO[bytes] = tempfile.TemporaryFile()
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "neuralmesh.batch.job"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=self._messages,
+            # Ctrl-C reaches only the process that looks after this one.
+            start_new_session=True,
+            env={"VTK_SMP_MAX_THREADS": str(threads), **os.environ},
+        )
+        content = {
+            "name": job.name,
+            "scan": str(job.scan),
+            "parameters": job.parameters,
+            "folder": str(folder),
+            "format": mesh_format,
+        }
+        try:
+            with self._process.stdin as stdin:
+                stdin.write(json.dumps(content).encode())
+        except BrokenPipeError:
+            pass  # It has ended already, and its status tells.
+
+    def has_ended(self) -> bool:
+        return self._process.poll() is not None
+
+    def kill(self) -> None:
+        self._process.kill()
+        self._process.wait()
+
+    def error(self) -> str:
+        """What the process has said, if it has failed, and how it ended."""
+        status = self._process.returncode
+        if status == 0:
+            return ""
+        self._messages.seek(0)
+        said = self._messages.read().decode(errors="replace").strip()[-_LONGEST_MESSAGE:]
+        if status > 0:
+            return said or f"the process ended with status {status}"
+        name = signal.Signals(-status).name
+        return f"the process was ended by {name}. {said}".strip()
+
+
+def _write_failure(job: Job, folder: Path, mesh_format: str, error: str) -> None:
+    # What an earlier recipe left under this name is no result of this one.
+    result_path(folder, job.name, mesh_format).unlink(missing_ok=True)
+    report = {"job": job.name, "status": "failed", **identity_of(job, mesh_format), "error": error}
+    write_json(report_path(folder, job.name), report)
