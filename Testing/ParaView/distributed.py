@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Played by pvbatch on several processes: a cloud of which each has a part, and one mesh.
+
+    distributed.py CASE DIVISION
+
+A line of JSON tells what process 0 has found; every process exits with 0 unless something that it
+looks after by itself is not as it should be.
+"""
+
+import hashlib
+import json
+import sys
+
+# Before any filter is wrapped by GetClientSideObject().
+import neuralmesh
+import numpy
+import support
+from paraview import simple
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+CONTROLLER = vtkMultiProcessController.GetGlobalController()
+PROCESS, PROCESSES = CONTROLLER.GetLocalProcessId(), CONTROLLER.GetNumberOfProcesses()
+
+
+def torus(count):
+    """Points of a torus with a little noise, the same on all processes."""
+    random = numpy.random.default_rng(5)
+    around, across = random.uniform(0.0, 2.0 * numpy.pi, (2, count))
+    radius = 2.0 + 0.7 * numpy.cos(across)
+    points = numpy.stack(
+        [radius * numpy.cos(around), radius * numpy.sin(around), 0.7 * numpy.sin(across)], axis=1
+    )
+    return points + random.normal(0.0, 0.01, points.shape)
+
+
+def owners_of(points, division):
+    """For each point, the process that has it."""
+    count = len(points)
+    if division == "uneven":  # a tenth here, the rest on the last; the others have none
+        return numpy.where(numpy.arange(count) < count // 10, 0, PROCESSES - 1)
+    if division == "last":  # nothing where learning takes place
+        return numpy.full(count, PROCESSES - 1)
+    if division == "shuffled":
+        return numpy.random.default_rng(9).integers(0, PROCESSES, count)
+    raise ValueError(division)
+
+
+def part_of(points, owners, reverse=False):
+    """What this process has of the points, with data of many kinds."""
+    mine = numpy.flatnonzero(owners == PROCESS)
+    if reverse:
+        mine = mine[::-1]
+    data = vtkPolyData()
+    if len(mine) == 0:
+        return data
+    own = numpy.ascontiguousarray(points[mine])
+    vtk_points = vtkPoints()
+    vtk_points.SetData(numpy_to_vtk(own, deep=True))
+    data.SetPoints(vtk_points)
+    arrays = {
+        "Height": own[:, 2].copy(),
+        "Place": own.astype(numpy.float32),
+        "Color": numpy.clip(128 + 40 * own, 0, 255).astype(numpy.uint8),
+        "Side": (own[:, 0] > 0).astype(numpy.int64),
+        "Trust": 1.0 + (mine % 7),
+    }
+    for name, values in arrays.items():
+        array = numpy_to_vtk(values, deep=True)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    label = vtkStringArray()
+    label.SetName("Label")
+    for side in own[:, 1] > 0:
+        label.InsertNextValue("east & west" if side else "Süden")
+    data.GetPointData().AddArray(label)
+    data.GetPointData().SetActiveScalars("Height")
+    return data
+
+
+def mesh_of(data, function=None, **properties):
+    """The proxy of a filter that has the data of this process as its input."""
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    return (function or simple.NeuralMesh)(Input=source, **properties)
+
+
+def bytes_of(array):
+    if array.IsA("vtkStringArray"):
+        return "\0".join(array.GetValue(i) for i in range(array.GetNumberOfValues())).encode()
+    return memoryview(array).tobytes()
+
+
+def digest(data):
+    """Of all that a mesh consists of, in hexadecimal."""
+    total = hashlib.sha256()
+    arrays = [data.GetPoints().GetData(), data.GetPolys().GetConnectivityArray()]
+    for fields in (data.GetPointData(), data.GetFieldData()):
+        arrays += [fields.GetAbstractArray(i) for i in range(fields.GetNumberOfArrays())]
+    for array in arrays:
+        total.update(f"{array.GetName()} {array.GetDataType()} ".encode())
+        total.update(f"{array.GetNumberOfComponents()} {array.GetNumberOfTuples()} ".encode())
+        total.update(bytes_of(array))
+    total.update(str(data.GetPointData().GetScalars().GetName()).encode())
+    return total.hexdigest()
+
+
+def found_in(mesh):
+    """What is to be told of a mesh; on all processes but the first it must be empty."""
+    mesh.UpdatePipeline()
+    filter = mesh.GetClientSideObject()
+    data = filter.GetOutputDataObject(0)
+    if PROCESS > 0:
+        assert data.GetNumberOfPoints() == 0 and data.GetNumberOfCells() == 0
+        return None
+    fields = data.GetFieldData()
+    return {
+        "vertices": data.GetNumberOfPoints(),
+        "stop": filter.GetStopReason(),
+        "digest": digest(data) if data.GetNumberOfPoints() else "",
+        "dropped": fields.GetArray("DroppedPoints").GetValue(0) if data.GetNumberOfPoints() else 0,
+        "genus": fields.GetArray("Genus").GetValue(0) if fields.HasArray("Genus") else -2,
+        "bytes": filter.GetMovedBytes(),
+    }
+
+
+def reconstruct(division):
+    """All points and a selection of them, weighted, with points that cannot be used, and doubles."""
+    points = torus(30000)
+    points[:5] = numpy.nan
+    points[100:160] = points[200:260]
+    owners = owners_of(points, division)
+    data = part_of(points, owners, reverse=division == "shuffled")
+    results = {}
+    for name, properties in (
+        ("all", {}),
+        ("selected", {"MaximumPoints": 10000}),
+        ("weighted", {"MaximumPoints": 10000, "WeightArray": "Trust", "CarryPointData": 0}),
+    ):
+        mesh = mesh_of(data, NumberOfVertices=1000, **properties)
+        results[name] = found_in(mesh)
+    return results
+
+
+if __name__ == "__main__":
+    support.load_plugin()
+    case, *arguments = sys.argv[1:]
+    result = globals()[case](*arguments)
+    if PROCESS == 0:
+        print("RESULT " + json.dumps(result), flush=True)
