@@ -63,7 +63,7 @@ def part_of(points, owners, reverse=False):
     arrays = {
         "Height": own[:, 2].copy(),
         "Place": own.astype(numpy.float32),
-        "Color": numpy.clip(128 + 40 * own, 0, 255).astype(numpy.uint8),
+        "Color": numpy.clip(numpy.nan_to_num(128 + 40 * own), 0, 255).astype(numpy.uint8),
         "Side": (own[:, 0] > 0).astype(numpy.int64),
         "Trust": 1.0 + (mine % 7),
     }
@@ -103,7 +103,8 @@ def digest(data):
         total.update(f"{array.GetName()} {array.GetDataType()} ".encode())
         total.update(f"{array.GetNumberOfComponents()} {array.GetNumberOfTuples()} ".encode())
         total.update(bytes_of(array))
-    total.update(str(data.GetPointData().GetScalars().GetName()).encode())
+    scalars = data.GetPointData().GetScalars()
+    total.update(scalars.GetName().encode() if scalars else b"")
     return total.hexdigest()
 
 
@@ -142,6 +143,86 @@ def reconstruct(division):
         mesh = mesh_of(data, NumberOfVertices=1000, **properties)
         results[name] = found_in(mesh)
     return results
+
+
+def ensemble(division):
+    """The ensemble, and the votes, which are on all processes."""
+    points = torus(20000)
+    data = part_of(points, owners_of(points, division))
+    mesh = mesh_of(
+        data, simple.NeuralMeshEnsemble, NumberOfVertices=1000, NumberOfMembers=3,
+        VerticesPerMember=500, GridResolution=24,
+    )
+    result = found_in(mesh)
+    votes = mesh.GetClientSideObject().GetVotes()
+    assert votes.GetPointData().GetScalars().GetRange() == (0.0, 1.0)
+    assert votes.GetSpacing()[0] != 1.0
+    return result
+
+
+def first_mesh(division):
+    """Starting from a mesh that lies in pieces on all processes."""
+    points = torus(20000)
+    data = part_of(points, owners_of(points, division))
+    mesh = mesh_of(data, NumberOfVertices=1000)
+    first = simple.Superquadric(
+        Toroidal=1, Size=1.35, Thickness=0.37, Scale=[2.0, 2.0, 2.0], ThetaResolution=32,
+        PhiResolution=16, ThetaRoundness=1.0, PhiRoundness=1.0, AxisofSymmetry=2,
+    )
+    mesh.FirstMesh = simple.Clean(Input=first)
+    return found_in(mesh)
+
+
+def abort(process):
+    """A run that would take long is aborted by a process; the next one is as ever."""
+    points = torus(200000)
+    data = part_of(points, owners_of(points, "shuffled"))
+    mesh = mesh_of(data, NumberOfVertices=150000)
+    filter = mesh.GetClientSideObject()
+    told = []
+
+    def tell(caller, _event):
+        told.append(caller.GetProgress())
+        if PROCESS == int(process) and caller.GetProgress() > 0.2:
+            caller.SetAbortExecute(1)
+
+    observer = filter.AddObserver("ProgressEvent", tell)
+    aborted = found_in(mesh)
+    filter.RemoveObserver(observer)
+    assert any(0.0 < progress < 1.0 for progress in told), told
+    assert filter.GetAbortExecute() == 0
+    mesh.NumberOfVertices = 500
+    return {"aborted": aborted, "next": found_in(mesh)}
+
+
+def not_finite_here(process):
+    """The points of one process are not finite, or those of all processes if it is -1."""
+    points = torus(20000)
+    owners = owners_of(points, "shuffled")
+    points[(owners == int(process)) | (int(process) < 0)] = numpy.nan
+    return found_in(mesh_of(part_of(points, owners), NumberOfVertices=500))
+
+
+def missing_array(name, process):
+    """The array is missing in the part of one process."""
+    points = torus(20000)
+    data = part_of(points, owners_of(points, "shuffled"))
+    if PROCESS == int(process):
+        data.GetPointData().RemoveArray(name)
+    mesh = mesh_of(data, NumberOfVertices=500, WeightArray="Trust")
+    result = found_in(mesh)
+    if PROCESS == 0:
+        output = mesh.GetClientSideObject().GetOutputDataObject(0)
+        result["arrays"] = [
+            output.GetPointData().GetArrayName(i)
+            for i in range(output.GetPointData().GetNumberOfArrays())
+        ]
+    return result
+
+
+def nothing():
+    """No process has points."""
+    return found_in(mesh_of(vtkPolyData()))
 
 
 if __name__ == "__main__":
