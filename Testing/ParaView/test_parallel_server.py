@@ -69,11 +69,18 @@ class OnParallelServer(unittest.TestCase):
     # The server ends when this process does.
     def connect(self):
         port = free_port()
+        # This process is one of MPI, too; what it has put there would be meant for its children.
+        environment = {
+            name: value
+            for name, value in os.environ.items()
+            if not name.startswith(("OMPI_", "PMIX_"))
+        }
         self.server = subprocess.Popen(
             [os.environ["NEURALMESH_MPIRUN"], "--allow-run-as-root", "--oversubscribe", "-np", "2",
              os.environ["NEURALMESH_PVSERVER"], f"--server-port={port}"],
             stdout=subprocess.PIPE,
             text=True,
+            env=environment,
         )
         for line in self.server.stdout:
             if "Accepting connection" in line:
