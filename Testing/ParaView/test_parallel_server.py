@@ -60,7 +60,7 @@ class OnParallelServer(unittest.TestCase):
             self.assertEqual(information.GetNumberOfPoints(), 800)
             self.assertEqual(mesh.FieldData["Genus"].GetRange(), (0.0, 0.0))
             # The parts of the cloud were on both processes.
-            process = simple.ProcessIds(Input=mesh.Input)
+            process = simple.ProcessIdScalars(Input=mesh.Input)
             process.UpdatePipeline()
             (ids,) = [a for a in process.PointData.values() if "Process" in a.Name]
             self.assertEqual(ids.GetRange(), (0.0, 1.0))
