@@ -20,7 +20,7 @@ import support
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 CONTROLLER = vtkMultiProcessController.GetGlobalController()
@@ -36,6 +36,24 @@ def torus(count):
         [radius * numpy.cos(around), radius * numpy.sin(around), 0.7 * numpy.sin(across)], axis=1
     )
     return points + random.normal(0.0, 0.01, points.shape)
+
+
+def torus_piece(around, across):
+    """What this process has of a coarse mesh of the torus: every so many-th segment."""
+    points, quads = vtkPoints(), vtkCellArray()
+    for i in range(PROCESS, around, PROCESSES):
+        for j in range(across):
+            quads.InsertNextCell(4)
+            for k, m in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                u, v = (2.0 * numpy.pi * (n % of) / of for n, of in ((k, around), (m, across)))
+                radius = 2.0 + 0.7 * numpy.cos(v)
+                place = radius * numpy.cos(u), radius * numpy.sin(u), 0.7 * numpy.sin(v)
+                quads.InsertCellPoint(points.InsertNextPoint(place))
+    corners = vtkPolyData()
+    corners.SetPoints(points)
+    corners.SetPolys(quads)
+    # Its segments share no points: only their coordinates are the same.
+    return corners
 
 
 def owners_of(points, division):
@@ -166,13 +184,9 @@ def first_mesh(division):
     """Starting from a mesh that lies in pieces on all processes."""
     points = torus(20000)
     data = part_of(points, owners_of(points, division))
-    mesh = mesh_of(data, NumberOfVertices=1000)
-    first = simple.Superquadric(
-        Toroidal=1, Size=1.35, Thickness=0.37, Scale=[2.0, 2.0, 2.0], ThetaResolution=32,
-        PhiResolution=16, ThetaRoundness=1.0, PhiRoundness=1.0, AxisofSymmetry=2,
-    )
-    mesh.FirstMesh = simple.Clean(Input=first)
-    return found_in(mesh)
+    first = simple.TrivialProducer()
+    first.GetClientSideObject().SetOutput(torus_piece(24, 12))
+    return found_in(mesh_of(data, FirstMesh=first, NumberOfVertices=1000, Start="Tetrahedron"))
 
 
 def abort(process):
