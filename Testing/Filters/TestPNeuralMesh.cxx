@@ -8,6 +8,7 @@
 
 #include "vtkDoubleArray.h"
 #include "vtkDummyController.h"
+#include "vtkExecutive.h"
 #include "vtkPointData.h"
 
 #include <cmath>

@@ -59,12 +59,14 @@ def torus_piece(around, across):
 def owners_of(points, division):
     """For each point, the process that has it."""
     count = len(points)
-    if division == "uneven":  # a tenth here, the rest on the last; the others have none
-        return numpy.where(numpy.arange(count) < count // 10, 0, PROCESSES - 1)
     if division == "last":  # nothing where learning takes place
         return numpy.full(count, PROCESSES - 1)
+    random = numpy.random.default_rng(9)
     if division == "shuffled":
-        return numpy.random.default_rng(9).integers(0, PROCESSES, count)
+        return random.integers(0, PROCESSES, count)
+    if division == "uneven":  # one, three, five ... parts, and none on the second of several
+        owners = numpy.sqrt(random.integers(0, PROCESSES**2, count)).astype(int)
+        return numpy.where((owners == 1) & (PROCESSES > 2), 0, owners)
     raise ValueError(division)
 
 
@@ -153,7 +155,7 @@ def reconstruct(division):
     points[:5] = numpy.nan
     points[100:160] = points[200:260]
     owners = owners_of(points, division)
-    data = part_of(points, owners, reverse=division == "shuffled")
+    data = part_of(points, owners, reverse=division == "uneven")
     results = {}
     for name, properties in (
         ("all", {}),
