@@ -12,7 +12,8 @@ set(NEURALMESH_VTK_COMPONENTS
   IOGeometry
   IOLegacy
   IOPLY
-  IOXML)
+  IOXML
+  ParallelCore)
 
 # VTK's Python is the system's; another may come first on the PATH.
 find_program(Python3_EXECUTABLE NAMES python3 HINTS /usr/bin)

@@ -232,7 +232,6 @@ void vtkNeuralMesh::SetWeightArrayName(const char* name)
   }
 }
 
-/// Those of the points that were collected; none if all weigh alike. Returns false on an error.
 bool vtkNeuralMesh::CollectWeights(
   const vtkPointCloudCollector& collector, std::vector<double>& weights)
 {
@@ -260,12 +259,6 @@ bool vtkNeuralMesh::CollectWeights(
     {
       weights.push_back(array->GetComponent(leaf.IdOf(point), 0));
     }
-  }
-  if (std::none_of(weights.begin(), weights.end(),
-        [](double weight) { return weight > 0.0 && std::isfinite(weight); }))
-  {
-    vtkErrorMacro(<< "No weight is positive.");
-    return false;
   }
   return true;
 }
@@ -296,6 +289,13 @@ int vtkNeuralMesh::RequestData(
   std::vector<double> weights;
   if (!this->CollectWeights(collector, weights))
   {
+    return 0;
+  }
+  if (!weights.empty() &&
+    std::none_of(weights.begin(), weights.end(),
+      [](double weight) { return weight > 0.0 && std::isfinite(weight); }))
+  {
+    vtkErrorMacro(<< "No weight is positive.");
     return 0;
   }
   std::optional<vtkPointDataCarrier> carrier;

@@ -300,8 +300,10 @@ protected:
   virtual void PrepareRun(
     vtkNeuralMeshRun& run, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
-private:
+  /** Weights of the collected points; none if all weigh alike. An error if they are not there. */
   bool CollectWeights(const vtkPointCloudCollector& collector, std::vector<double>& weights);
+
+private:
   vtkInformation* GetWeightArrayInformation();
 
   vtkNeuralMesh(const vtkNeuralMesh&) = delete;

@@ -25,10 +25,18 @@ class vtkPointSet;
 class vtkPointDataCarrier
 {
 public:
+  /** An array, in the point data of each leaf. */
+  struct Array
+  {
+    std::vector<vtkAbstractArray*> OfLeaf;
+    bool AreScalars; ///< the active ones
+  };
+
   /** Finds the arrays that all leaves of the collector have; it must outlive the carrier. */
   explicit vtkPointDataCarrier(const vtkPointCloudCollector& collector);
 
   bool HasArrays() const { return !this->Arrays.empty(); }
+  const std::vector<Array>& GetArrays() const { return this->Arrays; }
 
   /**
    * Adds the arrays to the point data of the mesh at whose vertices the places are. The cloud must
@@ -39,12 +47,6 @@ public:
     const neuralmesh::Progress& progress) const;
 
 private:
-  /** An array, in the point data of each leaf. */
-  struct Array
-  {
-    std::vector<vtkAbstractArray*> OfLeaf;
-    bool AreScalars; ///< the active ones
-  };
   /** A tuple of an array, that of a point. */
   struct Tuple
   {

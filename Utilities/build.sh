@@ -7,7 +7,7 @@ screen_packages=(xvfb xauth libgl1-mesa-dri)
 if [ "${NEURALMESH_VTK:-paraview}" = plain ]; then
   vtk_packages=(libvtk9-dev python3-vtk9 libeigen3-dev)
 else
-  vtk_packages=(paraview-dev python3-paraview libopenmpi-dev)
+  vtk_packages=(paraview-dev python3-paraview libopenmpi-dev openmpi-bin)
 fi
 test_packages=(libgtest-dev libcgal-demo "${screen_packages[@]}"
   chromium chromium-driver python3-selenium)

@@ -11,13 +11,14 @@ from paraview import servermanager, simple
 from vtkmodules.vtkCommonCore import reference
 
 CLASSES = {
-    "NeuralMesh": neuralmesh.vtkNeuralMesh,
+    "NeuralMesh": neuralmesh.vtkPNeuralMesh,
     "NeuralMeshComparison": neuralmesh.vtkNeuralMeshComparison,
-    "NeuralMeshEnsemble": neuralmesh.vtkNeuralMeshEnsemble,
+    "NeuralMeshEnsemble": neuralmesh.vtkPNeuralMeshEnsemble,
     "NeuralMeshScan": neuralmesh.vtkNeuralMeshScan,
 }
 # Setters without a property of their own name, and why.
 OTHERWISE = {
+    "Controller": "that of ParaView",
     "Preset": "sets other properties at once, which the panel would go on to show as they were",
     "FirstMeshConnection": "the input FirstMesh",
     "FirstMeshData": "the input FirstMesh",
@@ -83,7 +84,7 @@ def all_properties():
 
 def setters_of(cls):
     """What follows Set, of the classes that are ours."""
-    ours = [base for base in cls.__mro__ if base.__name__.startswith("vtkNeuralMesh")]
+    ours = [base for base in cls.__mro__ if "NeuralMesh" in base.__name__]
     names = {method[3:] for base in ours for method in vars(base) if method.startswith("Set")}
     return {name for name in names if not any(name.startswith(f"{other}To") for other in names)}
 

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPNeuralMesh.h"
+
+#include "vtkDistributedRun.h"
+
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+
+#include <vector>
+
+vtkStandardNewMacro(vtkPNeuralMesh);
+vtkCxxSetObjectMacro(vtkPNeuralMesh, Controller, vtkMultiProcessController);
+
+vtkPNeuralMesh::vtkPNeuralMesh()
+{
+  this->SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkPNeuralMesh::~vtkPNeuralMesh() { this->SetController(nullptr); }
+
+int vtkPNeuralMesh::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDistributedRun run(this, this->Controller, this->MaximumPoints);
+  const int result = run.Execute(
+    inputVector,
+    [this](const vtkPointCloudCollector& collector, std::vector<double>& weights)
+    { return this->CollectWeights(collector, weights); },
+    [&](vtkInformationVector** inputs)
+    { return this->Superclass::RequestData(request, inputs, outputVector); });
+  this->MovedBytes = run.GetMovedBytes();
+  return result;
+}
+
+void vtkPNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Controller: " << this->Controller << "\n";
+  os << indent << "MaximumPoints: " << this->MaximumPoints << "\n";
+  os << indent << "MovedBytes: " << this->MovedBytes << "\n";
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkPNeuralMeshEnsemble
+ * @brief   one mesh by an ensemble, from a point cloud that lies on many processes
+ *
+ * vtkPNeuralMeshEnsemble is to vtkNeuralMeshEnsemble what vtkPNeuralMesh is to vtkNeuralMesh: see
+ * there. Members, too, are learnt by process 0, on its threads, from the points that were selected.
+ * The votes are on all processes, the average mesh is on process 0.
+ *
+ * @sa vtkNeuralMeshEnsemble vtkPNeuralMesh vtkMultiProcessController
+ */
+
+#ifndef vtkPNeuralMeshEnsemble_h
+#define vtkPNeuralMeshEnsemble_h
+
+#include "vtkFiltersNeuralMeshModule.h" // For export macro
+#include "vtkNeuralMeshEnsemble.h"
+
+class vtkMultiProcessController;
+
+class VTKFILTERSNEURALMESH_EXPORT vtkPNeuralMeshEnsemble : public vtkNeuralMeshEnsemble
+{
+public:
+  static vtkPNeuralMeshEnsemble* New();
+  vtkTypeMacro(vtkPNeuralMeshEnsemble, vtkNeuralMeshEnsemble)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The processes. Default vtkMultiProcessController::GetGlobalController(); null for this process
+   * alone.
+   */
+  void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+  ///@{
+  /**
+   * From how many points of the cloud the mesh is made, about; from all if there are no more. More
+   * than 50 per vertex hardly change it, as no more samples are drawn. 0, the default, stands for
+   * 50 per vertex, but at least 1000000. At least 0.
+   */
+  vtkNeuralMeshSetClampMacro(MaximumPoints, vtkIdType, 0, VTK_UNSIGNED_INT_MAX);
+  vtkGetMacro(MaximumPoints, vtkIdType);
+  ///@}
+
+  /**
+   * How many bytes of points and point data the other processes sent to process 0 in the last run;
+   * known there, 0 elsewhere.
+   */
+  vtkIdType GetMovedBytes() const { return this->MovedBytes; }
+
+protected:
+  vtkPNeuralMeshEnsemble();
+  ~vtkPNeuralMeshEnsemble() override;
+
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkPNeuralMeshEnsemble(const vtkPNeuralMeshEnsemble&) = delete;
+  void operator=(const vtkPNeuralMeshEnsemble&) = delete;
+
+  vtkMultiProcessController* Controller = nullptr;
+  vtkIdType MaximumPoints = 0;
+  vtkIdType MovedBytes = 0;
+};
+
+#endif
