@@ -9,7 +9,7 @@ if [ "${NEURALMESH_VTK:-paraview}" = plain ]; then
   test_packages=(libgtest-dev libcgal-demo)
 else
   vtk_packages=(paraview-dev python3-paraview libopenmpi-dev)
-  test_packages=(libgtest-dev libcgal-demo "${screen_packages[@]}")
+  test_packages=(libgtest-dev libcgal-demo glmark2-data "${screen_packages[@]}")
 fi
 build_packages=(g++ cmake ninja-build "${vtk_packages[@]}" libcli11-dev
   nlohmann-json3-dev python3-numpy)
