@@ -83,6 +83,14 @@ output.Points = time * points / numpy.linalg.norm(points, axis=1, keepdims=True)
         mesh.UpdatePipelineInformation()
         self.assertEqual(len(mesh.TimestepValues), 24)
         self.assertAlmostEqual(support.information_at(mesh, 23).GetBounds()[1], 1.0, delta=0.1)
+        # ... or where another filter holds them.
+        for held in (
+            simple.ForceTime(Input=steps, ForcedTime=4.0),
+            simple.ExtractTimeSteps(Input=steps, TimeStepIndices=[2]),
+        ):
+            mesh.Input = held
+            bounds = support.information_at(mesh, 23).GetBounds()
+            self.assertAlmostEqual(bounds[1], 4.0, delta=0.4)
 
     # Promise: the mesh is learnt once for all steps, and anew when a property has changed.
     def test_learnt_once(self):
