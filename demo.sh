@@ -5,8 +5,9 @@ set -euo pipefail
 cd "$(dirname "$0")"
 source Utilities/build.sh
 
-install_packages "${build_packages[@]}" libcgal-demo glmark2-data "${screen_packages[@]}"
-build build neuralmesh
+# The last one has the icons of ParaView.
+install_packages "${build_packages[@]}" libcgal-demo glmark2-data "${screen_packages[@]}" libqt5svg5
+build build all
 
 mkdir -p demo
 if [ ! -e demo/kitten.xyz ]; then

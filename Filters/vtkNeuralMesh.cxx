@@ -3,14 +3,16 @@
 
 #include "MeshBuilder.h"
 #include "Reconstruction.h"
+#include "vtkMeshArrays.h"
+#include "vtkNeuralMeshGrowth.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkPointCloudCollector.h"
 #include "vtkPointDataCarrier.h"
 #include "vtkTriangleMeshCollector.h"
 
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -25,6 +27,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 vtkStandardNewMacro(vtkNeuralMesh);
 
@@ -47,22 +50,13 @@ namespace
 /// Where point data begins to be carried over, as a fraction of the run.
 constexpr double EndOfMesh = 0.95;
 
-template <typename ArrayT, typename ValueT>
-void AddFieldValue(vtkPolyData* output, const char* name, ValueT value)
-{
-  vtkNew<ArrayT> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  output->GetFieldData()->AddArray(array);
-}
-
 /// What the mesh is worth, in units of the input, where a unit of the cloud is so long.
 void AddQuality(const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output)
 {
   const auto addNumber = [output](const char* name, double value)
-  { AddFieldValue<vtkDoubleArray>(output, name, value); };
+  { vtkMeshArrays::AddFieldValue<vtkDoubleArray>(output, name, value); };
   const auto addCount = [output](const char* name, auto count)
-  { AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count)); };
+  { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count)); };
   const neuralmesh::SurfaceReport& surface = result.quality->surface;
   addNumber("Residual", result.quality->residual);
   addNumber("Noise",
@@ -127,31 +121,10 @@ void FillLearningCurve(const std::vector<neuralmesh::LearningCurve::Row>& rows, 
   addCount("MergedBoundaries", [](const Row& row) { return row.counts.mergedBoundaries; });
   addCount("FilledBoundaries", [](const Row& row) { return row.counts.filledBoundaries; });
 }
-
-vtkNew<vtkFloatArray> MakeNormals(const std::vector<Eigen::Vector3d>& normals)
-{
-  vtkNew<vtkFloatArray> array;
-  array->SetName("Normals");
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(normals.size()));
-  for (std::size_t i = 0; i < normals.size(); ++i)
-  {
-    array->SetTuple(static_cast<vtkIdType>(i), normals[i].data());
-  }
-  return array;
-}
-
-vtkNew<vtkDoubleArray> MakeNumbers(const char* name, const std::vector<double>& numbers)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(numbers.size()));
-  std::copy(numbers.begin(), numbers.end(), array->GetPointer(0));
-  return array;
-}
 }
 
 vtkNeuralMesh::vtkNeuralMesh()
+  : Growth(std::make_unique<vtkNeuralMeshGrowth>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
@@ -263,6 +236,80 @@ bool vtkNeuralMesh::CollectWeights(
   return true;
 }
 
+int vtkNeuralMesh::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  if (this->GrowthAsTime)
+  {
+    vtkNeuralMeshGrowth::OfferSteps(this->NumberOfSnapshots, outputVector);
+  }
+  return 1;
+}
+
+int vtkNeuralMesh::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  for (int port = 0; this->GrowthAsTime && port < this->GetNumberOfInputPorts(); ++port)
+  {
+    vtkNeuralMeshGrowth::HoldTime(inputVector[port]);
+  }
+  return 1;
+}
+
+vtkTypeBool vtkNeuralMesh::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+  }
+  const vtkMTimeType time =
+    vtkDemandDrivenPipeline::SafeDownCast(this->GetExecutive())->GetPipelineMTime();
+  if (!this->GrowthAsTime || !this->Growth->Has(time))
+  {
+    this->Growth->Clear();
+    if (!this->Superclass::ProcessRequest(request, inputVector, outputVector))
+    {
+      return 0;
+    }
+    const bool isCancelled =
+      this->StopReason == neuralmesh::name(neuralmesh::StopReason::Cancelled);
+    if (!this->GrowthAsTime || isCancelled)
+    {
+      return 1;
+    }
+    this->Growth->Keep(outputVector, time);
+  }
+  this->Growth->Show(
+    vtkNeuralMeshGrowth::StepOf(request, this->NumberOfSnapshots, outputVector), outputVector);
+  return 1;
+}
+
+/// Snapshots are kept if they are wanted as time steps, and shown to whoever observes them.
+neuralmesh::GrowthWatch vtkNeuralMesh::WatchGrowth(int precision)
+{
+  const bool isObserved = this->HasObserver(SnapshotEvent);
+  if (!this->GrowthAsTime && !isObserved)
+  {
+    return {};
+  }
+  // The last step is the finished mesh.
+  return { static_cast<std::size_t>(this->NumberOfSnapshots - 1),
+    [this, precision, isObserved](neuralmesh::GrowthSnapshot snapshot)
+    {
+      if (isObserved)
+      {
+        vtkNew<vtkPolyData> mesh;
+        vtkNeuralMeshGrowth::Fill(snapshot, precision, mesh);
+        this->InvokeEvent(SnapshotEvent, mesh);
+      }
+      if (this->GrowthAsTime)
+      {
+        this->Growth->Add(std::move(snapshot));
+      }
+    } };
+}
+
 int vtkNeuralMesh::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -349,8 +396,8 @@ int vtkNeuralMesh::RequestData(
   const neuralmesh::Progress progress = [&run](double fraction)
   { return run.Progress.Report(fraction); };
   const double endOfMesh = carries ? EndOfMesh : 1.0;
-  const neuralmesh::Reconstruction result = neuralmesh::reconstruct(
-    cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, endOfMesh), run.FirstMesh);
+  const neuralmesh::Reconstruction result = neuralmesh::reconstruct(cloud, run.Parameters,
+    neuralmesh::partOf(progress, 0.0, endOfMesh), run.FirstMesh, this->WatchGrowth(precision));
   this->StopReason = neuralmesh::name(result.stopReason).data();
   this->StartTime = result.startSeconds;
   this->LearningTime = result.learningSeconds;
@@ -366,11 +413,12 @@ int vtkNeuralMesh::RequestData(
 
   output->SetPoints(vtkTriangleMeshCollector::MakePoints(result.mesh, precision));
   output->SetPolys(vtkTriangleMeshCollector::MakeCells(result.mesh));
-  output->GetPointData()->SetNormals(MakeNormals(result.normals));
-  output->GetPointData()->AddArray(MakeNumbers("Activity", result.activities));
+  output->GetPointData()->SetNormals(vtkMeshArrays::MakeNormals(result.normals));
+  output->GetPointData()->AddArray(vtkMeshArrays::MakeNumbers("Activity", result.activities));
   if (!result.featureStrengths.empty())
   {
-    output->GetPointData()->AddArray(MakeNumbers("FeatureStrength", result.featureStrengths));
+    output->GetPointData()->AddArray(
+      vtkMeshArrays::MakeNumbers("FeatureStrength", result.featureStrengths));
   }
 
   if (carries && result.stopReason != neuralmesh::StopReason::Cancelled)
@@ -382,12 +430,13 @@ int vtkNeuralMesh::RequestData(
     this->AbortExecute = 0;
   }
 
-  AddFieldValue<vtkIdTypeArray>(output, "NumberOfVertices", output->GetNumberOfPoints());
-  AddFieldValue<vtkIdTypeArray>(
+  vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(
+    output, "NumberOfVertices", output->GetNumberOfPoints());
+  vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(
     output, "Iterations", static_cast<vtkIdType>(result.counts.iterations));
-  AddFieldValue<vtkIdTypeArray>(output, "Seed", this->Seed);
-  AddFieldValue<vtkStringArray>(output, "StopReason", this->StopReason);
-  AddFieldValue<vtkIdTypeArray>(
+  vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, "Seed", this->Seed);
+  vtkMeshArrays::AddFieldValue<vtkStringArray>(output, "StopReason", this->StopReason);
+  vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(
     output, "DroppedPoints", static_cast<vtkIdType>(cloud.droppedCount()));
   RemoveQuality(output);
   if (result.quality)
@@ -415,6 +464,8 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
 #undef PRINT_PROPERTY
   os << indent << "CarryPointData: " << this->CarryPointData << "\n";
   os << indent << "WeightArrayName: " << this->GetWeightArrayName() << "\n";
+  os << indent << "GrowthAsTime: " << this->GrowthAsTime << "\n";
+  os << indent << "NumberOfSnapshots: " << this->NumberOfSnapshots << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "StopReason: " << this->StopReason << "\n";
   os << indent << "CloudTime: " << this->CloudTime << "\n";

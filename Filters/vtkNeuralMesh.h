@@ -96,14 +96,21 @@
 #ifndef vtkNeuralMesh_h
 #define vtkNeuralMesh_h
 
+#include "vtkCommand.h"                  // For UserEvent
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
 #include "vtkNeuralMeshAlgorithm.h"
 
+#include <memory>
 #include <vector>
 
+class vtkNeuralMeshGrowth;
 class vtkPointCloudCollector;
 class vtkTable;
 struct vtkNeuralMeshRun;
+namespace neuralmesh
+{
+struct GrowthWatch;
+}
 
 class VTKFILTERSNEURALMESH_EXPORT vtkNeuralMesh : public vtkNeuralMeshAlgorithm
 {
@@ -262,6 +269,42 @@ public:
   vtkGetMacro(OutputPointsPrecision, int);
   ///@}
 
+  ///@{
+  /**
+   * Whether the growth of the mesh is offered as time steps, to be played: NumberOfSnapshots of
+   * them, at the times 0, 1, 2 and so on. The first one is what learning starts from, the last one
+   * the finished mesh, to the byte that of a run without them, and what comes out where no time is
+   * asked for; their numbers of vertices rise by about the same factor. Steps between have
+   * `Normals` and `Activity`, and the field data `NumberOfVertices`, `Iterations` and `Seed`, but
+   * no other arrays and no report. A run of few vertices, or one that ends early, has fewer
+   * snapshots; the steps that remain show the finished mesh.
+   *
+   * The mesh is learnt once, at the first step asked for, and anew only where the input or a
+   * property has changed. The input stays at its first time step: its own time is hidden. Without
+   * GrowthAsTime it passes through. An aborted run has no steps.
+   *
+   * A snapshot is kept in 40 bytes a vertex: all together in at most 40 NumberOfSnapshots bytes for
+   * each of the NumberOfVertices, and in less than half of that where learning starts from the
+   * occupied space. Nothing is kept without GrowthAsTime.
+   * Defaults: off; 24, range 2 to 100.
+   */
+  vtkSetMacro(GrowthAsTime, vtkTypeBool);
+  vtkGetMacro(GrowthAsTime, vtkTypeBool);
+  vtkBooleanMacro(GrowthAsTime, vtkTypeBool);
+  vtkNeuralMeshSetClampMacro(NumberOfSnapshots, int, 2, 100);
+  vtkGetMacro(NumberOfSnapshots, int);
+  ///@}
+
+  enum EventIds
+  {
+    /**
+     * Invoked while the mesh is learnt, for each snapshot but the last one as soon as it is there,
+     * with and without GrowthAsTime: callData is a vtkPolyData as that step has it, without `Seed`,
+     * that the observer may keep. The observer must not execute the filter.
+     */
+    SnapshotEvent = vtkCommand::UserEvent + 2004
+  };
+
   /**
    * Output port 1, see above.
    */
@@ -284,12 +327,19 @@ public:
   double GetFinishTime() const { return this->FinishTime; }
   ///@}
 
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
 protected:
   vtkNeuralMesh();
   ~vtkNeuralMesh() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -305,6 +355,7 @@ protected:
 
 private:
   vtkInformation* GetWeightArrayInformation();
+  neuralmesh::GrowthWatch WatchGrowth(int precision);
 
   vtkNeuralMesh(const vtkNeuralMesh&) = delete;
   void operator=(const vtkNeuralMesh&) = delete;
@@ -319,6 +370,9 @@ private:
   double TimeLimit = 0.0;
   double StallPatience;
 
+  vtkTypeBool GrowthAsTime = 0;
+  int NumberOfSnapshots = 24;
+  std::unique_ptr<vtkNeuralMeshGrowth> Growth;
   int OutputPointsPrecision = DEFAULT_PRECISION;
   const char* StopReason = "none";
   double CloudTime = 0.0;

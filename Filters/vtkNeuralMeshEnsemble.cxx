@@ -214,12 +214,12 @@ vtkImageData* vtkNeuralMeshEnsemble::GetVotes()
 }
 
 int vtkNeuralMeshEnsemble::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const int last = CountAlong(this->GridResolution) - 1;
   outputVector->GetInformationObject(3)->Set(
     vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), 0, last, 0, last, 0, last);
-  return 1;
+  return this->Superclass::RequestInformation(request, inputVector, outputVector);
 }
 
 int vtkNeuralMeshEnsemble::RequestData(

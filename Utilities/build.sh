@@ -9,7 +9,7 @@ if [ "${NEURALMESH_VTK:-paraview}" = plain ]; then
 else
   vtk_packages=(paraview-dev python3-paraview libopenmpi-dev openmpi-bin)
 fi
-test_packages=(libgtest-dev libcgal-demo "${screen_packages[@]}"
+test_packages=(libgtest-dev libcgal-demo glmark2-data "${screen_packages[@]}"
   chromium chromium-driver python3-selenium)
 # For the 3D views of galleries; npm may have come in another way than by this package.
 command -v npm > /dev/null || test_packages+=(npm)

@@ -120,13 +120,17 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mes
   this->updateDecay();
 }
 
-void Learner::learn(std::uint64_t sampleCount)
+void Learner::learn(std::uint64_t sampleCount, const std::function<void()>& afterBatch)
 {
   const std::uint64_t end = this->counts_.iterations + sampleCount;
   while (this->counts_.iterations < end && !this->isComplete())
   {
     const std::uint64_t left = end - this->counts_.iterations;
     this->learnBatch(std::size_t(std::min<std::uint64_t>(left, this->batchSize())));
+    if (afterBatch)
+    {
+      afterBatch();
+    }
   }
 }
 

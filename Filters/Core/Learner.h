@@ -14,6 +14,7 @@
 #include "WinGain.h"
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -52,8 +53,9 @@ public:
   /// Starts from a tetrahedron in the middle of the cloud.
   Learner(const PointCloud& cloud, const Parameters& parameters);
 
-  /// Learns so many samples, batch by batch. Ends early once all is learnt.
-  void learn(std::uint64_t sampleCount);
+  /// Learns so many samples, batch by batch, and calls `afterBatch`, if it is a function, after
+  /// each. Ends early once all is learnt.
+  void learn(std::uint64_t sampleCount, const std::function<void()>& afterBatch = {});
 
   /// Samples in a batch, at the present size of the mesh.
   std::size_t batchSize() const;

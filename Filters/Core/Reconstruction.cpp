@@ -30,8 +30,10 @@ constexpr double EndOfLearning = 0.65;
 
 /// Learns until a stopping rule is met; returns which.
 StopReason learn(Learner& learner, StoppingRules& rules, const PointCloud& cloud,
-  const Parameters& parameters, LearningCurve& curve, const Progress& progress)
+  const Parameters& parameters, LearningCurve& curve, const GrowthWatch& watch,
+  const Progress& progress)
 {
+  GrowthRecorder recorder(watch, learner, cloud, parameters.numberOfVertices);
   for (;;)
   {
     const StopReason reason =
@@ -49,7 +51,7 @@ StopReason learn(Learner& learner, StoppingRules& rules, const PointCloud& cloud
     {
       samples = std::min(samples, parameters.maximumIterations - learner.counts().iterations);
     }
-    learner.learn(samples);
+    learner.learn(samples, [&recorder] { recorder.look(); });
   }
 }
 
@@ -98,7 +100,7 @@ Beginning beginFromSpace(
 double cpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 Reconstruction reconstruct(const PointCloud& all, const Parameters& parameters,
-  const Progress& tell, const std::optional<Mesh>& first)
+  const Progress& tell, const std::optional<Mesh>& first, const GrowthWatch& watch)
 {
   Reconstruction result;
   // Once the caller has ended the run, it is asked no more.
@@ -117,8 +119,8 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& parameters,
   const double endOfStart = startsFromSpace ? EndOfStart : 0.;
   const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
   StoppingRules rules(cloud, parameters, learner.mesh().vertexCount());
-  result.stopReason = learn(
-    learner, rules, cloud, parameters, result.curve, partOf(progress, endOfStart, endOfLearning));
+  result.stopReason = learn(learner, rules, cloud, parameters, result.curve, watch,
+    partOf(progress, endOfStart, endOfLearning));
   result.counts = learner.counts();
 
   learner.renumber();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Finish.h"
+#include "GrowthWatch.h"
 #include "LearningCurve.h"
 #include "MeshQuality.h"
 #include "Progress.h"
@@ -39,7 +40,7 @@ double cpuSeconds();
 
 /// Grows a mesh over a cloud that has an extent: from `first`, or what the parameters have it start
 /// from if there is none, until a stopping rule is met. Then finishes it, unless there is no time
-/// left, or nothing was learnt; and orients it outwards.
+/// left, or nothing was learnt; and orients it outwards. Snapshots of the growth go to `watch`.
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
-  const Progress& progress, const std::optional<Mesh>& first = {});
+  const Progress& progress, const std::optional<Mesh>& first = {}, const GrowthWatch& watch = {});
 }

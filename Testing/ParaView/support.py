@@ -31,6 +31,12 @@ def information_of(source, port=0):
     return simple.OutputPort(source, port).GetDataInformation()
 
 
+def information_at(source, time):
+    """What ParaView knows of the mesh at this time."""
+    source.UpdatePipeline(time)
+    return source.GetDataInformation()
+
+
 def fetch(source, port=0):
     """The data of an output."""
     return servermanager.Fetch(source, idx=port)

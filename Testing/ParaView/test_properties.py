@@ -68,7 +68,12 @@ def is_input(sm_property):
 
 
 def properties_of(proxy):
-    return [(key, found) for key, found in everything_of(proxy) if not is_input(found)]
+    """Those that can be set."""
+    return [
+        (key, found)
+        for key, found in everything_of(proxy)
+        if not is_input(found) and not found.GetInformationOnly()
+    ]
 
 
 def inputs_of(proxy):
@@ -272,7 +277,7 @@ class Panel(unittest.TestCase):
     # Promise: few properties are shown at first, and those are the ones that most people need.
     def test_advanced(self):
         most = {"NumberOfVertices", "Variant", "Seed", "TimeLimit", "Boundaries",
-                "TopologyLearning", "CarryPointData"}
+                "TopologyLearning", "CarryPointData", "GrowthAsTime"}
         for name, wanted in (
             ("NeuralMesh", most),
             ("NeuralMeshEnsemble", most | {"NumberOfMembers"}),

@@ -13,16 +13,18 @@ from .vtkFiltersNeuralMesh import vtkNeuralMesh, vtkNeuralMeshEnsemble
 
 # Those that have names or places of their own in the signature.
 _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
+# Time steps are for pipelines: a function gives the finished mesh.
+_OF_PIPELINES = ("growth_as_time", "number_of_snapshots")
 PARAMETERS = {
     name: parameter
     for name, parameter in parameters_of(vtkNeuralMesh).items()
-    if name not in _NAMED
+    if name not in _NAMED + _OF_PIPELINES
 }
 
 ENSEMBLE_PARAMETERS = {
     name: parameter
     for name, parameter in parameters_of(vtkNeuralMeshEnsemble).items()
-    if name not in (*_NAMED, "number_of_members")
+    if name not in (*_NAMED, *_OF_PIPELINES, "number_of_members")
 }
 
 

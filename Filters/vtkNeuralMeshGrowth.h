@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkNeuralMeshGrowth
+ * @brief   the growth of a mesh as time steps, kept by vtkNeuralMesh
+ *
+ * Internal to the module.
+ */
+
+#ifndef vtkNeuralMeshGrowth_h
+#define vtkNeuralMeshGrowth_h
+
+#include "GrowthWatch.h"
+
+#include "vtkDataObject.h"
+#include "vtkSmartPointer.h"
+
+#include <utility>
+#include <vector>
+
+class vtkInformation;
+class vtkInformationVector;
+class vtkPolyData;
+
+class vtkNeuralMeshGrowth
+{
+public:
+  /** Forgets everything. */
+  void Clear() { *this = {}; }
+
+  /** A snapshot of the run that goes on. */
+  void Add(neuralmesh::GrowthSnapshot snapshot) { this->Snapshots.push_back(std::move(snapshot)); }
+  /** The run is over: these are its outputs, and it was that of the pipeline at this time. */
+  void Keep(vtkInformationVector* outputs, vtkMTimeType time);
+  /** Whether there is a whole run of the pipeline at this time. */
+  bool Has(vtkMTimeType time) const { return !this->Finished.empty() && this->Time == time; }
+
+  /**
+   * Puts the outputs of that run out: with the snapshot of this step as the mesh or, where there is
+   * none, the finished one.
+   */
+  void Show(int step, vtkInformationVector* outputs) const;
+
+  /** A snapshot as a mesh, whose points are of a vtkAlgorithm::DesiredOutputPrecision. */
+  static void Fill(const neuralmesh::GrowthSnapshot& snapshot, int precision, vtkPolyData* output);
+
+  /** Says that the outputs have so many time steps: whole numbers from 0 on. */
+  static void OfferSteps(int count, vtkInformationVector* outputs);
+  /** Which of them is asked for. Without a time the last one is meant. */
+  static int StepOf(vtkInformation* request, int count, vtkInformationVector* outputs);
+  /** The time asked for is that of growth: the inputs stay at the beginning of theirs. */
+  static void HoldTime(vtkInformationVector* inputs);
+
+private:
+  std::vector<neuralmesh::GrowthSnapshot> Snapshots;
+  std::vector<vtkSmartPointer<vtkDataObject>> Finished; ///< by output port
+  vtkMTimeType Time = 0;
+};
+
+#endif
