@@ -38,9 +38,9 @@ format   of the meshes: vtp (default), ply, obj or stl
 gallery  whether there is one (default: true)
 view     of the pictures: which axis points upwards, and from where one looks, in degrees
 
-The folder gets for each job a mesh and a report (.json), for all of them summary.csv and the gallery,
-index.html. A job is not run again while its result is there, and its scan (by size and time of
-modification), its parameters, the format and the version of NeuralMesh are the same.
+The folder gets for each job a mesh and a report (.json), for all of them summary.csv and the
+gallery, index.html. A job is not run again while its result is there, and its scan (by size and
+time of modification), its parameters, the format and the version of NeuralMesh are the same.
 
 Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 130 after Ctrl-C. What
 is done by then stays, and the same command does the rest."""
@@ -142,7 +142,7 @@ def _run(recipe: Recipe, folder: Path, processes: int) -> int:
 
 @contextlib.contextmanager
 def _alone_in(folder: Path) -> Iterator[None]:
-    """Refuse to work where another batch does; and leave nothing half, nor what others have left."""
+    """Refuse to work where another batch does. Nothing half is left, whoever began it."""
     with open(folder / ".lock", "w", encoding="ascii") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)

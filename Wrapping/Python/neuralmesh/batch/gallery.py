@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The gallery: a page with a picture, figures and a 3D view of each result, which needs no server."""
+"""The gallery: a page with a picture, figures and a 3D view of each result; it needs no server."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .meshes import read_points
 from .page_mesh import page_mesh
 from .pictures import draw_pictures
 from .recipe import Job, Recipe
-from .report import read_report, report_path, result_path
+from .report import read_report, result_path
 from .whole_file import write_text
 
 _PAGE = Path(__file__).with_name("page")
@@ -110,9 +110,8 @@ def _card(job: Job, report: dict, parts: Path, recipe: Recipe, has_viewer: bool)
     report_link = f'<a href="{name}.json">report</a>'
     if report.get("status") != "done":
         error = escape(report.get("error", "there is no report"))
-        return (
-            f'<article class="failed">\n{title}<pre>{error}</pre>\n<p>{report_link}</p>\n</article>\n'
-        )
+        text = f"{title}<pre>{error}</pre>\n<p>{report_link}</p>"
+        return f'<article class="failed">\n{text}\n</article>\n'
     has_picture = (parts / f"{job.name}.png").exists()
     picture = (
         f'<img src="gallery/{name}.png" alt="{escape(job.name)}" loading="lazy">'

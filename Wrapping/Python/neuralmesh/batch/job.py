@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One job in a process of its own: python3 -m neuralmesh.batch.job, with the job on its input.
 
-Writes the result and, after it, the report, so that a report of success never lacks its result. What
-goes wrong is said in one message on the standard error, and the exit status is 1.
+Writes the result and, after it, the report, so that a report of success never lacks its result.
+What goes wrong is said in one message on the standard error, and the exit status is 1.
 """
 
 from __future__ import annotations

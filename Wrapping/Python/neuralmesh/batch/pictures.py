@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of meshes, all drawn by one process: where there is no screen, on one that nobody sees."""
+"""Pictures of meshes, all drawn by one process, if need be on a screen that nobody sees."""
 
 from __future__ import annotations
 

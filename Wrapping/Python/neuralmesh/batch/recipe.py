@@ -158,7 +158,7 @@ def _check_combination(parameters: dict[str, Any]) -> None:
 
 
 def _names(scans: list[Path]) -> list[str]:
-    """Of each its name without the extension, or as much before and behind it as tells them apart."""
+    """Of each its name without the extension, or as much around it as tells them apart."""
     depth = max(len(scan.parts) for scan in scans)
     candidates = [[scan.stem for scan in scans]]
     candidates += [["-".join(scan.parts[-count:]) for scan in scans] for count in range(1, depth)]
@@ -183,7 +183,8 @@ def _view(content: Any) -> dict[str, Any]:
     for name in ("azimuth", "elevation"):
         is_number = isinstance(view[name], (int, float)) and not isinstance(view[name], bool)
         if not (is_number and abs(view[name]) <= 360):
-            raise RecipeError(f"view.{name}: must be degrees from -360 to 360, not {_shown(view[name])}")
+            wrong = _shown(view[name])
+            raise RecipeError(f"view.{name}: must be degrees from -360 to 360, not {wrong}")
     return view
 
 

@@ -56,7 +56,8 @@ def is_done(folder: Path, job: Job, mesh_format: str) -> bool:
     """Whether the result is there, whole, and of the same scan, parameters, format and version."""
     report = read_report(folder, job.name)
     identity = identity_of(job, mesh_format)
-    if report.get("status") != "done" or any(report.get(name) != identity[name] for name in identity):
+    is_same = all(report.get(name) == value for name, value in identity.items())
+    if report.get("status") != "done" or not is_same:
         return False
     result = result_path(folder, job.name, mesh_format)
     return result.is_file() and result.stat().st_size == report["result"]["size"]
