@@ -90,7 +90,7 @@
  * Jeong, S. Lee, Y. Lee, H.-P. Seidel, Neural meshes: surface reconstruction with a learning
  * algorithm, 2004.
  *
- * @sa vtkSurfaceReconstructionFilter vtkExtractSurface vtkHausdorffDistancePointSetFilter
+ * @sa vtkPNeuralMesh vtkSurfaceReconstructionFilter vtkExtractSurface vtkHausdorffDistancePointSetFilter
  */
 
 #ifndef vtkNeuralMesh_h
