@@ -90,13 +90,14 @@
  * Jeong, S. Lee, Y. Lee, H.-P. Seidel, Neural meshes: surface reconstruction with a learning
  * algorithm, 2004.
  *
- * @sa vtkPNeuralMesh vtkSurfaceReconstructionFilter vtkExtractSurface vtkHausdorffDistancePointSetFilter
+ * @sa vtkPNeuralMesh vtkSurfaceReconstructionFilter vtkExtractSurface
+ * vtkHausdorffDistancePointSetFilter
  */
 
 #ifndef vtkNeuralMesh_h
 #define vtkNeuralMesh_h
 
-#include "vtkCommand.h"                  // For UserEvent
+#include "vtkCommand.h"                 // For UserEvent
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
 #include "vtkNeuralMeshAlgorithm.h"
 
