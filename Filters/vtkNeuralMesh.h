@@ -354,6 +354,8 @@ protected:
   /** Weights of the collected points; none if all weigh alike. An error if they are not there. */
   bool CollectWeights(const vtkPointCloudCollector& collector, std::vector<double>& weights);
 
+  const char* StopReason = "none"; ///< of the core: it is never freed
+
 private:
   vtkInformation* GetWeightArrayInformation();
   neuralmesh::GrowthWatch WatchGrowth(int precision);
@@ -375,7 +377,6 @@ private:
   int NumberOfSnapshots = 24;
   std::unique_ptr<vtkNeuralMeshGrowth> Growth;
   int OutputPointsPrecision = DEFAULT_PRECISION;
-  const char* StopReason = "none";
   double CloudTime = 0.0;
   double StartTime = 0.0;
   double LearningTime = 0.0;
