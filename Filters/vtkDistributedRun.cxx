@@ -2,6 +2,7 @@
 #include "vtkDistributedRun.h"
 
 #include "CloudSelection.h"
+#include "StoppingRules.h"
 #include "vtkNeuralMesh.h"
 #include "vtkPointDataCarrier.h"
 
@@ -325,6 +326,17 @@ int vtkDistributedRun::Lead(
       0, 0, dropped->GetComponent(0, 0) + static_cast<double>(census.PointsNotFinite));
   }
   return result;
+}
+
+const char* vtkDistributedRun::ShareStopReason(const char* reason)
+{
+  int shared = static_cast<int>(neuralmesh::StopReason::None);
+  while (neuralmesh::name(static_cast<neuralmesh::StopReason>(shared)) != reason)
+  {
+    ++shared;
+  }
+  this->Controller->Broadcast(&shared, 1, 0);
+  return neuralmesh::name(static_cast<neuralmesh::StopReason>(shared)).data();
 }
 
 /// Whenever process 0 reports progress, all meet: the others hear of it and tell whether to go on.

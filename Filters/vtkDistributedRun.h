@@ -43,6 +43,9 @@ public:
   int Execute(vtkInformationVector** inputVector, const WeightsFunction& collectWeights,
     const LearnFunction& learn);
 
+  /** The stop reason of process 0, on all processes. */
+  const char* ShareStopReason(const char* reason);
+
   /** What other processes have sent to this one, if it is process 0: points and their data. */
   vtkIdType GetMovedBytes() const { return this->MovedBytes; }
   vtkMultiProcessController* GetController() const { return this->Controller; }

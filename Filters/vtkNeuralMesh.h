@@ -90,13 +90,14 @@
  * Jeong, S. Lee, Y. Lee, H.-P. Seidel, Neural meshes: surface reconstruction with a learning
  * algorithm, 2004.
  *
- * @sa vtkSurfaceReconstructionFilter vtkExtractSurface vtkHausdorffDistancePointSetFilter
+ * @sa vtkPNeuralMesh vtkSurfaceReconstructionFilter vtkExtractSurface
+ * vtkHausdorffDistancePointSetFilter
  */
 
 #ifndef vtkNeuralMesh_h
 #define vtkNeuralMesh_h
 
-#include "vtkCommand.h"                  // For UserEvent
+#include "vtkCommand.h"                 // For UserEvent
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
 #include "vtkNeuralMeshAlgorithm.h"
 
@@ -353,6 +354,8 @@ protected:
   /** Weights of the collected points; none if all weigh alike. An error if they are not there. */
   bool CollectWeights(const vtkPointCloudCollector& collector, std::vector<double>& weights);
 
+  const char* StopReason = "none"; ///< of the core: it is never freed
+
 private:
   vtkInformation* GetWeightArrayInformation();
   neuralmesh::GrowthWatch WatchGrowth(int precision);
@@ -374,7 +377,6 @@ private:
   int NumberOfSnapshots = 24;
   std::unique_ptr<vtkNeuralMeshGrowth> Growth;
   int OutputPointsPrecision = DEFAULT_PRECISION;
-  const char* StopReason = "none";
   double CloudTime = 0.0;
   double StartTime = 0.0;
   double LearningTime = 0.0;

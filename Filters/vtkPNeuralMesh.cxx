@@ -29,6 +29,11 @@ int vtkPNeuralMesh::RequestData(
     [&](vtkInformationVector** inputs)
     { return this->Superclass::RequestData(request, inputs, outputVector); });
   this->MovedBytes = run.GetMovedBytes();
+  if (result)
+  {
+    // All must know of an abort: what is kept then must not differ.
+    this->StopReason = run.ShareStopReason(this->StopReason);
+  }
   return result;
 }
 

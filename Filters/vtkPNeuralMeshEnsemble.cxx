@@ -36,6 +36,7 @@ int vtkPNeuralMeshEnsemble::RequestData(
   this->MovedBytes = run.GetMovedBytes();
   if (result)
   {
+    this->StopReason = run.ShareStopReason(this->StopReason);
     // Images have their whole extent everywhere: they should not contradict each other.
     vtkImageData* votes = vtkImageData::GetData(outputVector, 3);
     std::array<double, 6> place{};

@@ -83,7 +83,7 @@ class Ends(unittest.TestCase):
             with self.subTest(process=process):
                 result, _ = play(2, "abort", process)
                 self.assertEqual(result["aborted"]["stop"], "cancelled")
-                self.assertTrue(10 < result["aborted"]["vertices"] < 150000, result)
+                self.assertTrue(10 < result["aborted"]["vertices"] < 20000, result)
                 self.assertEqual((result["next"]["stop"], result["next"]["vertices"]),
                                  ("vertices", 500))
 
