@@ -45,7 +45,7 @@ int Compare(vtkAbstractArray* array, vtkIdType a, vtkIdType b)
   const int components = array->GetNumberOfComponents();
   if (vtkDataArray::SafeDownCast(array) && array->GetDataType() != VTK_BIT)
   {
-    const auto size = static_cast<std::size_t>(components * array->GetDataTypeSize());
+    const auto size = static_cast<std::size_t>(components) * array->GetDataTypeSize();
     return std::memcmp(
       array->GetVoidPointer(a * components), array->GetVoidPointer(b * components), size);
   }
