@@ -6,6 +6,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkCommand.h"
+#include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkMinimalStandardRandomSequence.h"
@@ -15,6 +16,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -56,6 +58,15 @@ inline vtkNew<vtkPolyData> SphereCloud(int count)
   vtkNew<vtkPolyData> cloud;
   cloud->SetPoints(SpherePoints(count));
   return cloud;
+}
+
+/** Whether arrays have the same type and values, to the last bit. */
+inline bool SameBytes(vtkDataArray* a, vtkDataArray* b)
+{
+  const auto size = static_cast<std::size_t>(a->GetNumberOfValues()) *
+    static_cast<std::size_t>(a->GetDataTypeSize());
+  return a->GetNumberOfValues() == b->GetNumberOfValues() && a->GetDataType() == b->GetDataType() &&
+    std::memcmp(a->GetVoidPointer(0), b->GetVoidPointer(0), size) == 0;
 }
 
 /** Points on a torus with the radii 1 and 0.4. */

@@ -10,7 +10,6 @@
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
 
-#include <cstring>
 
 namespace
 {
@@ -26,20 +25,14 @@ vtkNew<vtkPolyData> Run(vtkPolyData* cloud, int seed)
   return mesh;
 }
 
-bool SameBytes(vtkDataArray* a, vtkDataArray* b)
-{
-  const auto size = static_cast<std::size_t>(a->GetNumberOfValues()) *
-    static_cast<std::size_t>(a->GetDataTypeSize());
-  return a->GetNumberOfValues() == b->GetNumberOfValues() && a->GetDataType() == b->GetDataType() &&
-    std::memcmp(a->GetVoidPointer(0), b->GetVoidPointer(0), size) == 0;
-}
-
 bool SameMesh(vtkPolyData* a, vtkPolyData* b)
 {
-  return SameBytes(a->GetPoints()->GetData(), b->GetPoints()->GetData()) &&
-    SameBytes(a->GetPolys()->GetConnectivityArray(), b->GetPolys()->GetConnectivityArray()) &&
-    SameBytes(a->GetPointData()->GetNormals(), b->GetPointData()->GetNormals()) &&
-    SameBytes(a->GetPointData()->GetArray("Activity"), b->GetPointData()->GetArray("Activity"));
+  return FilterTesting::SameBytes(a->GetPoints()->GetData(), b->GetPoints()->GetData()) &&
+    FilterTesting::SameBytes(
+      a->GetPolys()->GetConnectivityArray(), b->GetPolys()->GetConnectivityArray()) &&
+    FilterTesting::SameBytes(a->GetPointData()->GetNormals(), b->GetPointData()->GetNormals()) &&
+    FilterTesting::SameBytes(
+      a->GetPointData()->GetArray("Activity"), b->GetPointData()->GetArray("Activity"));
 }
 }
 
@@ -54,6 +47,6 @@ int TestNeuralMeshReproducible(int, char*[])
   const auto threads = Run(cloud, 1);
   CHECK(SameMesh(first, threads));
   const auto other = Run(cloud, 2);
-  CHECK(!SameBytes(first->GetPoints()->GetData(), other->GetPoints()->GetData()));
+  CHECK(!FilterTesting::SameBytes(first->GetPoints()->GetData(), other->GetPoints()->GetData()));
   return EXIT_SUCCESS;
 }

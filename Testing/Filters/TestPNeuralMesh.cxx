@@ -12,7 +12,6 @@
 #include "vtkPointData.h"
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace
@@ -38,19 +37,12 @@ vtkNew<vtkPolyData> Cloud(bool isReversed)
   return cloud;
 }
 
-bool SameBytes(vtkDataArray* a, vtkDataArray* b)
-{
-  const auto size = static_cast<std::size_t>(a->GetNumberOfValues()) *
-    static_cast<std::size_t>(a->GetDataTypeSize());
-  return a->GetNumberOfValues() == b->GetNumberOfValues() && a->GetDataType() == b->GetDataType() &&
-    std::memcmp(a->GetVoidPointer(0), b->GetVoidPointer(0), size) == 0;
-}
-
 bool SameMesh(vtkPolyData* a, vtkPolyData* b)
 {
-  return SameBytes(a->GetPoints()->GetData(), b->GetPoints()->GetData()) &&
-    SameBytes(a->GetPolys()->GetConnectivityArray(), b->GetPolys()->GetConnectivityArray()) &&
-    SameBytes(a->GetPointData()->GetScalars(), b->GetPointData()->GetScalars());
+  return FilterTesting::SameBytes(a->GetPoints()->GetData(), b->GetPoints()->GetData()) &&
+    FilterTesting::SameBytes(
+      a->GetPolys()->GetConnectivityArray(), b->GetPolys()->GetConnectivityArray()) &&
+    FilterTesting::SameBytes(a->GetPointData()->GetScalars(), b->GetPointData()->GetScalars());
 }
 
 /// All points, by a controller of one process, by none, and by what vtkNeuralMesh does.

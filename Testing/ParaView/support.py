@@ -2,9 +2,12 @@
 """The plugin, and shapes to try it on."""
 
 import os
+import tempfile
 
 import paraview
 from paraview import servermanager, simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
 
 CONFIGURATION = os.environ["NEURALMESH_PLUGIN_CONFIG"]
 PLUGIN = os.path.join(os.path.dirname(CONFIGURATION), "NeuralMesh", "NeuralMesh.so")
@@ -50,3 +53,21 @@ def field_value(source, name):
 def points_of(source):
     """The coordinates, as bytes."""
     return memoryview(fetch(source).GetPoints().GetData()).tobytes()
+
+
+def covered(view):
+    """Which part of the view is not background."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "view.png")
+        simple.SaveScreenshot(path, view, ImageResolution=[200, 200])
+        reader = vtkPNGReader()
+        reader.SetFileName(path)
+        reader.Update()
+        pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).copy()
+    return (pixels != pixels[0]).any(axis=1).mean()
+
+
+def delete_views():
+    """Views that are left to the end of the process end it with an error of X."""
+    for view in simple.GetViews():
+        simple.Delete(view)

@@ -1,33 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes that are shown while they learn."""
 
-import os
-import tempfile
 import unittest
 
 import support
 from neuralmesh.live import watch
 from paraview import simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
 
 
-# Views that are left to the end of the process end it with an error of X.
-def tearDownModule():
-    for view in simple.GetViews():
-        simple.Delete(view)
-
-
-def covered(view):
-    """Which part of the view is not background."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "view.png")
-        simple.SaveScreenshot(path, view, ImageResolution=[200, 200])
-        reader = vtkPNGReader()
-        reader.SetFileName(path)
-        reader.Update()
-        pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).copy()
-    return (pixels != pixels[0]).any(axis=1).mean()
+tearDownModule = support.delete_views
 
 
 class Live(unittest.TestCase):
@@ -52,7 +33,7 @@ class Live(unittest.TestCase):
 
         def after_each(snapshot):
             vertices.append(snapshot.GetNumberOfPoints())
-            parts.append(covered(self.view))
+            parts.append(support.covered(self.view))
 
         mesh = self.mesh()
         watch(mesh, self.view, after_each)
@@ -60,7 +41,7 @@ class Live(unittest.TestCase):
         self.assertEqual(vertices, sorted(set(vertices)))
         # The tetrahedron is a tenth of the sphere; then the disk grows to its size.
         self.assertTrue(0 < parts[0] < 0.1 * parts[-1], parts)
-        self.assertAlmostEqual(covered(self.view), parts[-1], delta=0.02)
+        self.assertAlmostEqual(support.covered(self.view), parts[-1], delta=0.02)
         self.assertEqual(support.points_of(mesh), expected)
         self.assertNotIn("Growing mesh", [name for name, _ in simple.GetSources()])
 

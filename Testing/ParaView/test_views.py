@@ -1,35 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What outputs look like: each opens in the view that suits it."""
 
-import os
-import tempfile
 import unittest
 
 import support
 from paraview import simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
 
 
 def setUpModule():
     support.load_plugin()
 
 
-# Views that are left to the end of the process end it with an error of X.
-def tearDownModule():
-    for view in simple.GetViews():
-        simple.Delete(view)
-
-
-def picture_of(view):
-    """The pixels of a screenshot, an array of shape (height * width, 3)."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "view.png")
-        simple.SaveScreenshot(path, view, ImageResolution=[200, 200])
-        reader = vtkPNGReader()
-        reader.SetFileName(path)
-        reader.Update()
-        return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).copy()
+tearDownModule = support.delete_views
 
 
 def shown(source, port=0):
@@ -48,9 +30,7 @@ class Views(unittest.TestCase):
             view = simple.CreateView("RenderView")
             simple.Show(source, view)
             simple.ResetCamera(view)
-            pixels = picture_of(view)
-            different = (pixels != pixels[0]).any(axis=1).mean()
-            self.assertGreater(different, 0.05)
+            self.assertGreater(support.covered(view), 0.05)
 
     # Promise: the learning curve opens in a line chart, the figures of a comparison in a table;
     # what would lie on top of the mesh does not open by itself.
