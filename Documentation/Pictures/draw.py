@@ -163,11 +163,11 @@ def topology():
 
 def normals():
     points = clouds.cube(200000)
-    basic, normal_based = (neuralmesh.reconstruct(points, 2000, variant=variant)
-                           for variant in ("basic", "normal_based"))
+    basic = neuralmesh.reconstruct(points, 2000, variant="basic", curvature_density=0)
+    normal_based = neuralmesh.reconstruct(points, 2000, variant="normal_based")
     strength = neuralmesh.reconstruct(points, 2000, compute_feature_strength=True)
-    return [scene(basic, "z", 30, 25), scene(normal_based, "z", 30, 25),
-            scene(strength, "z", 30, 25, "FeatureStrength")]
+    return [scene(basic, "z", 30, 25, zoom=1), scene(normal_based, "z", 30, 25, zoom=1),
+            scene(strength, "z", 30, 25, "FeatureStrength", zoom=1)]
 
 
 def ensemble():
