@@ -10,7 +10,6 @@
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
 
-
 namespace
 {
 vtkNew<vtkPolyData> Run(vtkPolyData* cloud, int seed)
