@@ -22,7 +22,7 @@ namespace
 {
 using Comparison = vtkNeuralMeshComparison;
 
-struct Options
+struct CompareOptions
 {
   std::string Reference;
   std::string Result;
@@ -57,7 +57,7 @@ nlohmann::ordered_json DirectionAsJSON(Comparison* comparison, int direction)
     { "normal_angle", comparison->GetNormalAngle(direction) } };
 }
 
-void PrintJSON(Comparison* comparison, const Options& options)
+void PrintJSON(Comparison* comparison, const CompareOptions& options)
 {
   const nlohmann::ordered_json object{ { "reference", options.Reference },
     { "result", options.Result }, { "samples", comparison->GetNumberOfSamples() },
@@ -90,7 +90,7 @@ void PrintRow(const char* title, Comparison* comparison, int direction)
   std::printf("\n");
 }
 
-void PrintTable(Comparison* comparison, const Options& options)
+void PrintTable(Comparison* comparison, const CompareOptions& options)
 {
   std::printf("reference  %s\nresult     %s\n", options.Reference.c_str(), options.Result.c_str());
   std::printf("diagonal   %.6g, of the reference\n\n", comparison->GetReferenceDiagonal());
@@ -103,7 +103,7 @@ void PrintTable(Comparison* comparison, const Options& options)
     hausdorff, 100.0 * hausdorff / comparison->GetReferenceDiagonal(), NormalAngle(comparison));
 }
 
-int Compare(const Options& options)
+int Compare(const CompareOptions& options)
 {
   const auto reference = ReadMesh(options.Reference);
   const auto result = ReadMesh(options.Result);
@@ -135,7 +135,7 @@ int Compare(const Options& options)
 
 std::function<int()> AddCompareCommand(CLI::App& application)
 {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareOptions>();
   CLI::App* command =
     application.add_subcommand("compare", "Tell how far a mesh is from a reference");
   command->add_option("REFERENCE", options->Reference, "The true surface: .ply .vtp .vtk .obj .stl")

@@ -22,7 +22,7 @@ namespace
 {
 using neuralmesh::SurfaceReport;
 
-struct Options
+struct InfoOptions
 {
   std::vector<std::string> Meshes;
   bool JSON = false;
@@ -41,7 +41,7 @@ SurfaceReport Report(const std::string& path)
   }
 }
 
-void PrintJSON(const std::string& path, const SurfaceReport& report)
+void PrintReportJSON(const std::string& path, const SurfaceReport& report)
 {
   nlohmann::ordered_json valences = nlohmann::ordered_json::object();
   for (const auto& [valence, vertices] : report.valences)
@@ -84,7 +84,7 @@ std::string YesUnless(const std::string& hindrance, bool yes)
   return yes ? "yes" : "no (" + hindrance + ")";
 }
 
-std::string Number(double value)
+std::string SixDigits(double value)
 {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
@@ -120,17 +120,18 @@ void PrintLine(const char* name, const std::string& value)
   std::printf("  %-18s  %s\n", name, value.c_str());
 }
 
-void PrintTable(const std::string& path, const SurfaceReport& report)
+void PrintReportTable(const std::string& path, const SurfaceReport& report)
 {
   std::printf("%s\n", path.c_str());
   PrintLine("vertices", std::to_string(report.vertices));
   PrintLine("triangles", std::to_string(report.triangles));
-  PrintLine("regular vertices", Number(100.0 * report.regularRatio) + " %");
+  PrintLine("regular vertices", SixDigits(100.0 * report.regularRatio) + " %");
   if (report.vertices > 0)
   {
     PrintLine("valences", Valences(report));
   }
-  PrintLine("triangle quality", Number(report.meanQuality) + " (mean; 1: equilateral, 0: no area)");
+  PrintLine(
+    "triangle quality", SixDigits(report.meanQuality) + " (mean; 1: equilateral, 0: no area)");
   PrintLine("closed", YesUnless(Count(report.boundaryEdges, "boundary edges"), report.isClosed()));
   PrintLine("manifold",
     YesUnless(Count(report.nonManifoldEdges, "edges and ") +
@@ -143,16 +144,16 @@ void PrintTable(const std::string& path, const SurfaceReport& report)
   PrintLine("genus", report.genus ? std::to_string(*report.genus) : "not defined");
   PrintLine("boundary loops", std::to_string(report.boundaryLoops));
   PrintLine("folded edges", std::to_string(report.foldedEdges));
-  PrintLine("area", Number(report.area));
-  PrintLine("volume", report.volume ? Number(*report.volume) : "not defined");
-  PrintLine("diagonal", Number(report.diagonal));
+  PrintLine("area", SixDigits(report.area));
+  PrintLine("volume", report.volume ? SixDigits(*report.volume) : "not defined");
+  PrintLine("diagonal", SixDigits(report.diagonal));
   PrintLine("to be cleaned",
     Count(report.degenerateTriangles, "triangles without area, ") +
       Count(report.unusedPoints, "unused points, ") +
       Count(report.nonFinitePoints, "points not finite"));
 }
 
-int Inform(const Options& options)
+int Inform(const InfoOptions& options)
 {
   int status = 0;
   for (const std::string& path : options.Meshes)
@@ -160,7 +161,7 @@ int Inform(const Options& options)
     try
     {
       const SurfaceReport report = Report(path);
-      (options.JSON ? PrintJSON : PrintTable)(path, report);
+      (options.JSON ? PrintReportJSON : PrintReportTable)(path, report);
     }
     catch (const std::runtime_error& error)
     {
@@ -174,7 +175,7 @@ int Inform(const Options& options)
 
 std::function<int()> AddInfoCommand(CLI::App& application)
 {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InfoOptions>();
   CLI::App* command =
     application.add_subcommand("info", "Tell whether meshes are sound, and how good they are");
   command->add_option("MESH", options->Meshes, "Meshes: .ply .vtp .vtk .obj .stl")->required();

@@ -104,7 +104,7 @@ std::vector<LearningParameter> MakeParameters()
 #undef PARAMETER_IN
 }
 
-std::string Number(double value)
+std::string ShortNumber(double value)
 {
   std::ostringstream text;
   text << std::setprecision(value == std::floor(value) && value < 1e7 ? 7 : 4) << value;
@@ -117,7 +117,7 @@ std::string DescribeRange(const LearningParameter& parameter)
   if (parameter.Words.empty())
   {
     return (parameter.Integral ? "an integer from " : "a number from ") +
-      Number(parameter.Minimum) + " to " + Number(parameter.Maximum);
+      ShortNumber(parameter.Minimum) + " to " + ShortNumber(parameter.Maximum);
   }
   std::string words;
   for (const std::string& word : parameter.Words)
@@ -186,8 +186,9 @@ std::string DescribeLearningParameters()
     table << "  " << std::left << std::setw(NameWidth) << parameter.Name;
     if (parameter.Words.empty())
     {
-      const std::string range = Number(parameter.Minimum) + " to " + Number(parameter.Maximum);
-      table << std::setw(7) << Number(parameter.Default) << std::setw(18) << range
+      const std::string range =
+        ShortNumber(parameter.Minimum) + " to " + ShortNumber(parameter.Maximum);
+      table << std::setw(7) << ShortNumber(parameter.Default) << std::setw(18) << range
             << parameter.Description << "\n";
     }
     else

@@ -42,7 +42,7 @@ constexpr int InterruptedStatus = 128 + SIGINT;
 /// Off, or with an ensemble on.
 constexpr int DefaultTopology = -1;
 
-struct Options
+struct ReconstructOptions
 {
   std::string Input;
   std::string Output;
@@ -135,7 +135,7 @@ void RequireSoundParameters(vtkNeuralMesh* filter)
   }
 }
 
-vtkSmartPointer<vtkNeuralMesh> MakeFilter(const Options& options)
+vtkSmartPointer<vtkNeuralMesh> MakeFilter(const ReconstructOptions& options)
 {
   if (options.Members == 0)
   {
@@ -146,7 +146,7 @@ vtkSmartPointer<vtkNeuralMesh> MakeFilter(const Options& options)
   return ensemble;
 }
 
-void PrepareFilter(vtkNeuralMesh* filter, const Options& options)
+void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
 {
   filter->SetNumberOfVertices(options.Vertices);
   filter->SetSeed(options.Seed);
@@ -192,7 +192,8 @@ void AddChoice(CLI::App* command, const std::string& name, int& choice,
 }
 
 /** Throws if the filter could not do anything with what it was given. */
-void RequireResult(vtkNeuralMesh* filter, const ErrorCollector& errors, const Options& options)
+void RequireResult(
+  vtkNeuralMesh* filter, const ErrorCollector& errors, const ReconstructOptions& options)
 {
   if (errors.HasError())
   {
@@ -206,7 +207,7 @@ void RequireResult(vtkNeuralMesh* filter, const ErrorCollector& errors, const Op
   }
 }
 
-int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const Options& options)
+int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions& options)
 {
   vtkNew<ErrorCollector> errors;
   errors->Observe(filter);
@@ -221,7 +222,7 @@ int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const Options& opt
   return 0;
 }
 
-void Learn(vtkNeuralMesh* filter, vtkPointSet* points, const Options& options)
+void Learn(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions& options)
 {
   vtkNew<ErrorCollector> errors;
   errors->Observe(filter);
@@ -278,7 +279,7 @@ void PrintReport(vtkPolyData* mesh)
     FieldNumber(mesh, "TriangleQuality"), 100.0 * FieldNumber(mesh, "RegularRatio"));
 }
 
-int Reconstruct(const Options& options)
+int Reconstruct(const ReconstructOptions& options)
 {
   const vtkSmartPointer<vtkNeuralMesh> filter = MakeFilter(options);
   PrepareFilter(filter, options);
@@ -339,7 +340,7 @@ int Reconstruct(const Options& options)
 
 std::function<int()> AddReconstructCommand(CLI::App& application)
 {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReconstructOptions>();
   CLI::App* command =
     application.add_subcommand("reconstruct", "Make a triangle mesh from a point cloud");
   command

@@ -34,15 +34,23 @@ install_packages()
     apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
 
-# Configures if there is need, and builds: build FOLDER TARGET [CMAKE-OPTION...].
-build()
+# Configures if there is need: configure FOLDER [CMAKE-OPTION...].
+configure()
 {
-  local folder=$1 target=$2
-  shift 2
+  local folder=$1
+  shift
   cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" > "$folder.log" 2>&1 ||
     { cat "$folder.log"; return 1; }
   # What is left out, and why.
   grep '^-- Galleries' "$folder.log" || true
   rm -f "$folder.log"
+}
+
+# Configures if there is need, and builds: build FOLDER TARGET [CMAKE-OPTION...].
+build()
+{
+  local folder=$1 target=$2
+  shift 2
+  configure "$folder" "$@"
   cmake --build "$folder" --target "$target"
 }

@@ -9,7 +9,15 @@ install_packages "${build_packages[@]}" clang-format clang-tidy
 git ls-files '*.h' '*.cpp' '*.cxx' | xargs clang-format --dry-run --Werror
 echo "clang-format: all well"
 
-build build FiltersNeuralMesh -DNEURALMESH_WARNINGS_AS_ERRORS=ON
-git ls-files 'Filters/*.cpp' 'Filters/*.cxx' 'Applications/*.cxx' |
-  xargs -P "$(nproc)" -n 4 clang-tidy -p build --quiet --warnings-as-errors='*' 2>/dev/null
+# A dozen sources at a time: a fifth of the time, as most of it goes into the headers they include.
+# They are copied into one, as the analyzer leaves included ones out.
+folder=build-style
+configure "$folder" -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
+find "$folder"/Filters "$folder"/Applications -path '*/Unity/*.cxx' -exec \
+  perl -i -pe 's{^#include "(.*\.c(pp|xx))"$}{open(F, $1); join("", <F>)}e' {} +
+
+grep -o '"file": "[^"]*"' "$folder/compile_commands.json" | cut -d '"' -f 4 |
+  grep -E "^$PWD/($folder/)?(Filters|Applications)/" |
+  xargs -P "$(nproc)" -n 1 clang-tidy -p "$folder" --config-file=.clang-tidy --quiet \
+    --warnings-as-errors='*' 2> /dev/null
 echo "clang-tidy: all well"

@@ -10,9 +10,9 @@ namespace
 {
 /// Against the few points that a triangle has at least, in general.
 constexpr double Lambda = 0.1;
-constexpr int MostIterations = 300;
+constexpr int MostAttributeIterations = 300;
 /// Of the residual of the equations, against that at the start.
-constexpr double Tolerance = 1e-6;
+constexpr double AttributeTolerance = 1e-6;
 
 using Values = AttributeFit::Values;
 
@@ -122,8 +122,8 @@ std::vector<Values> AttributeFit::solve() const
     direction[v] = inverse[v] * residual[v];
     squared += residual[v] * direction[v];
   }
-  const Values end = Tolerance * Tolerance * squared;
-  for (int i = 0; i < MostIterations && (squared > end).any(); ++i)
+  const Values end = AttributeTolerance * AttributeTolerance * squared;
+  for (int i = 0; i < MostAttributeIterations && (squared > end).any(); ++i)
   {
     this->apply(direction, laplacian, product);
     Values curvature = Values::Zero();

@@ -9,14 +9,14 @@ namespace neuralmesh
 namespace
 {
 /// A corner of a boundary, and the square of the edge with which a triangle would close it.
-struct Corner
+struct RimCorner
 {
   float squaredEdge;
   VertexIndex vertex;
-  auto operator<=>(const Corner&) const = default;
+  auto operator<=>(const RimCorner&) const = default;
 };
 
-Corner cornerAt(const Mesh& mesh, VertexIndex v)
+RimCorner cornerAt(const Mesh& mesh, VertexIndex v)
 {
   const Ring& ring = mesh.ring(v);
   return { squaredNorm(mesh.position(ring.front()) - mesh.position(ring.back())), v };
@@ -35,10 +35,10 @@ bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLon
   {
     return false;
   }
-  std::priority_queue<Corner, std::vector<Corner>, std::greater<>> corners;
+  std::priority_queue<RimCorner, std::vector<RimCorner>, std::greater<>> corners;
   const auto consider = [&](VertexIndex v)
   {
-    const Corner corner = cornerAt(mesh, v);
+    const RimCorner corner = cornerAt(mesh, v);
     if (corner.squaredEdge < squaredLongestEdge)
     {
       corners.push(corner);
@@ -49,7 +49,7 @@ bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLon
   std::vector<Triangle> filled;
   while (!corners.empty() && filled.size() + 2 < loop.size())
   {
-    const Corner corner = corners.top();
+    const RimCorner corner = corners.top();
     const VertexIndex v = corner.vertex;
     corners.pop();
     // Corners change with their neighbours: then they are in the queue again.

@@ -37,13 +37,13 @@ constexpr std::array<View, 13> Views{ {
 } };
 
 /// A corner of a triangle as a view has it.
-struct Corner
+struct ProjectedCorner
 {
   double u;
   double v;
   double depth;
 };
-using Corners = std::array<Corner, 3>;
+using ProjectedTriangle = std::array<ProjectedCorner, 3>;
 
 double sum(const std::array<int, 3>& steps, const Eigen::Vector3d& point)
 {
@@ -52,10 +52,10 @@ double sum(const std::array<int, 3>& steps, const Eigen::Vector3d& point)
 
 /// On which side of the line a-b a pixel lies, times the length of a-b. For b-a it is the same
 /// number with the other sign, to the bit, so that no pixel falls between two triangles.
-double side(const Corner& a, const Corner& b, double u, double v)
+double side(const ProjectedCorner& a, const ProjectedCorner& b, double u, double v)
 {
   const bool isTurned = b.u < a.u || (b.u == a.u && b.v < a.v);
-  const Corner &from = isTurned ? b : a, &to = isTurned ? a : b;
+  const ProjectedCorner &from = isTurned ? b : a, &to = isTurned ? a : b;
   const double value = (to.u - from.u) * (v - from.v) - (to.v - from.v) * (u - from.u);
   return isTurned ? -value : value;
 }
@@ -102,11 +102,11 @@ public:
   /// `points` are the corners in voxels, the centre of the first one being the origin.
   void draw(const std::array<Eigen::Vector3d, 3>& points, bool isPhantom)
   {
-    Corners corners;
+    ProjectedTriangle corners;
     std::transform(points.begin(), points.end(), corners.begin(),
       [this](const Eigen::Vector3d& point)
       {
-        return Corner{ sum(this->view_.u, point), sum(this->view_.v, point),
+        return ProjectedCorner{ sum(this->view_.u, point), sum(this->view_.v, point),
           sum(this->view_.depth, point) };
       });
     const auto [uBegin, uEnd] = this->u_.covered(corners[0].u, corners[1].u, corners[2].u);
@@ -147,7 +147,8 @@ private:
     bool isReal = false; ///< whether other triangles than phantoms were drawn
   };
 
-  void drawPixel(const Corners& corners, std::ptrdiff_t u, std::ptrdiff_t v, bool isPhantom)
+  void drawPixel(
+    const ProjectedTriangle& corners, std::ptrdiff_t u, std::ptrdiff_t v, bool isPhantom)
   {
     const auto [a, b, c] = corners;
     const auto atU = double(u + this->u_.first), atV = double(v + this->v_.first);

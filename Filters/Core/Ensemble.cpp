@@ -18,12 +18,13 @@ namespace
 constexpr std::uint64_t SamplesPerRound = 5000;
 /// The stream of random numbers that the seeds of the members come from.
 constexpr std::uint64_t SeedStream = 10;
-constexpr std::size_t LeastVertices = 50;
+constexpr std::size_t LeastVerticesOfMembers = 50;
 
 Parameters memberParameters(const PointCloud& cloud, const EnsembleParameters& parameters)
 {
   // A closed mesh has two triangles a vertex.
-  const std::size_t most = std::max(LeastVertices, cloud.points().size() / (2 * PointsPerTriangle));
+  const std::size_t most =
+    std::max(LeastVerticesOfMembers, cloud.points().size() / (2 * PointsPerTriangle));
   Parameters result;
   result.numberOfVertices = std::min(parameters.verticesPerMember, most);
   result.samplesPerAddition = parameters.memberSamplesPerAddition;

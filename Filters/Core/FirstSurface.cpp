@@ -46,7 +46,7 @@ constexpr int FitRounds = 2;
 constexpr double FitSmoothness = 1.;
 constexpr std::size_t FitSamples = 10; ///< per vertex
 
-struct Candidate
+struct SurfaceCandidate
 {
   unsigned resolution;
   TriangleMesh surface;
@@ -57,10 +57,10 @@ struct Candidate
   double bridgeWidth;
 };
 
-Candidate candidate(const PointCloud& cloud, unsigned resolution)
+SurfaceCandidate candidate(const PointCloud& cloud, unsigned resolution)
 {
   const OccupiedSolid solid = occupiedSolid(cloud, resolution);
-  Candidate result{ resolution, voxelSurface(solid.grid, solid.inside), solid.interiorCount,
+  SurfaceCandidate result{ resolution, voxelSurface(solid.grid, solid.inside), solid.interiorCount,
     solid.enclosesSomething(), 0, 0, ClosedVoxels * double(solid.grid.width) };
   DisjointSets sets(result.surface.points.size());
   result.components = result.surface.points.size();
@@ -81,7 +81,7 @@ Candidate candidate(const PointCloud& cloud, unsigned resolution)
   return result;
 }
 
-bool agree(const Candidate& a, const Candidate& b)
+bool agree(const SurfaceCandidate& a, const SurfaceCandidate& b)
 {
   return a.genus == b.genus && a.components == b.components;
 }
@@ -137,14 +137,14 @@ std::optional<FirstSurface> skin(const PointCloud& cloud)
 /// Of the finest grid that encloses something.
 std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progress& progress)
 {
-  std::vector<Candidate> candidates;
+  std::vector<SurfaceCandidate> candidates;
   for (const unsigned resolution : Resolutions)
   {
     if (!progress(double(resolution) / FinestResolutions.back()))
     {
       break;
     }
-    Candidate next = candidate(cloud, resolution);
+    SurfaceCandidate next = candidate(cloud, resolution);
     const bool isLeaky = !candidates.empty() && next.interior < candidates.back().interior;
     if (next.enclosesSomething && !isLeaky)
     {
@@ -167,7 +167,7 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progres
     {
       break;
     }
-    Candidate next = candidate(cloud, resolution);
+    SurfaceCandidate next = candidate(cloud, resolution);
     if (next.interior < candidates.back().interior)
     {
       break;
@@ -177,7 +177,7 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progres
   // On fine grids outliers can make handles that coarser ones are without.
   const auto confirmed = std::adjacent_find(candidates.rbegin(), candidates.rend(), agree);
   const bool isCertain = confirmed != candidates.rend();
-  Candidate& best = isCertain ? *confirmed : candidates.back();
+  SurfaceCandidate& best = isCertain ? *confirmed : candidates.back();
   return FirstSurface{ meshOf(std::move(best.surface), cloud), best.resolution, best.genus,
     best.components, false, isCertain, best.bridgeWidth };
 }

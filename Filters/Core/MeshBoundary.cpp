@@ -32,7 +32,7 @@ std::vector<std::pair<VertexIndex, VertexIndex>> stripEdges(std::span<const Vert
 using Slots = std::bitset<Ring::Capacity>;
 
 /// Triangles at a vertex, each beside the next.
-struct Fan
+struct BoundaryFan
 {
   unsigned first = 0; ///< slot
   unsigned triangleCount = 0;
@@ -45,18 +45,19 @@ struct Fan
 
 /// The largest fan that is left at a vertex without the triangles in `removed`, which are some; of
 /// equally large ones the first.
-Fan largestFan(const Ring& ring, const Slots& removed)
+BoundaryFan largestFan(const Ring& ring, const Slots& removed)
 {
   unsigned begin = 0;
   while (!ring.isOpen() && !removed[begin])
   {
     ++begin;
   }
-  Fan largest, fan;
+  BoundaryFan largest, fan;
   for (unsigned i = 0; i < ring.triangleCount(); ++i)
   {
     const unsigned slot = ring.after(begin, i);
-    fan = removed[slot] ? Fan{ ring.after(slot), 0 } : Fan{ fan.first, fan.triangleCount + 1 };
+    fan = removed[slot] ? BoundaryFan{ ring.after(slot), 0 }
+                        : BoundaryFan{ fan.first, fan.triangleCount + 1 };
     largest = fan.triangleCount > largest.triangleCount ? fan : largest;
   }
   return largest;
@@ -89,7 +90,7 @@ Mesh::Removal Mesh::removeTriangles(std::span<const Triangle> triangles)
     const VertexIndex v = changed.back();
     changed.pop_back();
     const Ring& ring = this->ring(v);
-    const Fan fan = largestFan(ring, removed[v]);
+    const BoundaryFan fan = largestFan(ring, removed[v]);
     for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
     {
       if (!removed[v][slot] && !fan.contains(ring, slot))
@@ -105,7 +106,7 @@ Mesh::Removal Mesh::removeTriangles(std::span<const Triangle> triangles)
     result.vertices.push_back(v);
     result.triangleCount += slots.count();
     const Ring ring = this->ring(v);
-    const Fan fan = largestFan(ring, slots);
+    const BoundaryFan fan = largestFan(ring, slots);
     if (fan.triangleCount == 0)
     {
       this->eraseVertex(v);

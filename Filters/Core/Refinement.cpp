@@ -13,14 +13,14 @@ namespace
 {
 /// A vertex, by the edge that its split would halve: the longest one, at a boundary the longest
 /// along it.
-struct Candidate
+struct SplitCandidate
 {
   float squaredLength;
   VertexIndex vertex;
-  auto operator<=>(const Candidate&) const = default;
+  auto operator<=>(const SplitCandidate&) const = default;
 };
 
-Candidate candidate(const Mesh& mesh, VertexIndex v)
+SplitCandidate candidate(const Mesh& mesh, VertexIndex v)
 {
   float longest = 0.f;
   for (const VertexIndex neighbor : mesh.ring(v))
@@ -37,18 +37,18 @@ Candidate candidate(const Mesh& mesh, VertexIndex v)
 std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count)
 {
   std::vector<VertexIndex> origins;
-  std::priority_queue<Candidate> candidates;
+  std::priority_queue<SplitCandidate> candidates;
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
     candidates.push(candidate(mesh, v));
   }
   while (mesh.vertexCount() < count && !candidates.empty())
   {
-    const Candidate longest = candidates.top();
+    const SplitCandidate longest = candidates.top();
     const VertexIndex v = longest.vertex;
     candidates.pop();
     // Edges become shorter, or longer by flips: then the vertex comes again.
-    if (const Candidate now = candidate(mesh, v); now != longest)
+    if (const SplitCandidate now = candidate(mesh, v); now != longest)
     {
       candidates.push(now);
       continue;

@@ -15,7 +15,7 @@ constexpr double Slip = 0.01;
 /// In the first round samples are no outliers up to so many edges: the mesh does not fit yet.
 constexpr float FirstOutlierEdges = 1.f;
 constexpr float LaterOutlierEdges = 0.5f;
-constexpr std::size_t SamplesPerCheck = 16384;
+constexpr std::size_t SamplesPerAbortCheck = 16384;
 /// Of the residual of the equations, against the largest at the start of a round.
 constexpr double Tolerance = 1e-3;
 /// While lambda is chosen, against that at the start.
@@ -68,7 +68,7 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   std::vector<float> distances(this->samples_.size());
   for (std::size_t i = 0; i < this->samples_.size(); ++i)
   {
-    if (i % SamplesPerCheck == 0 && !progress(double(i) / double(this->samples_.size())))
+    if (i % SamplesPerAbortCheck == 0 && !progress(double(i) / double(this->samples_.size())))
     {
       return false;
     }

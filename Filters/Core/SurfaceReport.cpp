@@ -18,10 +18,10 @@ namespace
 {
 using Index = std::uint32_t;
 
-const double FoldCosine = std::cos(150. * std::numbers::pi / 180.);
+const double FoldedCosine = std::cos(150. * std::numbers::pi / 180.);
 
 /// An edge as one triangle sees it. Corner 3 t + k is the k-th of triangle t.
-struct Side
+struct EdgeSide
 {
   Index low;
   Index high;
@@ -30,7 +30,7 @@ struct Side
   bool upwards; ///< whether the triangle runs from low to high
 
   std::size_t triangle() const { return this->cornerAtLow / 3; }
-  bool isSameEdge(const Side& other) const
+  bool isSameEdge(const EdgeSide& other) const
   {
     return this->low == other.low && this->high == other.high;
   }
@@ -126,24 +126,24 @@ private:
         const std::size_t next = (k + 1) % 3;
         const bool upwards = triangle[k] < triangle[next];
         const std::size_t low = upwards ? k : next, high = upwards ? next : k;
-        use(Side{ triangle[low], triangle[high], 3 * t + low, 3 * t + high, upwards });
+        use(EdgeSide{ triangle[low], triangle[high], 3 * t + low, 3 * t + high, upwards });
       }
     }
   }
 
   /// All sides, those of an edge one behind the other: in buckets by the lower point, then sorted.
-  std::vector<Side> sortedSides() const
+  std::vector<EdgeSide> sortedSides() const
   {
     std::vector<std::size_t> ends(this->mesh_.points.size() + 1, 0);
-    this->forEachSide([&](const Side& side) { ++ends[side.low + 1]; });
+    this->forEachSide([&](const EdgeSide& side) { ++ends[side.low + 1]; });
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::vector<Side> sides(ends.back());
-    this->forEachSide([&](const Side& side) { sides[ends[side.low]++] = side; });
+    std::vector<EdgeSide> sides(ends.back());
+    this->forEachSide([&](const EdgeSide& side) { sides[ends[side.low]++] = side; });
     auto begin = sides.begin();
     for (std::size_t point = 0; point < this->mesh_.points.size(); ++point)
     {
       const auto end = sides.begin() + std::ptrdiff_t(ends[point]);
-      std::sort(begin, end, [](const Side& a, const Side& b) { return a.high < b.high; });
+      std::sort(begin, end, [](const EdgeSide& a, const EdgeSide& b) { return a.high < b.high; });
       begin = end;
     }
     return sides;
@@ -151,23 +151,23 @@ private:
 
   void visitEdges()
   {
-    const std::vector<Side> sides = this->sortedSides();
+    const std::vector<EdgeSide> sides = this->sortedSides();
     for (auto first = sides.begin(); first != sides.end();)
     {
       const auto last = std::find_if(
-        first, sides.end(), [&](const Side& side) { return !side.isSameEdge(*first); });
+        first, sides.end(), [&](const EdgeSide& side) { return !side.isSameEdge(*first); });
       this->visitEdge({ first, last });
       first = last;
     }
   }
 
-  void visitEdge(std::span<const Side> sides)
+  void visitEdge(std::span<const EdgeSide> sides)
   {
-    const Side& first = sides.front();
+    const EdgeSide& first = sides.front();
     ++this->edges_;
     ++this->valences_[first.low];
     ++this->valences_[first.high];
-    for (const Side& side : sides)
+    for (const EdgeSide& side : sides)
     {
       this->fans_.join(first.cornerAtLow, side.cornerAtLow);
       this->fans_.join(first.cornerAtHigh, side.cornerAtHigh);
@@ -189,7 +189,7 @@ private:
     }
   }
 
-  void visitInnerEdge(const Side& one, const Side& other)
+  void visitInnerEdge(const EdgeSide& one, const EdgeSide& other)
   {
     const bool consistent = one.upwards != other.upwards;
     this->report_.inconsistentEdges += !consistent;
@@ -201,7 +201,7 @@ private:
     const Eigen::Vector3d a = twiceAreaNormal(this->mesh_, one.triangle());
     const Eigen::Vector3d b =
       (consistent ? 1. : -1.) * twiceAreaNormal(this->mesh_, other.triangle());
-    this->report_.foldedEdges += a.dot(b) < FoldCosine * a.norm() * b.norm();
+    this->report_.foldedEdges += a.dot(b) < FoldedCosine * a.norm() * b.norm();
   }
 
   void reportVertices()
@@ -269,13 +269,13 @@ private:
   {
     this->report_.boundaryEdges = this->boundary_.size();
     DisjointSets loops(this->fans_);
-    for (const Side& side : this->boundary_)
+    for (const EdgeSide& side : this->boundary_)
     {
       loops.join(side.cornerAtLow, side.cornerAtHigh);
     }
     std::vector<std::size_t> roots;
     roots.reserve(this->boundary_.size());
-    for (const Side& side : this->boundary_)
+    for (const EdgeSide& side : this->boundary_)
     {
       roots.push_back(loops.root(side.cornerAtLow));
     }
@@ -290,7 +290,7 @@ private:
   DisjointSets faces_;  ///< fronts (even) and backs (odd) of triangles
   std::vector<std::size_t> valences_;
   std::vector<bool> isOnBoundary_;
-  std::vector<Side> boundary_;
+  std::vector<EdgeSide> boundary_;
   std::size_t edges_ = 0;
   double volume_ = 0.;
   SurfaceReport report_;

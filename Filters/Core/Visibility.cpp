@@ -7,20 +7,20 @@ namespace neuralmesh
 {
 namespace
 {
-using Corners = std::array<Eigen::Vector3d, 3>;
+using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 
 /// As a fraction of the diagonal.
-constexpr double Tolerance = 1e-6;
+constexpr double HitTolerance = 1e-6;
 /// As a fraction of a triangle: nothing is seen through the edge between two.
 constexpr double Rim = 1e-12;
 
-Corners cornersOf(const TriangleMesh& surface, std::uint32_t triangle)
+TriangleCorners cornersOf(const TriangleMesh& surface, std::uint32_t triangle)
 {
   const auto& [a, b, c] = surface.triangles[triangle];
   return { surface.points[a], surface.points[b], surface.points[c] };
 }
 
-Eigen::AlignedBox3d boxOf(const Corners& corners)
+Eigen::AlignedBox3d boxOf(const TriangleCorners& corners)
 {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& corner : corners)
@@ -105,7 +105,7 @@ Visibility::Visibility(const TriangleMesh& surface, const Eigen::Vector3d& viewp
     bounds.extend(boxes.emplace_back(boxOf(cornersOf(surface, triangle))));
   }
   this->tree_.init(indices.begin(), indices.end(), boxes.begin(), boxes.end());
-  this->tolerance_ = boxes.empty() ? 0. : Tolerance * bounds.diagonal().norm();
+  this->tolerance_ = boxes.empty() ? 0. : HitTolerance * bounds.diagonal().norm();
 }
 
 bool Visibility::isSeen(const Eigen::Vector3d& point) const
