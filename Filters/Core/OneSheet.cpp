@@ -185,6 +185,11 @@ private:
       {
         continue;
       }
+      if (this->hasKeptSideBehind(t))
+      {
+        this->sides_[t] = Side::Other;
+        continue;
+      }
       this->sides_[t] = Side::Kept;
       this->markOtherSide(t);
       const auto& [a, b, c] = this->triangles_.all()[t];
@@ -200,25 +205,46 @@ private:
     }
   }
 
+  /// Whether a triangle turns its back on another one, as one side of the skin on the other side.
+  bool isBackToBack(std::uint32_t t, std::uint32_t other) const
+  {
+    const Vector4 offset = this->centers_[other] - this->centers_[t];
+    const float depth = -dot(offset, this->normals_[t]);
+    const float aside = squaredNorm(offset) - depth * depth;
+    const float width = OtherSideWidth * this->thickness_;
+    return depth > 0.f && depth < OtherSideDepth * this->thickness_ && aside < width * width &&
+      dot(this->normals_[other], this->normals_[t]) < OtherSideCosine;
+  }
+
   void markOtherSide(std::uint32_t t)
   {
-    const Vector4 center = this->centers_[t], normal = this->normals_[t];
-    const float width = OtherSideWidth * this->thickness_;
-    const auto consider = [&](std::uint32_t other)
-    {
-      const Vector4 offset = this->centers_[other] - center;
-      const float depth = -dot(offset, normal);
-      const float aside = squaredNorm(offset) - depth * depth;
-      if (this->sides_[other] == Side::Unknown && depth > 0.f &&
-        depth < OtherSideDepth * this->thickness_ && aside < width * width &&
-        dot(this->normals_[other], normal) < OtherSideCosine)
-      {
-        this->sides_[other] = Side::Other;
-      }
-    };
-    forEachCellAround(this->cells_, center, this->radius(),
+    forEachCellAround(this->cells_, this->centers_[t], this->radius(),
       [&](const std::vector<std::uint32_t>& cell)
-      { std::for_each(cell.begin(), cell.end(), consider); });
+      {
+        for (const std::uint32_t other : cell)
+        {
+          if (this->sides_[other] == Side::Unknown && this->isBackToBack(t, other))
+          {
+            this->sides_[other] = Side::Other;
+          }
+        }
+      });
+  }
+
+  /// Around a bend the outer side is the larger one: the inner side's triangles see but a part of
+  /// it behind them, while all of it has the inner side behind it.
+  bool hasKeptSideBehind(std::uint32_t t) const
+  {
+    bool result = false;
+    forEachCellAround(this->cells_, this->centers_[t], this->radius(),
+      [&](const std::vector<std::uint32_t>& cell)
+      {
+        result = result ||
+          std::any_of(cell.begin(), cell.end(),
+            [&](std::uint32_t other)
+            { return this->sides_[other] == Side::Kept && this->isBackToBack(t, other); });
+      });
+    return result;
   }
 
   const Mesh& skin_;
