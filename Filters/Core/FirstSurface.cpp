@@ -30,8 +30,9 @@ constexpr int SmoothingSteps = 4;
 /// Gaps of so many are closed by a grid.
 constexpr double ClosedVoxels = 2.;
 
-constexpr unsigned OpenResolution = 48;
-/// Of the skin around an open surface, in voxels.
+/// For the skin around an open surface, at least so many in an occupied voxel: with less, it is torn.
+constexpr double LeastPointsPerVoxel = 2.;
+/// Of a skin, in voxels.
 constexpr double SkinThickness = 1.5;
 /// Different ones. With less, a coarse grid tells nothing.
 constexpr std::size_t LeastPoints = 500;
@@ -50,6 +51,7 @@ struct SurfaceCandidate
 {
   unsigned resolution;
   TriangleMesh surface;
+  std::size_t occupied;
   std::size_t interior;
   bool enclosesSomething;
   std::size_t components;
@@ -60,8 +62,8 @@ struct SurfaceCandidate
 SurfaceCandidate candidate(const PointCloud& cloud, unsigned resolution)
 {
   const OccupiedSolid solid = occupiedSolid(cloud, resolution);
-  SurfaceCandidate result{ resolution, voxelSurface(solid.grid, solid.inside), solid.interiorCount,
-    solid.enclosesSomething(), 0, 0, ClosedVoxels * double(solid.grid.width) };
+  SurfaceCandidate result{ resolution, voxelSurface(solid.grid, solid.inside), solid.occupiedCount,
+    solid.interiorCount, solid.enclosesSomething(), 0, 0, ClosedVoxels * double(solid.grid.width) };
   DisjointSets sets(result.surface.points.size());
   result.components = result.surface.points.size();
   for (const auto& [a, b, c] : result.surface.triangles)
@@ -119,23 +121,26 @@ Mesh meshOf(TriangleMesh surface, const PointCloud& cloud)
   return mesh;
 }
 
-/// A thin closed skin around the points.
-std::optional<FirstSurface> skin(const PointCloud& cloud)
+/// A thin closed skin around the points: of the finest grid that the points are dense enough for.
+std::optional<FirstSurface> skin(
+  const PointCloud& cloud, std::vector<SurfaceCandidate>&& candidates)
 {
-  const OccupiedSolid solid = occupiedSolid(cloud, OpenResolution);
-  TriangleMesh surface = voxelSurface(solid.grid, solid.inside);
-  if (surface.triangles.empty())
+  const auto isDense = [&](const SurfaceCandidate& candidate)
+  { return double(cloud.points().size()) >= LeastPointsPerVoxel * double(candidate.occupied); };
+  const auto finest = std::find_if(candidates.rbegin(), candidates.rend(), isDense);
+  if (finest == candidates.rend() || finest->surface.triangles.empty())
   {
     return {};
   }
-  FirstSurface result{ meshOf(std::move(surface), cloud), OpenResolution };
-  result.bridgeWidth = ClosedVoxels * double(solid.grid.width);
-  result.skinThickness = float(SkinThickness * solid.grid.width);
+  FirstSurface result{ meshOf(std::move(finest->surface), cloud), finest->resolution };
+  result.bridgeWidth = finest->bridgeWidth;
+  result.skinThickness = float(SkinThickness / ClosedVoxels * finest->bridgeWidth);
   return result;
 }
 
-/// Of the finest grid that encloses something.
-std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progress& progress)
+/// Of the finest grid that encloses something; if there is none, what all grids gave are `skins`.
+std::optional<FirstSurface> closedSurface(
+  const PointCloud& cloud, std::vector<SurfaceCandidate>& skins, const Progress& progress)
 {
   std::vector<SurfaceCandidate> candidates;
   for (const unsigned resolution : Resolutions)
@@ -153,6 +158,10 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud, const Progres
     else if (!candidates.empty())
     {
       break;
+    }
+    else
+    {
+      skins.push_back(std::move(next));
     }
   }
   if (candidates.empty())
@@ -283,10 +292,12 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
     const std::size_t count = surface.mesh.vertexCount();
     return count > 3 && count <= mostVertices;
   };
-  std::optional<FirstSurface> result = closedSurface(cloud, partOf(progress, 0., PartOfGrids));
+  std::vector<SurfaceCandidate> skins;
+  std::optional<FirstSurface> result =
+    closedSurface(cloud, skins, partOf(progress, 0., PartOfGrids));
   const Progress fitting = partOf(progress, PartOfGrids, 1.);
-  bool hasInterior = result.has_value();
-  if (!hasInterior && (result = skin(cloud)))
+  const bool hasInterior = result.has_value();
+  if (!hasInterior && (result = skin(cloud, std::move(skins))))
   {
     auto sheet = openSurface(cloud, *result, mostVertices, boundaries, partOf(fitting, 0., 0.5));
     if (sheet && hasRightSize(*sheet))

@@ -2,17 +2,19 @@
 #include "OneSheet.h"
 
 #include "BoundaryFilling.h"
-#include "NumberedTriangles.h"
 #include "SmallPieces.h"
+#include "VoxelNeighbors.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <queue>
+#include <span>
 #include <tuple>
-#include <unordered_map>
 #include <vector>
 
 namespace neuralmesh
@@ -25,6 +27,8 @@ constexpr float PlaneCell = 1.3f;
 constexpr float OtherSideDepth = 2.f;
 /// and how far aside.
 constexpr float OtherSideWidth = 1.f;
+/// Of the ball with those at most, about the middle of that depth.
+const float OtherSideReach = std::hypot(0.5f * OtherSideDepth, OtherSideWidth);
 /// The cosine between the normals of both sides, at most.
 constexpr float OtherSideCosine = -0.4f;
 /// Holes are filled up to edges of so many thicknesses.
@@ -56,33 +60,106 @@ struct Moments
   }
 };
 
+/// Points by the voxels that they lie in.
+class PointsInVoxels
+{
+public:
+  PointsInVoxels(std::span<const Vector4> points, double width)
+  {
+    Eigen::AlignedBox3d box;
+    for (const Vector4 point : points)
+    {
+      box.extend(point.toDouble());
+    }
+    // With layers around, so that all have neighbours.
+    this->grid_.width = width;
+    this->grid_.first = box.min().array() - 2. * width;
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+      this->grid_.counts[std::size_t(axis)] = std::size_t(box.sizes()[axis] / width) + 6;
+    }
+    std::vector<std::size_t> voxels;
+    voxels.reserve(points.size());
+    this->ends_.assign(this->grid_.size() + 1, 0);
+    for (const Vector4 point : points)
+    {
+      voxels.push_back(this->voxelAt(point));
+      ++this->ends_[voxels.back() + 1];
+    }
+    std::partial_sum(this->ends_.begin(), this->ends_.end(), this->ends_.begin());
+    this->numbers_.resize(points.size());
+    std::vector<std::uint32_t> next(this->ends_.begin(), this->ends_.end() - 1);
+    for (std::uint32_t i = 0; i < voxels.size(); ++i)
+    {
+      this->numbers_[next[voxels[i]]++] = i;
+    }
+  }
+
+  const VoxelGrid& grid() const { return this->grid_; }
+  std::size_t voxelAt(Vector4 point) const { return this->grid_.voxelAt(point.toDouble()); }
+  /// The numbers of the points in a voxel.
+  std::span<const std::uint32_t> in(std::size_t voxel) const
+  {
+    return { this->numbers_.data() + this->ends_[voxel],
+      this->numbers_.data() + this->ends_[voxel + 1] };
+  }
+  /// Calls `use` for the numbers of the points in the voxel with a place, and in those around it.
+  template <typename Use>
+  void forEachAround(Vector4 place, Use use) const
+  {
+    const std::size_t voxel = this->voxelAt(place);
+    if (voxel == this->grid_.size())
+    {
+      return;
+    }
+    const auto useAll = [&](std::size_t v) { std::ranges::for_each(this->in(v), use); };
+    useAll(voxel);
+    forEachNeighbor(this->grid_, voxel, useAll);
+  }
+
+private:
+  VoxelGrid grid_;
+  std::vector<std::uint32_t> ends_;
+  std::vector<std::uint32_t> numbers_;
+};
+
+std::vector<Vector4> normalsOf(const Mesh& mesh)
+{
+  std::vector<Vector4> normals(mesh.indexEnd());
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    {
+      const Vector4 p = mesh.position(a);
+      const Vector4 normal = cross(mesh.position(b) - p, mesh.position(c) - p);
+      for (const VertexIndex v : { a, b, c })
+      {
+        normals[v] += normal;
+      }
+    });
+  for (Vector4& normal : normals)
+  {
+    const float length = std::sqrt(squaredNorm(normal));
+    normal = length > 0.f ? 1.f / length * normal : Vector4();
+  }
+  return normals;
+}
+
 class SheetFlood
 {
 public:
   SheetFlood(const Mesh& skin, float thickness)
     : skin_(skin)
     , thickness_(thickness)
-    , triangles_(skin)
+    , normals_(normalsOf(skin))
+    , voxels_(skin.positions(), OtherSideReach * thickness)
   {
-    for (const auto& [a, b, c] : this->triangles_.all())
-    {
-      const auto number = std::uint32_t(this->centers_.size());
-      const Vector4 p = skin.position(a), q = skin.position(b), r = skin.position(c);
-      const Vector4 normal = cross(q - p, r - p);
-      const float length = std::sqrt(squaredNorm(normal));
-      this->normals_.push_back(length > 0.f ? 1.f / length * normal : Vector4());
-      this->centers_.push_back(1.f / 3.f * (p + q + r));
-      this->cells_[keyOf(cellPlace(this->centers_.back(), this->radius()))].push_back(number);
-      this->moments_[keyOf(cellPlace(this->centers_.back(), this->planeCell()))].add(
-        this->centers_.back().toDouble());
-    }
     this->findSteepness();
   }
 
   /// The triangles that do not belong to the side that is kept.
   std::vector<Triangle> otherSide()
   {
-    std::vector<std::uint32_t> byFlatness(this->triangles_.all().size());
+    std::vector<std::uint32_t> byFlatness(this->normals_.size());
     for (std::uint32_t t = 0; t < byFlatness.size(); ++t)
     {
       byFlatness[t] = t;
@@ -90,7 +167,7 @@ public:
     std::sort(byFlatness.begin(), byFlatness.end(),
       [&](std::uint32_t a, std::uint32_t b)
       { return std::tie(this->steepness_[a], a) < std::tie(this->steepness_[b], b); });
-    this->sides_.assign(this->triangles_.all().size(), Side::Unknown);
+    this->sides_.assign(this->normals_.size(), Side::Unknown);
     for (const std::uint32_t seed : byFlatness)
     {
       if (this->sides_[seed] == Side::Unknown)
@@ -99,13 +176,14 @@ public:
       }
     }
     std::vector<Triangle> result;
-    for (std::size_t t = 0; t < this->triangles_.all().size(); ++t)
-    {
-      if (this->sides_[t] != Side::Kept)
+    this->skin_.forEachTriangle(
+      [&](VertexIndex a, VertexIndex b, VertexIndex c)
       {
-        result.push_back(this->triangles_.all()[t]);
-      }
-    }
+        if (!this->isKept(a) || !this->isKept(b) || !this->isKept(c))
+        {
+          result.push_back({ a, b, c });
+        }
+      });
     return result;
   }
 
@@ -117,58 +195,36 @@ private:
     Other
   };
 
-  static std::uint64_t key(int x, int y, int z)
-  {
-    constexpr int Bits = 21, Middle = 1 << (Bits - 1);
-    return std::uint64_t(x + Middle) << 2 * Bits | std::uint64_t(y + Middle) << Bits |
-      std::uint64_t(z + Middle);
-  }
-  static std::uint64_t keyOf(const std::array<int, 3>& place)
-  {
-    return key(place[0], place[1], place[2]);
-  }
-  static std::array<int, 3> cellPlace(Vector4 point, float width)
-  {
-    return { int(std::floor(point[0] / width)), int(std::floor(point[1] / width)),
-      int(std::floor(point[2] / width)) };
-  }
-  /// Calls `use` for the content of the cells of a map around a point.
-  template <typename Map, typename Use>
-  static void forEachCellAround(const Map& cells, Vector4 point, float width, Use use)
-  {
-    const auto [x, y, z] = cellPlace(point, width);
-    for (int k = z - 1; k <= z + 1; ++k)
-    {
-      for (int j = y - 1; j <= y + 1; ++j)
-      {
-        for (int i = x - 1; i <= x + 1; ++i)
-        {
-          const auto cell = cells.find(key(i, j, k));
-          if (cell != cells.end())
-          {
-            use(cell->second);
-          }
-        }
-      }
-    }
-  }
-  float radius() const { return OtherSideDepth * this->thickness_; }
-  float planeCell() const { return PlaneCell * this->thickness_; }
-
   /// How far a triangle is from lying in the plane of the sheet around it: 0 on a flat side, 1 on
   /// its rim. Both sides together tell that plane.
   void findSteepness()
   {
-    this->steepness_.resize(this->triangles_.all().size());
-    for (std::size_t t = 0; t < this->triangles_.all().size(); ++t)
+    this->steepness_.resize(this->normals_.size());
+    const PointsInVoxels cells(this->skin_.positions(), PlaneCell * this->thickness_);
+    std::vector<Moments> moments(cells.grid().size());
+    std::vector<std::size_t> filled;
+    for (std::size_t cell = 0; cell < moments.size(); ++cell)
     {
-      Moments sum;
-      forEachCellAround(this->moments_, this->centers_[t], this->planeCell(),
-        [&](const Moments& moments) { sum += moments; });
+      for (const std::uint32_t t : cells.in(cell))
+      {
+        moments[cell].add(this->skin_.position(t).toDouble());
+      }
+      if (!cells.in(cell).empty())
+      {
+        filled.push_back(cell);
+      }
+    }
+    for (const std::size_t cell : filled)
+    {
+      Moments sum = moments[cell];
+      forEachNeighbor(cells.grid(), cell, [&](std::size_t neighbor) { sum += moments[neighbor]; });
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
       solver.computeDirect(sum.covariance());
       const Eigen::Vector3d across = solver.eigenvectors().col(0);
-      this->steepness_[t] = float(1. - std::abs(across.dot(this->normals_[t].toDouble())));
+      for (const std::uint32_t t : cells.in(cell))
+      {
+        this->steepness_[t] = float(1. - std::abs(across.dot(this->normals_[t].toDouble())));
+      }
     }
   }
 
@@ -192,11 +248,8 @@ private:
       }
       this->sides_[t] = Side::Kept;
       this->markOtherSide(t);
-      const auto& [a, b, c] = this->triangles_.all()[t];
-      for (const auto& [from, to] : { std::pair(a, b), std::pair(b, c), std::pair(c, a) })
+      for (const VertexIndex next : this->skin_.ring(t))
       {
-        // The triangle on the other side of the edge.
-        const std::uint32_t next = this->triangles_.number(to, from);
         if (this->sides_[next] == Side::Unknown)
         {
           open.emplace(this->steepness_[next], next);
@@ -205,10 +258,12 @@ private:
     }
   }
 
+  bool isKept(VertexIndex v) const { return this->sides_[v] == Side::Kept; }
+
   /// Whether a triangle turns its back on another one, as one side of the skin on the other side.
   bool isBackToBack(std::uint32_t t, std::uint32_t other) const
   {
-    const Vector4 offset = this->centers_[other] - this->centers_[t];
+    const Vector4 offset = this->skin_.position(other) - this->skin_.position(t);
     const float depth = -dot(offset, this->normals_[t]);
     const float aside = squaredNorm(offset) - depth * depth;
     const float width = OtherSideWidth * this->thickness_;
@@ -216,17 +271,20 @@ private:
       dot(this->normals_[other], this->normals_[t]) < OtherSideCosine;
   }
 
+  /// Where those lie on which a triangle can turn its back.
+  Vector4 placeBehind(std::uint32_t t) const
+  {
+    return this->skin_.position(t) - 0.5f * OtherSideDepth * this->thickness_ * this->normals_[t];
+  }
+
   void markOtherSide(std::uint32_t t)
   {
-    forEachCellAround(this->cells_, this->centers_[t], this->radius(),
-      [&](const std::vector<std::uint32_t>& cell)
+    this->voxels_.forEachAround(this->placeBehind(t),
+      [&](std::uint32_t other)
       {
-        for (const std::uint32_t other : cell)
+        if (this->sides_[other] == Side::Unknown && this->isBackToBack(t, other))
         {
-          if (this->sides_[other] == Side::Unknown && this->isBackToBack(t, other))
-          {
-            this->sides_[other] = Side::Other;
-          }
+          this->sides_[other] = Side::Other;
         }
       });
   }
@@ -236,24 +294,16 @@ private:
   bool hasKeptSideBehind(std::uint32_t t) const
   {
     bool result = false;
-    forEachCellAround(this->cells_, this->centers_[t], this->radius(),
-      [&](const std::vector<std::uint32_t>& cell)
-      {
-        result = result ||
-          std::any_of(cell.begin(), cell.end(),
-            [&](std::uint32_t other)
-            { return this->sides_[other] == Side::Kept && this->isBackToBack(t, other); });
-      });
+    this->voxels_.forEachAround(this->placeBehind(t),
+      [&](std::uint32_t other)
+      { result = result || (this->sides_[other] == Side::Kept && this->isBackToBack(t, other)); });
     return result;
   }
 
   const Mesh& skin_;
   float thickness_;
-  NumberedTriangles triangles_;
   std::vector<Vector4> normals_;
-  std::vector<Vector4> centers_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
-  std::unordered_map<std::uint64_t, Moments> moments_;
+  PointsInVoxels voxels_;
   std::vector<float> steepness_;
   std::vector<Side> sides_;
 };
