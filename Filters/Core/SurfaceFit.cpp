@@ -21,6 +21,12 @@ constexpr double Tolerance = 1e-3;
 /// While lambda is chosen, against that at the start.
 constexpr double ToleranceOfChoice = 1e-2;
 
+// The pull inwards at boundaries
+/// Chance at which a strip along a boundary has no sample although there is data.
+constexpr double ChanceOfEmptyStrip = 0.01;
+/// Where a whole triangle is without, how far its edge goes towards the corner within.
+constexpr double RetreatOfEmpty = 0.5;
+
 // The choice of lambda
 constexpr double FirstSmoothness = 1000.;
 constexpr double LeastSmoothness = 0.03;
@@ -103,6 +109,67 @@ void SurfaceFit::fillSystem()
         isOnBoundary(place, this->mesh_) ? Vector4() : normalAt(place, this->mesh_.positions());
       this->system_->add(place, this->samples_[i], normal, this->weight(i));
       ++this->usedCount_;
+    }
+  }
+  this->pullBoundariesIn();
+}
+
+/// Samples beyond a boundary pull it outwards, but where it is beyond the samples there are none to
+/// pull it back. So from each triangle at a boundary that has no samples in a strip along it, one is
+/// added for the edge, where the samples begin.
+void SurfaceFit::pullBoundariesIn()
+{
+  /// Samples on the triangle at a boundary edge.
+  struct Strip
+  {
+    std::uint32_t samples = 0;
+    float width = 1.f; ///< without samples, against the height of the triangle
+  };
+  const Mesh& mesh = this->mesh_;
+  std::vector<Strip> strips(mesh.indexEnd()); // of the edges to the first neighbour
+  for (const PlaceOnMesh& place : this->places_)
+  {
+    if (!this->isUsed(place))
+    {
+      continue;
+    }
+    for (unsigned i = 0; i < 3; ++i)
+    {
+      const VertexIndex from = place.triangle[(i + 1) % 3], to = place.triangle[(i + 2) % 3];
+      if (mesh.isBoundary(from) && mesh.ring(from).front() == to)
+      {
+        Strip& strip = strips[from];
+        ++strip.samples;
+        strip.width = std::min(strip.width, place.weights[int(i)]);
+      }
+    }
+  }
+  const double samplesPerTriangle = double(this->usedCount_) / (2. * double(mesh.vertexCount()));
+  const double logarithm = std::log(ChanceOfEmptyStrip);
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    if (!mesh.isBoundary(v))
+    {
+      continue;
+    }
+    const double samples = strips[v].samples, width = strips[v].width;
+    double retreat = 0.;
+    if (samples > 0. && 2. * samples * std::log(1. - width) < logarithm)
+    {
+      // What the strip would be on average if the edge were where the data ends.
+      retreat = width - 1. / (2. * samples + 1.);
+    }
+    else if (samples == 0. && -samplesPerTriangle < logarithm)
+    {
+      retreat = RetreatOfEmpty;
+    }
+    if (retreat > 0.)
+    {
+      const Ring& ring = mesh.ring(v);
+      const PlaceOnMesh place{ { v, ring[0], ring[1] }, Vector4(0.5f, 0.5f, 0.f), 0.f };
+      const Vector4 edge = pointAt(place, mesh.positions());
+      this->system_->add(place, edge + float(retreat) * (mesh.position(ring[1]) - edge), Vector4(),
+        float(std::max(1., samples)));
     }
   }
 }

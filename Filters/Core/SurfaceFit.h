@@ -67,6 +67,7 @@ private:
     return this->weights_.empty() ? 1.f : this->weights_[sample];
   }
   void fillSystem();
+  void pullBoundariesIn();
   bool chooseSmoothness(const Progress& progress);
   double residualVariance(std::span<const Vector4> positions, double lambda) const;
   double roughness(std::span<const Vector4> positions) const;
