@@ -23,7 +23,7 @@ constexpr double ToleranceOfChoice = 1e-2;
 
 // The pull inwards at boundaries
 /// Chance at which a strip along a boundary has no sample although there is data.
-constexpr double ChanceOfEmptyStrip = 0.01;
+constexpr double ChanceOfEmptyStrip = 0.05;
 /// Where a whole triangle is without, how far its edge goes towards the corner within.
 constexpr double RetreatOfEmpty = 0.5;
 
