@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace neuralmesh
 {
@@ -22,10 +23,14 @@ constexpr double LeastExpectedSamples = 10.;
 /// It is one if a triangle of it is so many times the distance between samples away from all
 /// points. Where points are spread by chance, such a place is one of e^28.
 constexpr double LeastSpacings = 3.;
-constexpr std::size_t LeastSamplesPerTriangle = 2;
 /// ... and so many times the median distance between samples and mesh: points with noise do not lie
 /// on it.
 constexpr double LeastMedians = 5.;
+/// With less samples, triangles without any are everywhere, and hang together. A triangle is empty
+/// then if it is so many times the distance between samples away from all points: one of e^7 is by
+/// chance.
+constexpr std::size_t LeastSamplesPerTriangle = 2;
+constexpr double LeastSpacingsIfEmpty = 1.5;
 
 double areaOf(const Mesh& mesh, const Triangle& triangle)
 {
@@ -66,19 +71,19 @@ struct Piece
   }
 };
 
-/// Finds pieces, connected by vertices.
-std::vector<Piece> findPieces(
-  const Mesh& mesh, const NumberedTriangles& triangles, std::span<const std::uint32_t> samples)
+/// Finds pieces of those triangles that are empty, connected by vertices.
+std::vector<Piece> findPieces(const Mesh& mesh, const NumberedTriangles& triangles,
+  std::span<const std::uint32_t> samples, const std::vector<bool>& isEmpty)
 {
   DisjointSets sets(samples.size());
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
     const auto around = triangles.at(v);
-    const auto isEmpty = [&](std::uint32_t t) { return samples[t] == 0; };
-    const auto first = std::find_if(around.begin(), around.end(), isEmpty);
+    const auto first =
+      std::find_if(around.begin(), around.end(), [&](std::uint32_t t) { return isEmpty[t]; });
     for (const std::uint32_t t : around)
     {
-      if (isEmpty(t))
+      if (isEmpty[t])
       {
         sets.join(t, *first);
       }
@@ -99,7 +104,7 @@ std::vector<Piece> findPieces(
   for (std::uint32_t t = 0; t < samples.size(); ++t)
   {
     const double area = areaOf(mesh, triangles.all()[t]);
-    if (samples[t] == 0)
+    if (isEmpty[t])
     {
       Piece& piece = pieceWith(t);
       piece.area += area;
@@ -116,7 +121,7 @@ std::vector<Piece> findPieces(
       for (const std::uint32_t other : triangles.at(v))
       {
         const std::size_t root = sets.root(other);
-        if (samples[other] == 0 && std::find(touched.begin(), touched.end(), root) == touched.end())
+        if (isEmpty[other] && std::find(touched.begin(), touched.end(), root) == touched.end())
         {
           touched.push_back(root);
           Piece& piece = pieceWith(other);
@@ -170,26 +175,35 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   {
     ++samples[triangles.number(place.triangle[0], place.triangle[1])];
   }
-  std::vector<Piece> pieces = findPieces(mesh, triangles, samples);
-  std::erase_if(
-    pieces, [](const Piece& piece) { return piece.area * piece.density() < LeastExpectedSamples; });
-  std::vector<Triangle> gaps;
-  if (pieces.empty())
+  std::optional<SomePoints> points;
+  const auto distance = [&](std::uint32_t t)
   {
-    return gaps;
+    if (!points)
+    {
+      points.emplace(cloud, places.size());
+    }
+    return points->distance(centerOf(mesh, triangles.all()[t]));
+  };
+  const bool isFine = places.size() < LeastSamplesPerTriangle * triangles.all().size();
+  const double meanDensity = isFine ? double(places.size()) / areaOf(mesh) : 0.;
+  const double meanSpacing = isFine ? 1. / std::sqrt(meanDensity) : 0.;
+  std::vector<bool> isEmpty(samples.size());
+  for (std::uint32_t t = 0; t < samples.size(); ++t)
+  {
+    isEmpty[t] = samples[t] == 0 && (!isFine || distance(t) > LeastSpacingsIfEmpty * meanSpacing);
   }
-  const SomePoints points(cloud, places.size());
-  // Where triangles are smaller than the distance between samples, those with samples tell nothing
-  // of the density.
-  const double meanSpacing = places.size() < LeastSamplesPerTriangle * triangles.all().size()
-    ? std::sqrt(areaOf(mesh) / double(places.size()))
-    : 0.;
+  std::vector<Piece> pieces = findPieces(mesh, triangles, samples, isEmpty);
+  // Small triangles around a piece may have too few samples to tell.
+  const auto densityAt = [&](const Piece& piece)
+  { return isFine && piece.samplesAround < LeastExpectedSamples ? meanDensity : piece.density(); };
+  std::erase_if(pieces,
+    [&](const Piece& piece) { return piece.area * densityAt(piece) < LeastExpectedSamples; });
+  std::vector<Triangle> gaps;
   for (const Piece& piece : pieces)
   {
-    const double spacing = std::max(meanSpacing, 1. / std::sqrt(piece.density()));
+    const double spacing = std::max(meanSpacing, 1. / std::sqrt(densityAt(piece)));
     const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
-    const auto isFar = [&](std::uint32_t t)
-    { return points.distance(centerOf(mesh, triangles.all()[t])) > reach; };
+    const auto isFar = [&](std::uint32_t t) { return distance(t) > reach; };
     if (piece.isAtBoundary || std::any_of(piece.triangles.begin(), piece.triangles.end(), isFar))
     {
       for (const std::uint32_t t : piece.triangles)
@@ -200,6 +214,7 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   }
   return gaps;
 }
+
 OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const PlaceOnMesh> places,
   float medianDistance, double bridgeWidth)
 {

@@ -153,6 +153,31 @@ TEST(DataGaps, NoneBetweenScanLines)
   }
 }
 
+// A mesh with a boundary has no gaps, however much finer than the cloud it is; where it goes on
+// beyond the points, with a boundary or without, it has.
+TEST(DataGaps, MeshesFinerThanTheCloud)
+{
+  std::vector<Eigen::Vector3d> points = sphereCloud(CloudOptions{ .count = 4000 });
+  std::erase_if(points, [](const Eigen::Vector3d& point) { return point.z() > 0.; });
+  const PointCloud cloud(points);
+  for (const unsigned resolution : { 16u, 24u, 32u, 48u })
+  {
+    for (const double height : { 0., 0.6, 1. })
+    {
+      SCOPED_TRACE(std::to_string(resolution) + ", " + std::to_string(height));
+      TriangleMesh open = makeSphere(resolution);
+      std::erase_if(open.triangles,
+        [&](const auto& triangle)
+        {
+          return std::any_of(triangle.begin(), triangle.end(),
+            [&](std::uint32_t v) { return open.points[v].z() > height; });
+        });
+      Mesh mesh = buildMesh(open, cloud);
+      EXPECT_EQ(gapsOf(cloud, mesh).empty(), height == 0.);
+    }
+  }
+}
+
 // A hole through a cube, with a web on both sides: the webs are cut, and their rims joined to a
 // handle. Farther from each other than bridges are wide, they stay open.
 TEST(DataGaps, WebsAcrossHandlesAreCut)
