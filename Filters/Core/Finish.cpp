@@ -10,12 +10,12 @@
 namespace neuralmesh
 {
 Finish::Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters,
-  std::optional<double> bridgeWidth)
+  std::optional<double> bridgeWidth, std::size_t vertexCount)
   : cloud_(cloud)
   , mesh_(mesh)
   , parameters_(parameters)
   , bridgeWidth_(bridgeWidth)
-  , vertexCount_(mesh.vertexCount())
+  , vertexCount_(vertexCount)
   , origins_(mesh.vertexCount())
 {
   std::iota(this->origins_.begin(), this->origins_.end(), VertexIndex(0));
@@ -23,13 +23,19 @@ Finish::Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters
 
 bool Finish::run(const Progress& progress)
 {
-  const auto samples =
-    std::size_t(this->parameters_.fitSamples * double(this->mesh_.vertexCount()));
+  const auto samples = std::size_t(this->parameters_.fitSamples * double(this->vertexCount_));
   std::optional<SurfaceFit> surfaceFit(std::in_place, this->cloud_, this->mesh_, samples);
   double smoothness = this->parameters_.fitSmoothness;
   for (int round = 0; round < this->parameters_.fitRounds; ++round)
   {
     const double rounds = this->parameters_.fitRounds;
+    const bool isLast = round + 1 == this->parameters_.fitRounds;
+    if (isLast && this->mesh_.vertexCount() < this->vertexCount_)
+    {
+      this->refineTo(this->vertexCount_);
+      flipEdges(this->mesh_);
+      surfaceFit.emplace(this->cloud_, this->mesh_, samples);
+    }
     if (!this->fit(*surfaceFit, smoothness, partOf(progress, round / rounds, (round + 1) / rounds)))
     {
       return false;
@@ -73,11 +79,17 @@ bool Finish::openGaps(const SurfaceFit& surfaceFit)
     return false;
   }
   this->report_.gapTriangles = gaps.triangles;
+  const std::size_t learnt = this->origins_.size();
   this->origins_ = this->mesh_.dropErased();
-  for (const VertexIndex origin : refine(this->mesh_, this->vertexCount_))
+  this->refineTo(learnt);
+  return true;
+}
+
+void Finish::refineTo(std::size_t count)
+{
+  for (const VertexIndex origin : refine(this->mesh_, count))
   {
     this->origins_.push_back(this->origins_[origin]);
   }
-  return true;
 }
 }

@@ -25,13 +25,14 @@ struct FinishReport
 };
 
 /// What is done with a mesh once it is learnt: it is fitted to the cloud, opened where the scan has
-/// no data if there is a `bridgeWidth`, as openDataGaps() takes it, and made more regular. It keeps
-/// its number of vertices. No vertex may be erased, and none is in the end.
+/// no data if there is a `bridgeWidth`, as openDataGaps() takes it, and made more regular. In the end
+/// it has `vertexCount` vertices: if that is more than were learnt, long edges are halved. No vertex
+/// may be erased, and none is in the end.
 class Finish
 {
 public:
   Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters,
-    std::optional<double> bridgeWidth);
+    std::optional<double> bridgeWidth, std::size_t vertexCount);
 
   /// Returns false if it was ended before its end; then the mesh is valid all the same.
   bool run(const Progress& progress);
@@ -43,6 +44,7 @@ public:
 private:
   bool fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   bool openGaps(const SurfaceFit& surfaceFit);
+  void refineTo(std::size_t count);
 
   const PointCloud& cloud_;
   Mesh& mesh_;

@@ -191,17 +191,6 @@ std::optional<FirstSurface> closedSurface(
     best.components, false, isCertain, best.bridgeWidth };
 }
 
-/// Of points in Morton order, in which equal ones are neighbours.
-std::size_t countDifferent(std::span<const Vector4> points)
-{
-  std::size_t count = points.empty() ? 0 : 1;
-  for (std::size_t i = 1; i < points.size(); ++i)
-  {
-    count += squaredNorm(points[i] - points[i - 1]) > 0.f ? 1 : 0;
-  }
-  return count;
-}
-
 void closeBoundaries(Mesh& mesh)
 {
   BoundaryManager boundaries(mesh);
@@ -283,7 +272,7 @@ std::optional<FirstSurface> openSurface(const PointCloud& cloud, const FirstSurf
 std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
   Boundaries boundaries, const Progress& progress)
 {
-  if (countDifferent(cloud.points()) < LeastPoints)
+  if (cloud.differentCount() < LeastPoints)
   {
     return {};
   }

@@ -14,6 +14,8 @@ namespace
 {
 constexpr int MostIterations = 300;
 constexpr int IterationsPerCheck = 4;
+/// Held any smoother, boundaries would shrink: nothing but their own samples holds them out.
+constexpr double MostBoundarySmoothness = 20.;
 
 double dotOf(std::span<const Vector4> a, std::span<const Vector4> b)
 {
@@ -69,11 +71,21 @@ void FitSystem::applyLaplacian(std::span<const Vector4> x, std::span<Vector4> re
   applyUmbrella<float>(this->mesh_, x, result);
 }
 
+float FitSystem::boundaryPart(double lambda)
+{
+  return float(std::min(1., MostBoundarySmoothness / lambda));
+}
+
 void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vector4> laplacian,
   std::span<Vector4> result) const
 {
   this->applyLaplacian(x, laplacian);
   const auto smooth = float(lambda);
+  const float boundaryPart = this->boundaryPart(lambda);
+  for (VertexIndex v = 0; v < x.size(); ++v)
+  {
+    laplacian[v] = this->mesh_.isBoundary(v) ? boundaryPart * laplacian[v] : laplacian[v];
+  }
   for (VertexIndex v = 0; v < x.size(); ++v)
   {
     const Ring& ring = this->mesh_.ring(v);
@@ -101,13 +113,15 @@ FitSystem::Block FitSystem::Block::inverse() const
 std::vector<FitSystem::Block> FitSystem::inverseDiagonal(double lambda) const
 {
   std::vector<Block> result = this->diagonal_;
+  const float boundaryPart = this->boundaryPart(lambda);
+  const auto part = [&](VertexIndex v) { return this->mesh_.isBoundary(v) ? boundaryPart : 1.f; };
   for (VertexIndex v = 0; v < result.size(); ++v)
   {
-    float squares = 1.f;
+    float squares = part(v);
     for (const VertexIndex neighbor : this->mesh_.ring(v))
     {
       const auto weight = umbrellaWeight<float>(this->mesh_.ring(neighbor), v);
-      squares += weight * weight;
+      squares += part(neighbor) * weight * weight;
     }
     const float smooth = float(lambda) * squares;
     result[v].diagonal += Vector4(smooth, smooth, smooth);

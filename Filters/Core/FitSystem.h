@@ -56,6 +56,8 @@ private:
 
   void apply(double lambda, std::span<const Vector4> x, std::span<Vector4> laplacian,
     std::span<Vector4> result) const;
+  /// Of lambda, for the vertices on boundaries.
+  static float boundaryPart(double lambda);
   std::vector<Block> inverseDiagonal(double lambda) const;
 
   const Mesh& mesh_;

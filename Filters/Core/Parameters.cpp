@@ -69,8 +69,7 @@ std::vector<std::string> Parameters::warnings(std::size_t pointCount) const
   if (this->numberOfVertices > pointCount)
   {
     warnings.push_back(std::to_string(this->numberOfVertices) + " vertices from " +
-      std::to_string(pointCount) +
-      " points: beyond one vertex a point the mesh follows single points, not the surface.");
+      std::to_string(pointCount) + " points: beyond one vertex a point there is nothing to learn.");
   }
   return warnings;
 }

@@ -142,4 +142,15 @@ void PointCloud::sort(const std::vector<Vector4>& points, std::vector<std::uint3
     }
   }
 }
+
+std::size_t PointCloud::differentCount() const
+{
+  // In Morton order, equal ones are neighbours.
+  std::size_t count = this->points_.empty() ? 0 : 1;
+  for (std::size_t i = 1; i < this->points_.size(); ++i)
+  {
+    count += squaredNorm(this->points_[i] - this->points_[i - 1]) > 0.f ? 1 : 0;
+  }
+  return count;
+}
 }

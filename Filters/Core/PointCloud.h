@@ -43,6 +43,8 @@ public:
   /// For each point, its index in the input; empty unless it was asked for.
   std::span<const std::uint32_t> origins() const { return this->origins_; }
   std::size_t droppedCount() const { return this->droppedCount_; }
+  /// How many points there are that are apart from each other.
+  std::size_t differentCount() const;
   /// Whether there are two points apart from each other.
   bool hasExtent() const { return this->diagonal_ > 0.; }
 

@@ -18,6 +18,10 @@ namespace
 /// cut for it.
 constexpr std::uint64_t SamplesPerCheck = 4096;
 
+/// With less the mesh would follow single points, not the surface.
+constexpr std::size_t PointsPerVertex = 2;
+constexpr std::size_t LeastLearnt = 100;
+
 /// Vertices of the first surface: a part of all, but enough for a shape, if all are twice as many.
 std::size_t firstVertices(std::uint64_t vertices)
 {
@@ -53,6 +57,17 @@ StopReason learn(Learner& learner, StoppingRules& rules, const PointCloud& cloud
     }
     learner.learn(samples, [&recorder] { recorder.look(); });
   }
+}
+
+/// A mesh that is finished learns no more vertices than there is something to learn for.
+Parameters learnable(Parameters parameters, const PointCloud& cloud)
+{
+  if (parameters.fitRounds > 0)
+  {
+    parameters.numberOfVertices = std::min<std::uint64_t>(
+      parameters.numberOfVertices, std::max(LeastLearnt, cloud.differentCount() / PointsPerVertex));
+  }
+  return parameters;
 }
 
 bool isTimeLeft(StopReason reason)
@@ -99,8 +114,8 @@ Beginning beginFromSpace(
 
 double cpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
-Reconstruction reconstruct(const PointCloud& all, const Parameters& parameters,
-  const Progress& tell, const std::optional<Mesh>& first, const GrowthWatch& watch)
+Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, const Progress& tell,
+  const std::optional<Mesh>& first, const GrowthWatch& watch)
 {
   Reconstruction result;
   // Once the caller has ended the run, it is asked no more.
@@ -108,6 +123,7 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& parameters,
   const Progress progress = [&](double fraction)
   { return !isCancelled && !(isCancelled = !tell(fraction)); };
   const double begin = cpuSeconds();
+  const Parameters parameters = first ? wanted : learnable(wanted, all);
   const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
   const Beginning beginning = startsFromSpace
     ? beginFromSpace(all, parameters, partOf(progress, 0., EndOfStart))
@@ -126,7 +142,9 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& parameters,
   learner.renumber();
   const double learningEnd = cpuSeconds();
   Mesh mesh = learner.mesh();
-  Finish finish(cloud, mesh, parameters, beginning.bridgeWidth);
+  const bool isLearnt = result.stopReason == StopReason::Vertices;
+  Finish finish(cloud, mesh, parameters, beginning.bridgeWidth,
+    isLearnt ? std::size_t(wanted.numberOfVertices) : mesh.vertexCount());
   if (parameters.fitRounds > 0 && isTimeLeft(result.stopReason) && result.counts.iterations > 0)
   {
     const Progress finishing = partOf(progress, endOfLearning, 1.);

@@ -74,7 +74,7 @@ TEST(Finish, ClosedMeshes)
     Mesh mesh = learnt(cloud);
     const Mesh before = mesh;
     const Parameters parameters;
-    Finish finish(cloud, mesh, parameters, BridgeWidth);
+    Finish finish(cloud, mesh, parameters, BridgeWidth, mesh.vertexCount());
     ASSERT_TRUE(finish.run(goOn));
     EXPECT_EQ(mesh.vertexCount(), Vertices);
     EXPECT_EQ(mesh.indexEnd(), Vertices);
@@ -104,7 +104,8 @@ TEST(Finish, GapsAreOpened)
   {
     Mesh mesh = before;
     const Parameters parameters;
-    Finish finish(cloud, mesh, parameters, opensGaps ? std::optional(BridgeWidth) : std::nullopt);
+    Finish finish(cloud, mesh, parameters, opensGaps ? std::optional(BridgeWidth) : std::nullopt,
+      mesh.vertexCount());
     ASSERT_TRUE(finish.run(goOn));
     EXPECT_EQ(mesh.vertexCount(), Vertices);
     EXPECT_EQ(mesh.indexEnd(), Vertices);
@@ -130,7 +131,7 @@ TEST(Finish, OriginsAreNear)
   Mesh mesh = learnt(cloud);
   const Mesh before = mesh;
   const Parameters parameters;
-  Finish finish(cloud, mesh, parameters, BridgeWidth);
+  Finish finish(cloud, mesh, parameters, BridgeWidth, mesh.vertexCount());
   ASSERT_TRUE(finish.run(goOn));
   ASSERT_GT(finish.report().gapTriangles, 0u);
   ASSERT_EQ(finish.origins().size(), mesh.vertexCount());
@@ -147,12 +148,33 @@ TEST(Finish, ReportsTheCloud)
   const PointCloud cloud = noisySphere(0.005, 0.05, false);
   Mesh mesh = learnt(cloud);
   const Parameters parameters;
-  Finish finish(cloud, mesh, parameters, BridgeWidth);
+  Finish finish(cloud, mesh, parameters, BridgeWidth, mesh.vertexCount());
   ASSERT_TRUE(finish.run(goOn));
   const double noise = 0.005 * SphereDiagonal;
   EXPECT_NEAR(finish.report().noise * cloud.unit(), noise, 0.2 * noise);
   EXPECT_GT(finish.report().outlierShare, 0.02);
   EXPECT_LT(finish.report().outlierShare, 0.06);
+}
+
+// More vertices than were learnt are made by refinement: exactly as many as were asked for, of good
+// shape, and as close to the surface.
+TEST(Finish, RefinesToTheVertexCount)
+{
+  const PointCloud cloud = noisySphere(0., 0., false);
+  const TrueSurface sphere = trueSphere();
+  Mesh mesh = learnt(cloud), refined = mesh;
+  const Parameters parameters;
+  ASSERT_TRUE(Finish(cloud, mesh, parameters, BridgeWidth, Vertices).run(goOn));
+  Finish finish(cloud, refined, parameters, BridgeWidth, 3 * Vertices);
+  ASSERT_TRUE(finish.run(goOn));
+  EXPECT_EQ(refined.vertexCount(), 3 * Vertices);
+  EXPECT_EQ(defectOf(refined), "");
+  EXPECT_EQ(finish.origins().size(), 3 * Vertices);
+  expectOriginsInRange(finish, refined);
+  EXPECT_EQ(finish.report().left.total(), 0u);
+  EXPECT_GT(regularRatio(refined, cloud), 0.6);
+  EXPECT_LT(rmsDistance(sphere, trianglesOf(refined, cloud)),
+    1.1 * rmsDistance(sphere, trianglesOf(mesh, cloud)));
 }
 
 // Ended anywhere, it leaves a valid mesh.
@@ -166,7 +188,7 @@ TEST(Finish, CanBeEnded)
   for (; !isDone; calls += 5)
   {
     Mesh mesh = before;
-    Finish finish(cloud, mesh, parameters, BridgeWidth);
+    Finish finish(cloud, mesh, parameters, BridgeWidth, mesh.vertexCount());
     int left = calls;
     isDone = finish.run([&](double) { return left-- > 0; });
     EXPECT_EQ(defectOf(mesh), "");

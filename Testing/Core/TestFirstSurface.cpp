@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <numbers>
 
 namespace neuralmesh::testing
 {
@@ -60,6 +62,24 @@ TriangleMesh heightField()
   for (Eigen::Vector3d& point : field.points)
   {
     point.z() = 0.08 * std::sin(6. * point.x()) * std::cos(5. * point.y());
+  }
+  return field;
+}
+
+/// Ridges and valleys as steep as 60 degrees, some of which end at the boundary.
+TriangleMesh ruggedField(double turn)
+{
+  TriangleMesh field = makeGrid(128);
+  for (Eigen::Vector3d& point : field.points)
+  {
+    double height = 0., strength = 0.12;
+    for (int octave = 0; octave < 4; ++octave, strength /= 2.)
+    {
+      const double angle = turn + 2.4 * octave, wave = std::numbers::pi * double(2 << octave);
+      height += strength *
+        std::sin(wave * (std::cos(angle) * point.x() + std::sin(angle) * point.y()) + angle);
+    }
+    point.z() = height;
   }
   return field;
 }
@@ -238,6 +258,31 @@ TEST(FirstSurface, OpenScansGiveOneSheet)
       const double area = reportSurface(shape).area;
       EXPECT_NEAR(reportSurface(trianglesOf(first->mesh, cloud)).area, area, 0.05 * area);
     }
+  }
+}
+
+// Nowhere does a sheet go over to the other side of its surface: not even where valleys and ridges
+// meet its boundary.
+TEST(FirstSurface, SheetsKeepTheirSide)
+{
+  for (const double turn : { 0., 1., 2., 3., 4., 5. })
+  {
+    SCOPED_TRACE(turn);
+    CloudOptions options;
+    options.count = 100000;
+    const PointCloud cloud = cloudOf(ruggedField(turn), options);
+    const auto first = firstSurface(cloud, MostVertices, Boundaries::Keep, goOn);
+    ASSERT_TRUE(first.has_value());
+    double up = 0., down = 0.;
+    first->mesh.forEachTriangle(
+      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+      {
+        const Vector4 from = first->mesh.position(a);
+        const float z = cross(first->mesh.position(b) - from, first->mesh.position(c) - from)[2];
+        (z > 0.f ? up : down) += std::abs(double(z));
+      });
+    EXPECT_LT(std::min(up, down), 0.002 * (up + down));
+    EXPECT_EQ(reportOf(first->mesh).boundaryLoops, 1u);
   }
 }
 

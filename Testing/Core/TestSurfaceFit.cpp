@@ -3,7 +3,9 @@
 
 #include "MeshBuilder.h"
 #include "MeshTools.h"
+#include "OpenShapes.h"
 #include "SphereRuns.h"
+#include "SurfaceReport.h"
 #include "TrueSurfaces.h"
 
 #include <gtest/gtest.h>
@@ -137,6 +139,28 @@ TEST(SurfaceFit, OutliersDoNotPull)
   EXPECT_GT(fit.outlierShare(), 0.06);
   EXPECT_LT(fit.outlierShare(), 1. / 11. + 0.01);
   EXPECT_LT(largestDistance(sphere, trianglesOf(mesh, cloud)), 0.005 * sphere.diagonal);
+}
+
+// A boundary ends up where the samples end, whether it was inside or far outside of them.
+TEST(SurfaceFit, BoundariesEndWhereSamplesEnd)
+{
+  CloudOptions options;
+  options.count = 40000;
+  const TriangleMesh square = makeGrid(20);
+  const PointCloud cloud(generateCloud(square, options));
+  for (const double size : { 0.97, 1.06 })
+  {
+    SCOPED_TRACE(size);
+    TriangleMesh scaled = square;
+    for (Eigen::Vector3d& point : scaled.points)
+    {
+      point = size * (point - Eigen::Vector3d(0.5, 0.5, 0.)) + Eigen::Vector3d(0.5, 0.5, 0.);
+    }
+    Mesh mesh = buildMesh(std::move(scaled), cloud);
+    fitted(cloud, mesh, 0.);
+    const double area = reportSurface(trianglesOf(mesh, cloud)).area;
+    EXPECT_NEAR(area, 1., 0.02);
+  }
 }
 
 // The places of samples lie on the triangles of the mesh, and the median distance is theirs.
