@@ -32,7 +32,11 @@ bool Finish::run(const Progress& progress)
     const bool isLast = round + 1 == this->parameters_.fitRounds;
     if (isLast && this->mesh_.vertexCount() < this->vertexCount_)
     {
-      this->refineTo(this->vertexCount_);
+      const double at = round / rounds;
+      if (!this->refineTo(this->vertexCount_, partOf(progress, at, at)))
+      {
+        return false;
+      }
       flipEdges(this->mesh_);
       surfaceFit.emplace(this->cloud_, this->mesh_, samples);
     }
@@ -81,15 +85,19 @@ bool Finish::openGaps(const SurfaceFit& surfaceFit)
   this->report_.gapTriangles = gaps.triangles;
   const std::size_t learnt = this->origins_.size();
   this->origins_ = this->mesh_.dropErased();
-  this->refineTo(learnt);
+  this->refineTo(learnt, [](double) { return true; });
   return true;
 }
 
-void Finish::refineTo(std::size_t count)
+bool Finish::refineTo(std::size_t count, const Progress& progress)
 {
-  for (const VertexIndex origin : refine(this->mesh_, count))
+  bool isEnded = false;
+  const auto origins =
+    refine(this->mesh_, count, [&](double fraction) { return !(isEnded = !progress(fraction)); });
+  for (const VertexIndex origin : origins)
   {
     this->origins_.push_back(this->origins_[origin]);
   }
+  return !isEnded;
 }
 }

@@ -44,7 +44,7 @@ public:
 private:
   bool fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   bool openGaps(const SurfaceFit& surfaceFit);
-  void refineTo(std::size_t count);
+  bool refineTo(std::size_t count, const Progress& progress);
 
   const PointCloud& cloud_;
   Mesh& mesh_;

@@ -14,8 +14,6 @@ namespace
 {
 constexpr int MostIterations = 300;
 constexpr int IterationsPerCheck = 4;
-/// Held any smoother, boundaries would shrink: nothing but their own samples holds them out.
-constexpr double MostBoundarySmoothness = 20.;
 
 double dotOf(std::span<const Vector4> a, std::span<const Vector4> b)
 {

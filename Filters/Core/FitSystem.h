@@ -13,11 +13,15 @@ namespace neuralmesh
 {
 /// The linear system of a fit, (B^T W B + lambda L^T L) x = B^T W p, for the positions x of all
 /// vertices of a mesh: B are the barycentric coordinates of the places of samples p, W how much they
-/// weigh in each direction, L is the umbrella Laplacian (of a vertex on a boundary, that along it).
+/// weigh in each direction, L is the umbrella Laplacian (of a vertex on a boundary, that along it, for
+/// which lambda is at most MostBoundarySmoothness).
 /// Solved by conjugate gradients; the matrices are kept beside the rings. About 330 bytes a vertex.
 class FitSystem
 {
 public:
+  /// Held any smoother, boundaries would shrink: nothing but their own samples holds them out.
+  static constexpr double MostBoundarySmoothness = 20.;
+
   /// How much a sample weighs along the normal of its triangle is 1; along the triangle, `slip`: if
   /// it is below 1, the surface may slide below its samples.
   FitSystem(const Mesh& mesh, double slip);

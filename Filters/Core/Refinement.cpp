@@ -11,6 +11,8 @@ namespace neuralmesh
 {
 namespace
 {
+constexpr std::size_t SplitsPerCheck = 1024;
+
 /// A vertex, by the edge that its split would halve: the longest one, at a boundary the longest
 /// along it.
 struct SplitCandidate
@@ -34,7 +36,7 @@ SplitCandidate candidate(const Mesh& mesh, VertexIndex v)
 }
 }
 
-std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count)
+std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count, const Progress& progress)
 {
   std::vector<VertexIndex> origins;
   std::priority_queue<SplitCandidate> candidates;
@@ -42,8 +44,14 @@ std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count)
   {
     candidates.push(candidate(mesh, v));
   }
+  const std::size_t first = mesh.vertexCount();
   while (mesh.vertexCount() < count && !candidates.empty())
   {
+    if (origins.size() % SplitsPerCheck == 0 &&
+      !progress(double(origins.size()) / double(count - first)))
+    {
+      break;
+    }
     const SplitCandidate longest = candidates.top();
     const VertexIndex v = longest.vertex;
     candidates.pop();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Mesh.h"
+#include "Progress.h"
 
 #include <cstddef>
 #include <vector>
@@ -9,7 +10,7 @@
 namespace neuralmesh
 {
 /// Halves the longest edge, again and again, until there are `count` vertices, or no edge can be
-/// split any more. Returns the end of its edge from which each new vertex was split, in order; new
+/// split any more, or it is ended. Returns the end of its edge from which each new vertex was split, in order; new
 /// vertices have the highest indices. No vertex may be erased.
-std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count);
+std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count, const Progress& progress);
 }

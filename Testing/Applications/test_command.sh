@@ -107,12 +107,25 @@ test_time_limit()
   [ -s mesh.ply ] || fail "there is no mesh"
 }
 
+# Promise: Ctrl-C ends the refinement beyond what there is to learn; the mesh so far is written whole.
+test_ctrl_c_while_refining()
+{
+  expect 130 timeout --preserve-status --signal INT 1 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
+    --vertices 100000000
+  grep -q 'ended by: cancelled' out || fail "the summary does not say why it ended"
+  local vertices
+  vertices=$(sed -n 's/^vertices *//p' out)
+  [ "$vertices" -gt "$(wc -l < cloud.xyz)" ] || fail "nothing was refined"
+  expect 0 "$neuralmesh" reconstruct mesh.ply again.ply --vertices 10
+  grep -Eq "^points +$vertices " out || fail "the mesh is not whole"
+}
+
 # Promise: Ctrl-C ends the learning; the mesh learnt so far is written whole, the statistics, too;
 # the exit status is 130.
 test_ctrl_c()
 {
   expect 130 timeout --preserve-status --signal INT 1 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
-    --vertices 100000000 --statistics curve.csv
+    --vertices 100000000 --set FitRounds=0 --statistics curve.csv
   grep -q 'ended by: cancelled' out || fail "the summary does not say why it ended"
   local vertices
   vertices=$(sed -n 's/^vertices *//p' out)

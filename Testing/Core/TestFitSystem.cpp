@@ -108,12 +108,19 @@ Eigen::VectorXd denseSolution(
     right += b.transpose() * weight * sample.point.toDouble();
   }
   const Eigen::MatrixXd laplacian = denseLaplacian(mesh);
-  const Eigen::MatrixXd squared = laplacian.transpose() * laplacian;
+  Eigen::VectorXd smoothness(n);
+  for (Eigen::Index v = 0; v < n; ++v)
+  {
+    smoothness[v] = mesh.isBoundary(VertexIndex(v))
+      ? std::min(lambda, FitSystem::MostBoundarySmoothness)
+      : lambda;
+  }
+  const Eigen::MatrixXd squared = laplacian.transpose() * smoothness.asDiagonal() * laplacian;
   for (Eigen::Index i = 0; i < n; ++i)
   {
     for (Eigen::Index j = 0; j < n; ++j)
     {
-      matrix.block<3, 3>(3 * i, 3 * j) += lambda * squared(i, j) * Eigen::Matrix3d::Identity();
+      matrix.block<3, 3>(3 * i, 3 * j) += squared(i, j) * Eigen::Matrix3d::Identity();
     }
   }
   return matrix.ldlt().solve(right);

@@ -75,7 +75,7 @@ TEST(Refinement, ReachesTheCount)
            2 * before.vertexCount(), 4 * before.vertexCount() })
     {
       Mesh mesh = before;
-      const std::vector<VertexIndex> origins = refine(mesh, count);
+      const std::vector<VertexIndex> origins = refine(mesh, count, goOn);
       EXPECT_EQ(mesh.vertexCount(), count);
       EXPECT_EQ(mesh.indexEnd(), count);
       EXPECT_EQ(defectOf(mesh), "");
@@ -92,7 +92,7 @@ TEST(Refinement, ReachesTheCount)
       }
     }
     Mesh fine = before;
-    refine(fine, 8 * before.vertexCount());
+    refine(fine, 8 * before.vertexCount(), goOn);
     EXPECT_LT(longestEdge(fine), 0.6f * longestEdge(before));
     EXPECT_LE(highestValence(trianglesOf(fine)), 9u);
   }
@@ -105,10 +105,23 @@ TEST(Refinement, HalvesTheLongestEdge)
   mesh.setPosition(0, 8.f * mesh.position(0));
   const float before = longestEdge(mesh);
   const Vector4 corner = mesh.position(0);
-  const std::vector<VertexIndex> origins = refine(mesh, mesh.vertexCount() + 1);
+  const std::vector<VertexIndex> origins = refine(mesh, mesh.vertexCount() + 1, goOn);
   ASSERT_EQ(origins.size(), 1u);
   const Vector4 added = mesh.position(VertexIndex(mesh.indexEnd() - 1));
   EXPECT_NEAR(std::sqrt(squaredNorm(added - corner)), 0.5f * before, 1e-4f * before);
+}
+
+// It can be ended, and leaves a valid mesh whose new vertices it tells.
+TEST(Refinement, CanBeEnded)
+{
+  Mesh mesh = meshOf(makeGrid(4));
+  const std::size_t before = mesh.vertexCount();
+  int calls = 0;
+  const auto origins = refine(mesh, 100000000, [&](double) { return ++calls < 5; });
+  EXPECT_EQ(calls, 5);
+  EXPECT_GT(origins.size(), 0u);
+  EXPECT_EQ(mesh.vertexCount(), before + origins.size());
+  EXPECT_EQ(defectOf(mesh), "");
 }
 
 // Pieces of less than 2 % of the vertices are small, others are not: every triangle of the ones, and
