@@ -50,6 +50,31 @@ class Views(unittest.TestCase):
         for source, port in ((ensemble, 2), (ensemble, 3), (comparison, 1)):
             self.assertIsNone(shown(source, port))
 
+    # Promise: the chart shows the distances over the number of vertices, and offers all other columns.
+    def test_learning_curve(self):
+        scan = support.scan(5000)
+        filters = (
+            simple.NeuralMesh(Input=scan, NumberOfVertices=300),
+            simple.NeuralMeshEnsemble(
+                Input=scan, NumberOfVertices=300, NumberOfMembers=1, VerticesPerMember=100,
+                GridResolution=16,
+            ),
+        )  # fmt: skip
+        for mesh in filters:
+            view = simple.servermanager._getPyProxy(shown(mesh, 1))
+            chart = simple.GetRepresentation(simple.OutputPort(mesh, 1), view)
+            self.assertEqual((chart.UseIndexForXAxis, chart.XArrayName), (0, "Vertices"))
+            visible = ["SampleDistanceMean", "SampleDistanceDeviation"]
+            self.assertEqual(list(chart.SeriesVisibility), visible)
+            offered = chart.GetProperty("SeriesVisibility").SMProperty
+            names = [offered.GetElement(i) for i in range(0, offered.GetNumberOfElements(), 2)]
+            curve = support.fetch(mesh, 1)
+            columns = [curve.GetColumnName(i) for i in range(curve.GetNumberOfColumns())]
+            self.assertEqual(sorted(names), sorted(columns))
+            self.assertGreater(support.covered(view), 0.005)
+            chart.SeriesVisibility = ["NormalChangeMean"]
+            self.assertEqual(list(chart.SeriesVisibility), ["NormalChangeMean"])
+
 
 if __name__ == "__main__":
     unittest.main()
