@@ -23,8 +23,8 @@ uses_prefix()
   ! grep -q "not found" "$scratch/ldd.txt" || { cat "$scratch/ldd.txt"; fail "$1 lacks a library"; }
 }
 
-# Promise: the tree is installed, has its documentation, and no text in it names a folder of the
-# build.
+# Promise: the tree is installed, has its documentation and nothing that only the build needed, and no
+# text in it names a folder of the build.
 case_install()
 {
   rm -rf "$scratch"
@@ -35,6 +35,7 @@ case_install()
   for file in README.md LICENSE CHANGELOG.md Documentation/Method.md; do
     [ -s "$prefix/share/doc/NeuralMesh/$file" ] || fail "no $file"
   done
+  [ -z "$(find "$prefix" -name '*CS.a')" ] || fail "the static library of the wrapping is there"
   # In programs, debugging information may.
   ! grep -rIlF "$(realpath "$build")" "$prefix" || fail "these name the folder of the build"
 }

@@ -172,6 +172,50 @@ class Files(BatchTest):
         self.assertEqual(mesh.GetPointData().GetScalars().GetTuple3(7), (250, 20, 10))
         self.assertIn("Mistrust", self.report("red_weights-Mistrust")["error"])
 
+    # Promise: a first mesh is read by its path from the recipe, and the result is that of reconstruct().
+    # One that cannot be read fails its jobs alone, and names itself.
+    def test_first_mesh(self):
+        write_scan(self.folder / "ball.xyz")
+        points = support.sphere(2000)
+        coarse = neuralmesh.reconstruct(points, 100, seed=7)
+        (self.folder / "meshes").mkdir()
+        for name in ("coarse.vtp", "coarse.obj"):
+            write_mesh(coarse, self.folder / "meshes" / name)
+        (self.folder / "meshes" / "points.ply").write_text("ply\n", encoding="ascii")
+        names = ("coarse.vtp", "coarse.obj", "points.ply", "none.ply")
+        matrix = {"vertices": 300, "first_mesh": [None, *(f"meshes/{name}" for name in names)]}
+        self.write_recipe(scans=["ball.xyz"], matrix=matrix)
+        output, errors, status = self.run_batch()
+        self.assertEqual((errors, status), ("", 1))
+        self.assertIn("jobs       3 done, 2 failed", output)
+        wanted = neuralmesh.reconstruct(
+            np.loadtxt(self.folder / "ball.xyz"), 300, first_mesh=coarse
+        )
+        mesh = read_points(self.results / "ball_first_mesh-meshes_coarse.vtp.vtp")
+        self.assertEqual(support.arrays_of(mesh), support.arrays_of(wanted))
+        # As an .obj it has coordinates of fewer digits, and normals.
+        mesh = read_points(self.results / "ball_first_mesh-meshes_coarse.obj.vtp")
+        self.assertTrue(support.is_closed_manifold(mesh))
+        for name, message in (("points.ply", "first mesh"), ("none.ply", "no such file")):
+            error = self.report(f"ball_first_mesh-meshes_{name}")["error"]
+            self.assertIn(str(self.folder / "meshes" / name), error)
+            self.assertIn(message, error)
+
+    # Promise: a job that takes longer than the recipe allows is ended and has failed, in clear words;
+    # the others go on.
+    def test_time_limit(self):
+        write_scan(self.folder / "ball.xyz", 20000)
+        matrix = {"vertices": [3000000, 100, 200]}
+        self.write_recipe(scans=["ball.xyz"], matrix=matrix, time_limit=10.5)
+        output, errors, status = self.run_batch("--processes", 2)
+        self.assertEqual((errors, status), ("", 1))
+        self.assertIn("jobs       2 done, 1 failed", output)
+        self.assertEqual(set(self.times()), {"ball_vertices-100", "ball_vertices-200"})
+        report = self.report("ball_vertices-3000000")
+        self.assertEqual(report["status"], "failed")
+        error = f"{self.folder}/ball.xyz: ended after 10.5 s, the time_limit of the recipe"
+        self.assertEqual(report["error"], error)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -8,7 +8,10 @@ import signal
 import time
 import unittest
 
+import neuralmesh
+import support
 from batch_testing import BatchTest, start, write_scan
+from neuralmesh.batch.meshes import write_mesh
 
 
 class Again(BatchTest):
@@ -54,6 +57,41 @@ class Again(BatchTest):
         self.assertEqual(set(now), set(before))
         changed = {name for name in now if now[name] != before[name]}
         self.assertEqual(changed, set(filter(expected, before)))
+
+
+class Changed(BatchTest):
+    """Another recipe in the same folder."""
+
+    def setUp(self):
+        self.clear()
+        write_scan(self.folder / "ball.xyz")
+
+    # Promise: what belongs to no job of the recipe any more is left alone, and is neither in the
+    # summary nor in the gallery.
+    def test_removed(self):
+        (self.folder / "empty").mkdir()
+        for vertices in ([100, 200], [100]):
+            self.write_recipe(scans=["ball.xyz"], matrix={"vertices": vertices}, gallery=True)
+            # Without pictures, which are not what is asked about.
+            output, _, _ = self.run_batch(DISPLAY="", PATH=str(self.folder / "empty"))
+        self.assertIn("jobs       1 done, 0 failed", output)
+        self.assertEqual(set(self.times()), {"ball_vertices-100", "ball_vertices-200"})
+        self.assertEqual(self.report("ball_vertices-200")["status"], "done")
+        for name in ("summary.csv", "index.html"):
+            text = (self.results / name).read_text(encoding="utf-8")
+            self.assertIn("ball_vertices-100", text)
+            self.assertNotIn("ball_vertices-200", text)
+
+    # Promise: a job is done again if its first mesh has changed, and only then.
+    def test_first_mesh(self):
+        first = self.folder / "first.vtp"
+        write_mesh(neuralmesh.reconstruct(support.sphere(), 50), first)
+        matrix = {"vertices": 100, "first_mesh": [None, "first.vtp"]}
+        self.write_recipe(scans=["ball.xyz"], matrix=matrix)
+        self.run_batch()
+        self.assertIn("2 of 2 jobs were done before", self.run_batch()[0])
+        os.utime(first, ns=(0, 0))
+        self.assertIn("1 of 2 jobs were done before", self.run_batch()[0])
 
 
 class Ends(BatchTest):

@@ -24,6 +24,10 @@ BAD = {
     '{"scans": ["a.xyz"], "scans": ["a.xyz"]}': ('"scans" stands there twice',),
     '{"scans": ["a.xyz"], "format": "doc"}': ("format: must be one of vtp, ply, obj, stl",),
     '{"scans": ["a.xyz"], "format": ["ply"]}': ("format: must be one of",),
+    '{"scans": ["a.xyz"], "time_limit": 0}': ("time_limit: must be seconds, above 0, not 0",),
+    '{"scans": ["a.xyz"], "time_limit": true}': ("time_limit: must be seconds",),
+    '{"scans": ["a.xyz"], "time_limit": "1 h"}': ("time_limit: must be seconds",),
+    '{"scans": ["a.xyz"], "time_limit": 1e999}': ("time_limit: must be seconds",),
     '{"scans": ["a.xyz"], "gallery": 1}': ("gallery: must be true or false",),
     '{"scans": ["a.xyz"], "view": {"up": "w"}}': ('view.up: must be x, y or z, not "w"',),
     '{"scans": ["a.xyz"], "view": {"up": ["x"]}}': ("view.up: must be x, y or z",),
@@ -44,6 +48,11 @@ BAD = {
     '{"scans": ["a.xyz"], "matrix": {"variant": "best"}}': ("matrix.variant: variant must be",),
     '{"scans": ["a.xyz"], "matrix": {"weights": 1}}': ("matrix.weights: must be the name",),
     '{"scans": ["a.xyz"], "matrix": {"weights": ["a/b", "a b"]}}': ("the same name, a_weights-a_b",),
+    '{"scans": ["a.xyz"], "matrix": {"first_mesh": 1}}': ("matrix.first_mesh: must be the path",),
+    '{"scans": ["a.xyz"], "matrix": {"first_mesh": [null, ""]}}': ("matrix.first_mesh[1]: must be",),
+    '{"scans": ["a.xyz"], "matrix": {"first_mesh": "b.ply", "ensemble": 3}}': (
+        "do not go together: ensemble and first_mesh exclude each other",
+    ),
     '{"scans": ["a.xyz"], "matrix": {"order": ["exact", "list"], "jump": "area_change"}}': (
         'matrix: {"order": "exact", "jump": "area_change"} do not go together',
     ),

@@ -113,8 +113,7 @@ def reconstruct(
         ensemble=ensemble,
         **parameters,
     )
-    if ensemble is not None and first_mesh is not None:
-        raise ValueError("ensemble and first_mesh exclude each other: it makes its first mesh")
+    require_one_start(ensemble, first_mesh)
     set_input(mesh, points, weights)
     if first_mesh is not None:
         if not isinstance(first_mesh, vtkPolyData):
@@ -154,6 +153,12 @@ def make_filter(
     for name, value in parameters.items():
         assign(mesh, name, value)
     return mesh
+
+
+def require_one_start(ensemble: object, first_mesh: object) -> None:
+    """Raise ValueError if both say what learning starts from."""
+    if ensemble is not None and first_mesh is not None:
+        raise ValueError("ensemble and first_mesh exclude each other: it makes its first mesh")
 
 
 def set_input(

@@ -26,21 +26,26 @@ A recipe is JSON; of its keys only `scans` must be there:
     "scans": ["scans/*.ply", "bunny.obj"],
     "matrix": {"vertices": [5000, 20000], "seed": [1, 2], "variant": "noise"},
     "format": "vtp",
+    "time_limit": 3600,
     "gallery": true,
     "view": {"up": "y", "azimuth": 30, "elevation": 15}
   }
 
 scans    files of points, relative to the recipe, with wildcards or without:
          .ply .vtp .vtk .vtu .obj .stl .xyz .pts .txt .csv
-matrix   parameters of neuralmesh.reconstruct(), except progress and first_mesh; a list holds the
-         values to try, and all lists are crossed
+matrix   parameters of neuralmesh.reconstruct(), except progress; a list holds the values to try,
+         and all lists are crossed; first_mesh is a path, relative to the recipe
 format   of the meshes: vtp (default), ply, obj or stl
+time_limit
+         seconds after which a job is ended, and has failed (default: none); in the matrix it is
+         another one, which ends learning and keeps the mesh
 gallery  whether there is one (default: true)
 view     of the pictures: which axis points upwards, and from where one looks, in degrees
 
 The folder gets for each job a mesh and a report (.json), for all of them summary.csv and the
 gallery, index.html. A job is not run again while its result is there, and its scan (by size and
-time of modification), its parameters, the format and the version of NeuralMesh are the same.
+time of modification), its parameters, the format and the version of NeuralMesh are the same. What
+was left by jobs that are no longer in the recipe stays where it is.
 
 Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 130 after Ctrl-C. What
 is done by then stays, and the same command does the rest."""
@@ -136,7 +141,7 @@ def _run(recipe: Recipe, folder: Path, processes: int) -> int:
         failed += bool(error)
         print(f"[{ended}/{len(recipe.jobs)}] {job.name}: {error or 'done'}", flush=True)
 
-    run_jobs(jobs, folder, recipe.format, processes, on_end)
+    run_jobs(jobs, folder, recipe.format, processes, recipe.time_limit, on_end)
     return failed
 
 

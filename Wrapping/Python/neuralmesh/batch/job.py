@@ -17,7 +17,7 @@ from typing import Any
 
 from .._execution import execute
 from .._reconstruct import make_filter, result_of, set_input
-from .meshes import read_points, write_mesh
+from .meshes import read_mesh, read_points, write_mesh
 from .report import PHASES, SECONDS, identity_of, quality_of, report_path, result_path
 from .recipe import Job
 from .whole_file import write_json
@@ -25,7 +25,8 @@ from .whole_file import write_json
 
 def main() -> None:
     content = json.load(sys.stdin)
-    job = Job(content["name"], Path(content["scan"]), content["parameters"])
+    first_mesh = content["first_mesh"] and Path(content["first_mesh"])
+    job = Job(content["name"], Path(content["scan"]), content["parameters"], first_mesh)
     try:
         run(job, Path(content["folder"]), content["format"])
     except Exception as error:  # whatever it is: it goes into the report
@@ -37,13 +38,17 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
     identity = identity_of(job, mesh_format)
     parameters = dict(job.parameters)
     weights = parameters.pop("weights", None)
+    parameters.pop("first_mesh", None)
     times = [time.perf_counter()]
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         points = read_points(job.scan)
+        first_mesh = job.first_mesh and read_mesh(job.first_mesh)
         times.append(time.perf_counter())
         mesh_filter = make_filter(**parameters)
         set_input(mesh_filter, points, weights)
+        if first_mesh is not None:
+            mesh_filter.SetFirstMeshData(first_mesh)
         execute(mesh_filter, _end_with(os.getppid()))
         mesh = result_of(mesh_filter)
     times.append(time.perf_counter())

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPointSet, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkOBJWriter, vtkSTLReader, vtkSTLWriter
 from vtkmodules.vtkIOLegacy import vtkGenericDataObjectReader
 from vtkmodules.vtkIOPLY import vtkPLYReader, vtkPLYWriter
@@ -45,6 +46,36 @@ def read_points(path: Path) -> vtkPointSet:
     if not isinstance(points, vtkPointSet):
         raise ValueError("this holds no point set")
     return points
+
+
+def read_mesh(path: Path) -> vtkPolyData:
+    """Read a mesh to start from: .ply .vtp .vtk .obj .stl.
+
+    OSError or ValueError name the file, and say what is wrong with it.
+    """
+    try:
+        mesh = read_points(path)
+        is_mesh = isinstance(mesh, vtkPolyData)
+        if not is_mesh or mesh.GetNumberOfPolys() + mesh.GetNumberOfStrips() == 0:
+            raise ValueError("there are no triangles in it")
+    except (OSError, ValueError, RuntimeError) as error:
+        raise ValueError(f"first mesh {path}: {error}") from None
+    # VTK takes the points of an .obj apart where there are normals or texture coordinates.
+    is_apart = path.suffix.lower() == ".obj" and mesh.GetPointData().GetNumberOfArrays() > 0
+    return _merge_equal_points(mesh) if is_apart else mesh
+
+
+def _merge_equal_points(mesh: vtkPolyData) -> vtkPolyData:
+    clean = vtkCleanPolyData()
+    clean.ToleranceIsAbsoluteOn()
+    clean.SetAbsoluteTolerance(0.0)
+    # What degenerates is to be reported, not turned into lines.
+    clean.ConvertLinesToPointsOff()
+    clean.ConvertPolysToLinesOff()
+    clean.ConvertStripsToPolysOff()
+    clean.SetInputData(mesh)
+    execute(clean)
+    return clean.GetOutput()
 
 
 def write_mesh(mesh: vtkPolyData, path: Path) -> None:

@@ -7,6 +7,7 @@ import glob
 import inspect
 import itertools
 import json
+import math
 import os
 import re
 from dataclasses import dataclass
@@ -15,15 +16,17 @@ from typing import Any
 
 from .._execution import check_parameters
 from .._parameters import near_names
-from .._reconstruct import ENSEMBLE_PARAMETERS, PARAMETERS, make_filter
+from .._reconstruct import ENSEMBLE_PARAMETERS, PARAMETERS, make_filter, require_one_start
 from .meshes import WRITERS
 
-KEYS = ("scans", "matrix", "format", "gallery", "view")
+KEYS = ("scans", "matrix", "format", "time_limit", "gallery", "view")
 VIEW = {"up": "y", "azimuth": 30.0, "elevation": 15.0}
 
 _SIGNATURE = inspect.signature(make_filter).parameters.values()
 _NAMED = {parameter.name for parameter in _SIGNATURE if parameter.kind != parameter.VAR_KEYWORD}
-_KNOWN = {*_NAMED, "weights", *PARAMETERS, *ENSEMBLE_PARAMETERS}
+# Those that the filter is not given as properties.
+_OF_INPUT = ("weights", "first_mesh")
+_KNOWN = {*_NAMED, *_OF_INPUT, *PARAMETERS, *ENSEMBLE_PARAMETERS}
 
 
 class RecipeError(ValueError):
@@ -32,11 +35,15 @@ class RecipeError(ValueError):
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """One scan and one set of parameters. The name is that of its files, unique in the recipe."""
+    """One scan and one set of parameters. The name is that of its files, unique in the recipe.
+
+    first_mesh is where the mesh lies that the parameter of that name means, if any does.
+    """
 
     name: str
     scan: Path
     parameters: dict[str, Any]
+    first_mesh: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -46,6 +53,7 @@ class Recipe:
     jobs: list[Job]
     parameter_names: list[str]
     format: str
+    time_limit: float | None
     gallery: bool
     view: dict[str, Any]
 
@@ -76,11 +84,15 @@ def _recipe(content: Any, folder: Path) -> Recipe:
     mesh_format = content.get("format", "vtp")
     if mesh_format not in tuple(WRITERS):
         raise RecipeError(f"format: must be one of {', '.join(WRITERS)}, not {_shown(mesh_format)}")
+    time_limit = content.get("time_limit")
+    if time_limit is not None and not (_is_number(time_limit) and 0 < time_limit < math.inf):
+        raise RecipeError(f"time_limit: must be seconds, above 0, not {_shown(time_limit)}")
     gallery = content.get("gallery", True)
     if not isinstance(gallery, bool):
         raise RecipeError(f"gallery: must be true or false, not {_shown(gallery)}")
-    jobs = _jobs(scans, matrix, content.get("matrix", {}))
-    return Recipe(jobs, list(matrix), mesh_format, gallery, _view(content.get("view", {})))
+    jobs = _jobs(scans, matrix, content.get("matrix", {}), folder)
+    view = _view(content.get("view", {}))
+    return Recipe(jobs, list(matrix), mesh_format, time_limit, gallery, view)
 
 
 def _scans(patterns: Any, folder: Path) -> list[Path]:
@@ -123,6 +135,10 @@ def _check_value(place: str, name: str, value: Any) -> None:
         if not isinstance(value, str):
             raise RecipeError(f"{place}: must be the name of a point array, not {_shown(value)}")
         return
+    if name == "first_mesh":
+        if value is not None and not (isinstance(value, str) and value):
+            raise RecipeError(f"{place}: must be the path of a mesh, or null, not {_shown(value)}")
+        return
     alone = name in _NAMED or name in PARAMETERS
     try:
         make_filter(**{"ensemble": None if alone else 1, name: value})
@@ -130,7 +146,9 @@ def _check_value(place: str, name: str, value: Any) -> None:
         raise RecipeError(f"{place}: {error}") from None
 
 
-def _jobs(scans: list[Path], matrix: dict[str, list], content: dict[str, Any]) -> list[Job]:
+def _jobs(
+    scans: list[Path], matrix: dict[str, list], content: dict[str, Any], folder: Path
+) -> list[Job]:
     """Each scan with each combination of the values, of which those in lists are in the names."""
     jobs: dict[str, Job] = {}
     combinations = [dict(zip(matrix, values)) for values in itertools.product(*matrix.values())]
@@ -141,7 +159,9 @@ def _jobs(scans: list[Path], matrix: dict[str, list], content: dict[str, Any]) -
         endings.append("".join(f"_{name}-{_in_name(parameters[name])}" for name in listed))
     for scan, scan_name in zip(scans, _names(scans)):
         for parameters, ending in zip(combinations, endings):
-            job = Job(scan_name + ending, scan, parameters)
+            first_mesh = parameters.get("first_mesh")
+            path = first_mesh and Path(os.path.normpath(folder / first_mesh))
+            job = Job(scan_name + ending, scan, parameters, path)
             if job.name in jobs:
                 raise RecipeError(f"matrix: two jobs would have the same name, {job.name}")
             jobs[job.name] = job
@@ -149,10 +169,10 @@ def _jobs(scans: list[Path], matrix: dict[str, list], content: dict[str, Any]) -
 
 
 def _check_combination(parameters: dict[str, Any]) -> None:
+    properties = {name: v for name, v in parameters.items() if name not in _OF_INPUT}
     try:
-        check_parameters(
-            make_filter(**{name: v for name, v in parameters.items() if name != "weights"})
-        )
+        check_parameters(make_filter(**properties))
+        require_one_start(parameters.get("ensemble"), parameters.get("first_mesh"))
     except (TypeError, ValueError) as error:
         raise RecipeError(f"matrix: {_shown(parameters)} do not go together: {error}") from None
 
@@ -181,11 +201,14 @@ def _view(content: Any) -> dict[str, Any]:
     if view["up"] not in ("x", "y", "z"):
         raise RecipeError(f"view.up: must be x, y or z, not {_shown(view['up'])}")
     for name in ("azimuth", "elevation"):
-        is_number = isinstance(view[name], (int, float)) and not isinstance(view[name], bool)
-        if not (is_number and abs(view[name]) <= 360):
+        if not (_is_number(view[name]) and abs(view[name]) <= 360):
             wrong = _shown(view[name])
             raise RecipeError(f"view.{name}: must be degrees from -360 to 360, not {wrong}")
     return view
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def _require_object(content: Any, place: str, known: Any) -> None:

@@ -28,19 +28,25 @@ def result_path(folder: Path, job_name: str, mesh_format: str) -> Path:
 
 
 def identity_of(job: Job, mesh_format: str) -> dict[str, Any]:
-    """What the result depends on. A scan is known by its path, size and time of modification."""
-    try:
-        status = job.scan.stat()
-        scan = {"size": status.st_size, "mtime_ns": status.st_mtime_ns}
-    except OSError:
-        scan = {}
+    """What the result depends on."""
+    first_mesh = {"first_mesh": _identity_of_file(job.first_mesh)} if job.first_mesh else {}
     return {
-        "scan": {"path": str(job.scan), **scan},
+        "scan": _identity_of_file(job.scan),
+        **first_mesh,
         "parameters": job.parameters,
         "format": mesh_format,
         "version": __version__,
         "vtk_version": VTK_VERSION,
     }
+
+
+def _identity_of_file(path: Path) -> dict[str, Any]:
+    """A file is known by its path, size and time of modification."""
+    try:
+        status = path.stat()
+    except OSError:
+        return {"path": str(path)}
+    return {"path": str(path), "size": status.st_size, "mtime_ns": status.st_mtime_ns}
 
 
 def read_report(folder: Path, job_name: str) -> dict[str, Any]:

@@ -26,12 +26,13 @@ def run_jobs(
     folder: Path,
     mesh_format: str,
     processes: int,
+    time_limit: float | None,
     on_end: Callable[[Job, str], None],
 ) -> None:
     """Run all jobs, so many at a time; on_end is called with what went wrong, or "".
 
-    A process that fails, or crashes, is a failure of its job alone: there is a report on it, and no
-    result. However this function is left, no process is.
+    A process that fails, crashes, or takes more than time_limit is a failure of its job alone:
+    there is a report on it, and no result. However this function is left, no process is.
     """
     waiting = list(reversed(jobs))
     running: list[_Process] = []
@@ -39,7 +40,7 @@ def run_jobs(
     try:
         while waiting or running:
             while waiting and len(running) < processes:
-                running.append(_Process(waiting.pop(), folder, mesh_format, threads))
+                running.append(_Process(waiting.pop(), folder, mesh_format, threads, time_limit))
             time.sleep(_PAUSE)
             for process in [process for process in running if process.has_ended()]:
                 running.remove(process)
@@ -55,8 +56,13 @@ def run_jobs(
 class _Process:
     """A process that does a job."""
 
-    def __init__(self, job: Job, folder: Path, mesh_format: str, threads: int):
+    def __init__(
+        self, job: Job, folder: Path, mesh_format: str, threads: int, time_limit: float | None
+    ):
         self.job = job
+        self._time_limit = time_limit
+        self._start = time.monotonic()
+        self._is_late = False
         self._messages: IO[bytes] = tempfile.TemporaryFile()
         self._process = subprocess.Popen(
             [sys.executable, "-m", "neuralmesh.batch.job"],
@@ -70,6 +76,7 @@ class _Process:
         content = {
             "name": job.name,
             "scan": str(job.scan),
+            "first_mesh": str(job.first_mesh) if job.first_mesh else None,
             "parameters": job.parameters,
             "folder": str(folder),
             "format": mesh_format,
@@ -81,7 +88,13 @@ class _Process:
             pass  # It has ended already, and its status tells.
 
     def has_ended(self) -> bool:
-        return self._process.poll() is not None
+        """Whether the process has ended by itself, or was late and has been ended."""
+        if self._process.poll() is not None:
+            return True
+        if self._time_limit is not None and time.monotonic() - self._start > self._time_limit:
+            self.kill()
+            self._is_late = True
+        return self._is_late
 
     def kill(self) -> None:
         self._process.kill()
@@ -92,6 +105,9 @@ class _Process:
         status = self._process.returncode
         if status == 0:
             return ""
+        if self._is_late:
+            limit = f"{self._time_limit:g} s, the time_limit of the recipe"
+            return f"{self.job.scan}: ended after {limit}"
         self._messages.seek(0)
         said = self._messages.read().decode(errors="replace").strip()[-_LONGEST_MESSAGE:]
         if status > 0:
