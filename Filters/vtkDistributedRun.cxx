@@ -131,24 +131,26 @@ struct vtkDistributedRun::Census
   vtkIdType UsablePoints = 0;
   vtkIdType PointsNotFinite = 0; ///< with a weight to be drawn by
   vtkIdType DoubleParts = 0;
+  vtkIdType WeightedParts = 0;
 
   Census SumOfAll(vtkMultiProcessController* controller) const
   {
-    const std::array<vtkIdType, 5> own{ this->Errors, this->Points, this->UsablePoints,
-      this->PointsNotFinite, this->DoubleParts };
-    std::array<vtkIdType, 5> all{};
+    const std::array<vtkIdType, 6> own{ this->Errors, this->Points, this->UsablePoints,
+      this->PointsNotFinite, this->DoubleParts, this->WeightedParts };
+    std::array<vtkIdType, 6> all{};
     controller->AllReduce(own.data(), all.data(), own.size(), vtkCommunicator::SUM_OP);
-    return { all[0], all[1], all[2], all[3], all[4] };
+    return { all[0], all[1], all[2], all[3], all[4], all[5] };
   }
 };
 
-vtkDistributedRun::vtkDistributedRun(
-  vtkNeuralMesh* filter, vtkMultiProcessController* controller, vtkIdType maximumPoints)
+vtkDistributedRun::vtkDistributedRun(vtkNeuralMesh* filter, vtkMultiProcessController* controller,
+  vtkIdType maximumPoints, Others others)
   : Filter(filter)
   , Controller(controller ? controller : this->Alone.Get())
   , MaximumPoints(maximumPoints > 0
         ? maximumPoints
         : std::max(FewestPoints, PointsPerVertex * filter->GetNumberOfVertices()))
+  , OfOthers(others)
   , Gatherer(this->Controller)
 {
 }
@@ -198,7 +200,14 @@ int vtkDistributedRun::Execute(vtkInformationVector** inputVector,
   if (this->Controller->GetNumberOfProcesses() > 1)
   {
     this->Gatherer.GatherPoints(part);
-    part = this->IsRoot() ? Arrange(part, selection) : vtkSmartPointer<vtkPolyData>::New();
+    if (this->IsRoot())
+    {
+      part = Arrange(part, selection);
+    }
+    if (this->OfOthers == Others::Help)
+    {
+      this->Gatherer.HandOut(part, all.WeightedParts > 0 ? this->WeightsOf(part) : nullptr);
+    }
   }
 
   const bool hasFirstMesh =
@@ -214,8 +223,17 @@ int vtkDistributedRun::Execute(vtkInformationVector** inputVector,
   const auto cloudInput = MakeInput(part);
   const auto firstInput = MakeInput(first);
   std::array<vtkInformationVector*, 2> inputs{ cloudInput, firstInput };
-  return this->IsRoot() ? this->Lead(all, inputs.data(), learn)
-                        : this->Follow(inputs.data(), learn);
+  if (this->IsRoot())
+  {
+    return this->Lead(all, inputs.data(), learn);
+  }
+  if (this->OfOthers == Others::Help && all.UsablePoints > 0)
+  {
+    learn(inputs.data());
+  }
+  const auto noInput = MakeInput(vtkSmartPointer<vtkPolyData>::New());
+  inputs[0] = noInput;
+  return this->Follow(inputs.data(), learn);
 }
 
 bool vtkDistributedRun::IsUsable(std::size_t point, const std::vector<double>& weights) const
@@ -229,6 +247,7 @@ void vtkDistributedRun::Count(const std::vector<double>& weights, Census& census
   const std::size_t count = this->Collector.GetPoints().size();
   census.Points = static_cast<vtkIdType>(count);
   census.DoubleParts = this->Collector.HasDoublePoints() ? 1 : 0;
+  census.WeightedParts = weights.empty() ? 0 : 1;
   if (census.Errors > 0)
   {
     return;
@@ -292,6 +311,13 @@ vtkSmartPointer<vtkPolyData> vtkDistributedRun::MakePart(
   return part;
 }
 
+vtkDataArray* vtkDistributedRun::WeightsOf(vtkPolyData* part) const
+{
+  const std::string name = this->Filter->GetWeightArrayName();
+  vtkPointData* data = part->GetPointData();
+  return name.empty() ? data->GetScalars() : data->GetArray(name.c_str());
+}
+
 bool vtkDistributedRun::HasPoints(const Census& census) const
 {
   if (census.Points > 0 && census.UsablePoints == 0)
@@ -342,6 +368,10 @@ const char* vtkDistributedRun::ShareStopReason(const char* reason)
 /// Whenever process 0 reports progress, all meet: the others hear of it and tell whether to go on.
 void vtkDistributedRun::TellProgress()
 {
+  if (this->AllLearn)
+  {
+    return;
+  }
   double message = this->Filter->GetProgress();
   this->Controller->Broadcast(&message, 1, 0);
   const int own = 0;

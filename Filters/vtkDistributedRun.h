@@ -19,6 +19,7 @@
 #include <functional>
 #include <vector>
 
+class vtkDataArray;
 class vtkDummyController;
 class vtkInformationVector;
 class vtkMultiProcessController;
@@ -34,19 +35,31 @@ public:
   /** Executes the filter with these inputs on this process alone; 0 if that fails. */
   using LearnFunction = std::function<int(vtkInformationVector** inputVector)>;
 
+  /** What the other processes do while process 0 learns. */
+  enum class Others
+  {
+    Wait,
+    Help ///< by `learn` with the points of process 0, before they wait
+  };
+
   /** Takes about `maximumPoints` points; 0 for as many as the vertices need. */
-  vtkDistributedRun(
-    vtkNeuralMesh* filter, vtkMultiProcessController* controller, vtkIdType maximumPoints);
+  vtkDistributedRun(vtkNeuralMesh* filter, vtkMultiProcessController* controller,
+    vtkIdType maximumPoints, Others others = Others::Wait);
   ~vtkDistributedRun();
 
   /** To be called by all processes. Returns what RequestData() returns, the same on all. */
   int Execute(vtkInformationVector** inputVector, const WeightsFunction& collectWeights,
     const LearnFunction& learn);
 
+  /** Whether this process learns, and the others help or wait. */
+  bool IsRoot() const;
+  /** While all processes learn, they look after progress and aborts by themselves. */
+  void SetAllLearn(bool allLearn) { this->AllLearn = allLearn; }
+
   /** The stop reason of process 0, on all processes. */
   const char* ShareStopReason(const char* reason);
 
-  /** What other processes have sent to this one, if it is process 0: points and their data. */
+  /** What all processes have sent to each other, if this is process 0: points and their data. */
   vtkIdType GetMovedBytes() const { return this->MovedBytes; }
   vtkMultiProcessController* GetController() const { return this->Controller; }
 
@@ -54,11 +67,11 @@ private:
   /** What is to be known of the parts, as numbers that are added up. */
   struct Census;
 
-  bool IsRoot() const;
   void Count(const std::vector<double>& weights, Census& census);
   bool IsUsable(std::size_t point, const std::vector<double>& weights) const;
   vtkSmartPointer<vtkPolyData> MakePart(
     const std::vector<std::size_t>& points, bool hasWeights, bool areDouble) const;
+  vtkDataArray* WeightsOf(vtkPolyData* part) const;
   bool HasPoints(const Census& census) const;
   int Lead(const Census& census, vtkInformationVector** inputVector, const LearnFunction& learn);
   int Follow(vtkInformationVector** inputVector, const LearnFunction& learn);
@@ -68,6 +81,8 @@ private:
   vtkNew<vtkDummyController> Alone;
   vtkMultiProcessController* Controller;
   vtkIdType MaximumPoints;
+  Others OfOthers;
+  bool AllLearn = false;
   vtkPointGatherer Gatherer;
   vtkPointCloudCollector Collector;
   vtkIdType MovedBytes = 0;

@@ -374,9 +374,12 @@ int vtkNeuralMesh::RequestData(
   run.Parameters.parameter = static_cast<decltype(run.Parameters.parameter)>(this->property);
   NEURAL_MESH_FOR_EACH_PARAMETER(SET_PARAMETER)
 #undef SET_PARAMETER
-  for (const std::string& warning : run.Parameters.warnings(cloud.points().size()))
+  if (!this->IsHelper())
   {
-    vtkWarningMacro(<< warning);
+    for (const std::string& warning : run.Parameters.warnings(cloud.points().size()))
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
   try
   {
@@ -386,6 +389,10 @@ int vtkNeuralMesh::RequestData(
   {
     vtkErrorMacro(<< "Learning cannot start from the first mesh: " << error.what() << ".");
     return 0;
+  }
+  if (this->IsHelper())
+  {
+    return 1;
   }
   if (run.FirstMesh && run.FirstMesh->vertexCount() > run.Parameters.numberOfVertices)
   {

@@ -351,6 +351,9 @@ protected:
   virtual void PrepareRun(
     vtkNeuralMeshRun& run, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
+  /** Whether this process helps another one up to there, and has no result of its own. */
+  virtual bool IsHelper() const { return false; }
+
   /** Weights of the collected points; none if all weigh alike. An error if they are not there. */
   bool CollectWeights(const vtkPointCloudCollector& collector, std::vector<double>& weights);
 

@@ -8,11 +8,14 @@
 #include "vtkParallelLoop.h"
 #include "vtkTriangleMeshCollector.h"
 
+#include "vtkCommunicator.h"
+#include "vtkDummyController.h"
 #include "vtkFloatArray.h"
 #include "vtkFlyingEdges3D.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -20,8 +23,10 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 vtkStandardNewMacro(vtkNeuralMeshEnsemble);
@@ -68,20 +73,30 @@ struct Schedule
   double Averaging;
 };
 
-/// Learns all members. Returns false if there was no time for that, or the filter was aborted.
-bool LearnMembers(neuralmesh::Ensemble& ensemble, vtkNeuralMeshRun& run)
+/// Learns all members. Returns false if there was no time for that, or the filter was aborted, on
+/// whatever process.
+bool LearnMembers(
+  neuralmesh::Ensemble& ensemble, vtkNeuralMeshRun& run, vtkMultiProcessController* controller)
 {
   const double limit = run.Parameters.timeLimit;
-  while (!ensemble.isLearnt())
+  for (;;)
   {
+    const bool goesOn = run.Progress.Report(ensemble.progress());
     const bool isTimeOver = limit > 0.0 && run.Progress.GetSeconds() >= limit;
-    if (!run.Progress.Report(ensemble.progress()) || isTimeOver)
+    const std::array<int, 3> own{ !ensemble.isLearnt(), !goesOn, isTimeOver };
+    std::array<int, 3> all{};
+    controller->AllReduce(own.data(), all.data(), own.size(), vtkCommunicator::MAX_OP);
+    const auto [isLearning, isAborted, isOver] = all;
+    if (isAborted)
     {
-      return false;
+      run.Progress.Abort();
+    }
+    if (!isLearning || isAborted || isOver)
+    {
+      return !isLearning;
     }
     vtkParallelLoop::Run(ensemble.size(), [&](std::size_t member) { ensemble.learn(member); });
   }
-  return true;
 }
 
 /// Calls `body` with all members, in groups that run at the same time, and reports between them,
@@ -104,25 +119,56 @@ bool ForEachMember(const neuralmesh::Ensemble& ensemble, vtkNeuralMeshProgress& 
   return true;
 }
 
-/// The population, and the voxels of all members. Returns false if that was ended before.
-bool Populate(neuralmesh::Ensemble& ensemble, vtkNeuralMeshRun& run)
+/// Whether no process was told to abort; else all of them abort.
+bool AllGoOn(bool goesOn, vtkNeuralMeshProgress& progress, vtkMultiProcessController* controller)
+{
+  const int own = goesOn ? 0 : 1;
+  int aborts = 0;
+  controller->AllReduce(&own, &aborts, 1, vtkCommunicator::MAX_OP);
+  if (aborts)
+  {
+    progress.Abort();
+  }
+  return !aborts;
+}
+
+template <typename T>
+std::vector<T> SumOfAll(const std::vector<T>& own, vtkMultiProcessController* controller)
+{
+  std::vector<T> sum(own.size());
+  const auto size = static_cast<vtkIdType>(own.size());
+  controller->AllReduce(own.data(), sum.data(), size, vtkCommunicator::SUM_OP);
+  return sum;
+}
+
+/// The votes of all members, of which each process learns its share; none if that was ended before.
+std::optional<neuralmesh::VoxelVotes> Populate(
+  neuralmesh::Ensemble& ensemble, vtkNeuralMeshRun& run, vtkMultiProcessController* controller)
 {
   const Schedule schedule(ensemble, run.Parameters);
   vtkNeuralMeshProgress& progress = run.Progress;
   progress.EnterPart(0.0, schedule.Population, "Learning the members");
-  bool isDone = LearnMembers(ensemble, run);
+  bool isDone = LearnMembers(ensemble, run, controller);
   progress.EnterPart(schedule.Population, schedule.Averaging, "Averaging");
   isDone = isDone &&
-    ForEachMember(
-      ensemble, progress, 0.0, 0.5, [&](std::size_t member) { ensemble.findPhantoms(member); });
+    AllGoOn(ForEachMember(ensemble, progress, 0.0, 0.5,
+              [&](std::size_t member) { ensemble.findPhantoms(member); }),
+      progress, controller);
   if (isDone)
   {
-    ensemble.makeGrid();
-    isDone = ForEachMember(
-      ensemble, progress, 0.5, 1.0, [&](std::size_t member) { ensemble.voxelize(member); });
+    ensemble.makeGrid(SumOfAll(ensemble.boxes(), controller));
+    isDone = AllGoOn(ForEachMember(ensemble, progress, 0.5, 1.0,
+                       [&](std::size_t member) { ensemble.voxelize(member); }),
+      progress, controller);
   }
   progress.EnterPart(schedule.Averaging, 1.0, "Refining");
-  return isDone;
+  if (!isDone)
+  {
+    return std::nullopt;
+  }
+  neuralmesh::VoxelVotes votes = ensemble.votes();
+  votes.votes = SumOfAll(votes.votes, controller);
+  return votes;
 }
 
 /// The grid of the votes has so many points along each axis.
@@ -242,23 +288,31 @@ void vtkNeuralMeshEnsemble::PrepareRun(
 #undef SET_PARAMETER
   parameters.seed = run.Parameters.seed;
 
-  neuralmesh::Ensemble ensemble(run.Cloud, parameters);
-  const bool isDone = Populate(ensemble, run);
+  vtkNew<vtkDummyController> alone;
+  vtkMultiProcessController* controller = this->GetMemberController();
+  controller = controller ? controller : alone.Get();
+  const neuralmesh::EnsembleShare share{ static_cast<std::size_t>(controller->GetLocalProcessId()),
+    static_cast<std::size_t>(controller->GetNumberOfProcesses()) };
+  neuralmesh::Ensemble ensemble(run.Cloud, parameters, share);
+  const std::optional<neuralmesh::VoxelVotes> votes = Populate(ensemble, run, controller);
+  if (this->IsHelper())
+  {
+    return;
+  }
   if (run.Parameters.timeLimit > 0.0)
   {
     // No time left is not the same as no limit.
     run.Parameters.timeLimit = std::max(
       std::numeric_limits<double>::min(), run.Parameters.timeLimit - run.Progress.GetSeconds());
   }
-  if (!isDone)
+  if (!votes)
   {
-    run.FirstMesh = ensemble.mesh(0);
+    run.FirstMesh = ensemble.renumberedMesh(0);
     return;
   }
-  const neuralmesh::VoxelVotes votes = ensemble.votes();
-  FillVotes(votes, vtkImageData::GetData(outputVector, 3));
-  const std::vector<std::uint8_t> solid = neuralmesh::averageSolid(votes);
-  const double agreement = neuralmesh::agreement(votes, solid);
+  FillVotes(*votes, vtkImageData::GetData(outputVector, 3));
+  const std::vector<std::uint8_t> solid = neuralmesh::averageSolid(*votes);
+  const double agreement = neuralmesh::agreement(*votes, solid);
   const auto percent = std::lround(100.0 * agreement);
   if (agreement < LeastAgreement)
   {
@@ -273,7 +327,7 @@ void vtkNeuralMeshEnsemble::PrepareRun(
                     << " % of what they hold only, for the cloud is open, thin or of too few "
                        "points: the topology is left to chance.");
   }
-  neuralmesh::Mesh average = neuralmesh::buildMesh(AverageSurface(votes, solid), run.Cloud);
+  neuralmesh::Mesh average = neuralmesh::buildMesh(AverageSurface(*votes, solid), run.Cloud);
   neuralmesh::simplify(average, run.Parameters.numberOfVertices / VerticesPerAverageVertex);
   const neuralmesh::TriangleMesh triangles = neuralmesh::trianglesOf(average, run.Cloud);
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 2);

@@ -69,6 +69,7 @@
 #include "vtkNeuralMesh.h"
 
 class vtkImageData;
+class vtkMultiProcessController;
 
 class VTKFILTERSNEURALMESH_EXPORT vtkNeuralMeshEnsemble : public vtkNeuralMesh
 {
@@ -147,6 +148,9 @@ protected:
     vtkInformationVector* outputVector) override;
   void PrepareRun(vtkNeuralMeshRun& run, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+
+  /** The processes that share the members, by whose call all of them run; null for this one alone. */
+  virtual vtkMultiProcessController* GetMemberController() { return nullptr; }
 
 private:
   vtkNeuralMeshEnsemble(const vtkNeuralMeshEnsemble&) = delete;

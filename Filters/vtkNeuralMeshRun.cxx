@@ -32,6 +32,8 @@ bool vtkNeuralMeshProgress::Report(double fraction)
   return !this->Filter->GetAbortExecute();
 }
 
+void vtkNeuralMeshProgress::Abort() { this->Filter->SetAbortExecute(1); }
+
 double vtkNeuralMeshProgress::GetSeconds() const
 {
   return std::chrono::duration<double>(Clock::now() - this->Start).count();

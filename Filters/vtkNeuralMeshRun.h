@@ -31,6 +31,8 @@ public:
   void EnterPart(double begin, double end, const char* text);
   /** How much of the part is done, 0 to 1. Returns false if the filter was told to abort. */
   bool Report(double fraction);
+  /** Has the filter abort, as another process was told to. */
+  void Abort();
   /** Since the start. */
   double GetSeconds() const;
 

@@ -23,16 +23,29 @@ vtkPNeuralMeshEnsemble::vtkPNeuralMeshEnsemble()
 
 vtkPNeuralMeshEnsemble::~vtkPNeuralMeshEnsemble() { this->SetController(nullptr); }
 
+bool vtkPNeuralMeshEnsemble::IsHelper() const { return !this->Run->IsRoot(); }
+
+void vtkPNeuralMeshEnsemble::PrepareRun(
+  vtkNeuralMeshRun& run, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->Run->SetAllLearn(true);
+  this->Superclass::PrepareRun(run, inputVector, outputVector);
+  this->Run->SetAllLearn(false);
+}
+
 int vtkPNeuralMeshEnsemble::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkDistributedRun run(this, this->Controller, this->MaximumPoints);
+  vtkDistributedRun run(
+    this, this->Controller, this->MaximumPoints, vtkDistributedRun::Others::Help);
+  this->Run = &run;
   const int result = run.Execute(
     inputVector,
     [this](const vtkPointCloudCollector& collector, std::vector<double>& weights)
     { return this->CollectWeights(collector, weights); },
     [&](vtkInformationVector** inputs)
     { return this->Superclass::RequestData(request, inputs, outputVector); });
+  this->Run = nullptr;
   this->MovedBytes = run.GetMovedBytes();
   if (result)
   {

@@ -4,7 +4,8 @@
  * @brief   one mesh by an ensemble, from a point cloud that lies on many processes
  *
  * vtkPNeuralMeshEnsemble is to vtkNeuralMeshEnsemble what vtkPNeuralMesh is to vtkNeuralMesh: see
- * there. Members, too, are learnt by process 0, on its threads, from the points that were selected.
+ * there. Members are shared out to the processes: each gets the points that were selected, learns
+ * every so many-th member on its threads, and the votes are added up. The refinement is process 0's.
  * The votes are on all processes, the average mesh is on process 0.
  *
  * @sa vtkNeuralMeshEnsemble vtkPNeuralMesh vtkMultiProcessController
@@ -16,6 +17,7 @@
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
 #include "vtkNeuralMeshEnsemble.h"
 
+class vtkDistributedRun;
 class vtkMultiProcessController;
 
 class VTKFILTERSNEURALMESH_EXPORT vtkPNeuralMeshEnsemble : public vtkNeuralMeshEnsemble
@@ -45,8 +47,8 @@ public:
   ///@}
 
   /**
-   * How many bytes of points and point data the other processes sent to process 0 in the last run;
-   * known there, 0 elsewhere.
+   * How many bytes of points and point data were sent in the last run, to process 0, and of points
+   * and weights from there to the others; known there, 0 elsewhere.
    */
   vtkIdType GetMovedBytes() const { return this->MovedBytes; }
 
@@ -54,6 +56,10 @@ protected:
   vtkPNeuralMeshEnsemble();
   ~vtkPNeuralMeshEnsemble() override;
 
+  vtkMultiProcessController* GetMemberController() override { return this->Controller; }
+  bool IsHelper() const override;
+  void PrepareRun(vtkNeuralMeshRun& run, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -62,6 +68,7 @@ private:
   void operator=(const vtkPNeuralMeshEnsemble&) = delete;
 
   vtkMultiProcessController* Controller = nullptr;
+  vtkDistributedRun* Run = nullptr; ///< while it executes
   vtkIdType MaximumPoints = 0;
   vtkIdType MovedBytes = 0;
 };

@@ -250,6 +250,46 @@ void vtkPointGatherer::GatherArray(vtkAbstractArray* array, const std::vector<vt
   }
 }
 
+void vtkPointGatherer::HandOut(vtkPolyData* part, vtkDataArray* array)
+{
+  const vtkSmartPointer<vtkDataArray> left = array;
+  this->HandOutArray(part->GetPoints()->GetData());
+  if (left)
+  {
+    this->HandOutArray(left);
+  }
+  if (this->IsRoot())
+  {
+    return;
+  }
+  const bool areScalars = left && left == part->GetPointData()->GetScalars();
+  part->GetPointData()->Initialize();
+  if (areScalars)
+  {
+    part->GetPointData()->SetScalars(left);
+  }
+  else if (left)
+  {
+    part->GetPointData()->AddArray(left);
+  }
+}
+
+void vtkPointGatherer::HandOutArray(vtkDataArray* array)
+{
+  vtkIdType count = array->GetNumberOfTuples();
+  this->Controller->Broadcast(&count, 1, 0);
+  array->SetNumberOfTuples(count);
+  for (vtkIdType first = 0; first < count; first += TuplesPerBatch)
+  {
+    const vtkIdType values =
+      array->GetNumberOfComponents() * std::min(TuplesPerBatch, count - first);
+    const vtkIdType bytes = values * array->GetDataTypeSize();
+    auto* const place = array->GetVoidPointer(first * array->GetNumberOfComponents());
+    this->Controller->Broadcast(static_cast<unsigned char*>(place), bytes, 0);
+    this->SentBytes += this->IsRoot() ? bytes * (this->Controller->GetNumberOfProcesses() - 1) : 0;
+  }
+}
+
 void vtkPointGatherer::Send(vtkAbstractArray* batch)
 {
   if (IsPlain(batch))

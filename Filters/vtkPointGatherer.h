@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPointGatherer
- * @brief   points and their data, moved from all processes to process 0
+ * @brief   points and their data, moved from all processes to process 0, and back
  *
  * Internal to the module. Each function is to be called by all processes, in the same order.
  */
@@ -15,6 +15,7 @@
 #include <vector>
 
 class vtkAbstractArray;
+class vtkDataArray;
 class vtkMultiProcessController;
 class vtkPolyData;
 
@@ -35,18 +36,22 @@ public:
   /** On process 0 the part becomes that of all processes, in their order. Arrays must agree. */
   void GatherPoints(vtkPolyData* part);
 
+  /** On all processes the part becomes that of process 0, of whose arrays only this one is left. */
+  void HandOut(vtkPolyData* part, vtkDataArray* array);
+
   /**
    * On process 0, the surface of which each process has a piece, joined where points of several
    * pieces coincide; null elsewhere.
    */
   vtkSmartPointer<vtkPolyData> GatherSurface(vtkPolyData* piece);
 
-  /** What this process has sent to process 0 so far. */
+  /** What this process has sent so far. */
   vtkIdType GetSentBytes() const { return this->SentBytes; }
 
 private:
   bool IsRoot() const;
   void GatherArray(vtkAbstractArray* array, const std::vector<vtkIdType>& counts);
+  void HandOutArray(vtkDataArray* array);
   void Send(vtkAbstractArray* batch);
   void Receive(vtkAbstractArray* batch, vtkIdType count, int process);
 

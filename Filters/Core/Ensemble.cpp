@@ -19,6 +19,7 @@ constexpr std::uint64_t SamplesPerRound = 5000;
 /// The stream of random numbers that the seeds of the members come from.
 constexpr std::uint64_t SeedStream = 10;
 constexpr std::size_t LeastVerticesOfMembers = 50;
+constexpr std::size_t BoxSize = 6; ///< numbers
 
 Parameters memberParameters(const PointCloud& cloud, const EnsembleParameters& parameters)
 {
@@ -39,9 +40,11 @@ Ensemble::Member::Member(const PointCloud& cloud, const Parameters& parameters)
 {
 }
 
-Ensemble::Ensemble(const PointCloud& cloud, const EnsembleParameters& parameters)
+Ensemble::Ensemble(
+  const PointCloud& cloud, const EnsembleParameters& parameters, EnsembleShare share)
   : cloud_(cloud)
   , parameters_(parameters)
+  , share_(share)
   , memberParameters_(memberParameters(cloud, parameters))
 {
   Random seeds(parameters.seed, SeedStream);
@@ -49,7 +52,10 @@ Ensemble::Ensemble(const PointCloud& cloud, const EnsembleParameters& parameters
   {
     Parameters ofMember = this->memberParameters_;
     ofMember.seed = seeds.next();
-    this->members_.push_back(std::make_unique<Member>(cloud, ofMember));
+    if (i % share.count == share.index)
+    {
+      this->members_.push_back(std::make_unique<Member>(cloud, ofMember));
+    }
   }
 }
 
@@ -80,7 +86,13 @@ double Ensemble::progress() const
   {
     sum += member->isLearnt ? 1. : member->progress;
   }
-  return sum / double(this->size());
+  return this->members_.empty() ? 1. : sum / double(this->size());
+}
+
+const Mesh& Ensemble::renumberedMesh(std::size_t member)
+{
+  this->members_[member]->learner.renumber();
+  return this->mesh(member);
 }
 
 double Ensemble::expectedSamples() const
@@ -97,8 +109,7 @@ double Ensemble::expectedSamples() const
 void Ensemble::findPhantoms(std::size_t index)
 {
   Member& member = *this->members_[index];
-  member.learner.renumber();
-  const Mesh& mesh = member.learner.mesh();
+  const Mesh& mesh = this->renumberedMesh(index);
   member.isPhantom = neuralmesh::findPhantoms(this->cloud_, mesh, member.learner.grid());
   member.triangles = trianglesOf(mesh, this->cloud_);
 }
@@ -109,21 +120,35 @@ std::size_t Ensemble::gridCount(unsigned resolution)
   return std::size_t(resolution) + 1 + 2;
 }
 
-void Ensemble::makeGrid()
+std::vector<double> Ensemble::boxes() const
+{
+  std::vector<double> result(BoxSize * this->parameters_.numberOfMembers, 0.);
+  for (std::size_t i = 0; i < this->members_.size(); ++i)
+  {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& point : this->members_[i]->triangles.points)
+    {
+      box.extend(point);
+    }
+    double* const place = &result[BoxSize * (this->share_.index + i * this->share_.count)];
+    std::copy_n(box.min().data(), 3, place);
+    std::copy_n(box.max().data(), 3, place + 3);
+  }
+  return result;
+}
+
+void Ensemble::makeGrid(const std::vector<double>& boxes)
 {
   // What more than half of the members can hold at all.
-  const std::size_t others = this->size() / 2;
+  const std::size_t others = this->parameters_.numberOfMembers / 2;
   Eigen::Vector3d low, high;
   for (Eigen::Index axis = 0; axis < 3; ++axis)
   {
     std::vector<double> lows, highs;
-    for (const auto& member : this->members_)
+    for (std::size_t place = 0; place < boxes.size(); place += BoxSize)
     {
-      const auto [least, most] =
-        std::minmax_element(member->triangles.points.begin(), member->triangles.points.end(),
-          [axis](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a[axis] < b[axis]; });
-      lows.push_back((*least)[axis]);
-      highs.push_back((*most)[axis]);
+      lows.push_back(boxes[place + std::size_t(axis)]);
+      highs.push_back(boxes[place + 3 + std::size_t(axis)]);
     }
     std::sort(lows.begin(), lows.end());
     std::sort(highs.rbegin(), highs.rend());
@@ -148,7 +173,7 @@ void Ensemble::voxelize(std::size_t index)
 
 VoxelVotes Ensemble::votes() const
 {
-  VoxelVotes result{ this->grid_, unsigned(this->size()),
+  VoxelVotes result{ this->grid_, this->parameters_.numberOfMembers,
     std::vector<std::uint8_t>(this->grid_.size(), 0) };
   for (const auto& member : this->members_)
   {

@@ -33,7 +33,8 @@ EnsembleParameters smallEnsemble()
   return parameters;
 }
 
-VoxelVotes vote(Ensemble& ensemble)
+/// Learns the members and looks for their phantoms.
+void learn(Ensemble& ensemble)
 {
   while (!ensemble.isLearnt())
   {
@@ -46,12 +47,22 @@ VoxelVotes vote(Ensemble& ensemble)
   {
     ensemble.findPhantoms(member);
   }
-  ensemble.makeGrid();
+}
+
+VoxelVotes voteIn(Ensemble& ensemble, const std::vector<double>& boxes)
+{
+  ensemble.makeGrid(boxes);
   for (std::size_t member = 0; member < ensemble.size(); ++member)
   {
     ensemble.voxelize(member);
   }
   return ensemble.votes();
+}
+
+VoxelVotes vote(Ensemble& ensemble)
+{
+  learn(ensemble);
+  return voteIn(ensemble, ensemble.boxes());
 }
 }
 
@@ -109,6 +120,57 @@ TEST(Ensemble, VotesFollowTheShape)
   EXPECT_GT(right, 1000u);
   EXPECT_EQ(wrong, 0u);
   EXPECT_GT(agreement(votes, solid), 0.9);
+}
+
+// A member that is not learnt to the end is a mesh to go on from, also when it has lost vertices.
+TEST(Ensemble, GoesOnFromMember)
+{
+  Ensemble ensemble(torusCloud(), smallEnsemble());
+  while (ensemble.progress() < 0.6)
+  {
+    ensemble.learn(0);
+    ensemble.learn(1);
+    ensemble.learn(2);
+    ensemble.learn(3);
+  }
+  const Mesh mesh = ensemble.renumberedMesh(0);
+  EXPECT_EQ(defectOf(mesh), "");
+  Parameters parameters;
+  parameters.numberOfVertices = 2 * mesh.vertexCount();
+  Learner learner(torusCloud(), parameters, mesh);
+  learner.learn(100000);
+  EXPECT_EQ(defectOf(learner.mesh()), "");
+  EXPECT_GT(learner.mesh().vertexCount(), mesh.vertexCount());
+}
+
+// Members that are shared give the votes of all together, also where a share has none.
+TEST(Ensemble, SharesDoNotMatter)
+{
+  Ensemble all(torusCloud(), smallEnsemble());
+  const VoxelVotes expected = vote(all);
+  constexpr std::size_t Shares = 7;
+  std::vector<std::unique_ptr<Ensemble>> shares;
+  std::vector<double> boxes(all.boxes().size(), 0.);
+  for (std::size_t i = 0; i < Shares; ++i)
+  {
+    shares.push_back(
+      std::make_unique<Ensemble>(torusCloud(), smallEnsemble(), EnsembleShare{ i, Shares }));
+    learn(*shares.back());
+    const std::vector<double> own = shares.back()->boxes();
+    std::transform(own.begin(), own.end(), boxes.begin(), boxes.begin(), std::plus<>());
+  }
+  EXPECT_EQ(shares.front()->size(), 1u);
+  EXPECT_EQ(shares.back()->size(), 0u);
+  EXPECT_EQ(boxes, all.boxes());
+  std::vector<std::uint8_t> sum(expected.votes.size(), 0);
+  for (const auto& share : shares)
+  {
+    const VoxelVotes own = voteIn(*share, boxes);
+    EXPECT_EQ(own.grid.first, expected.grid.first);
+    EXPECT_EQ(own.voters, expected.voters);
+    std::transform(own.votes.begin(), own.votes.end(), sum.begin(), sum.begin(), std::plus<>());
+  }
+  EXPECT_EQ(sum, expected.votes);
 }
 
 // In which order members are learnt, and how far at a time, does not matter.

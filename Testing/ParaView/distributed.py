@@ -171,12 +171,12 @@ def reconstruct(division):
 
 
 def ensemble(division):
-    """The ensemble, and the votes, which are on all processes."""
+    """The ensemble, weighted, and the votes, which are on all processes."""
     points = torus(20000)
     data = part_of(points, owners_of(points, division))
     mesh = mesh_of(
         data, simple.NeuralMeshEnsemble, NumberOfVertices=1000, NumberOfMembers=3,
-        VerticesPerMember=500, GridResolution=24,
+        VerticesPerMember=500, GridResolution=24, WeightArray="Trust",
     )
     result = found_in(mesh)
     votes = mesh.GetClientSideObject().GetVotes()
@@ -194,11 +194,16 @@ def first_mesh(division):
     return found_in(mesh_of(data, FirstMesh=first, NumberOfVertices=1000, Start="Tetrahedron"))
 
 
-def abort(process):
+def abort(process, ensemble=False):
     """A run that would take long is aborted by a process; the next one is as ever."""
     points = torus(50000)
     data = part_of(points, owners_of(points, "shuffled"))
-    mesh = mesh_of(data, NumberOfVertices=20000)
+    # Of the ensemble it is the members that take long.
+    mesh = (
+        mesh_of(data, simple.NeuralMeshEnsemble, NumberOfVertices=1000, NumberOfMembers=40)
+        if ensemble
+        else mesh_of(data, NumberOfVertices=20000)
+    )
     filter = mesh.GetClientSideObject()
     told = []
 
@@ -218,6 +223,8 @@ def abort(process):
     assert any(0.0 < progress < 1.0 for progress in told), told
     assert filter.GetAbortExecute() == 0
     mesh.NumberOfVertices = 500
+    if ensemble:
+        mesh.NumberOfMembers = 1
     return {"aborted": aborted, "next": found_in(mesh)}
 
 

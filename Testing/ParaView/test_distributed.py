@@ -56,12 +56,17 @@ class Distributed(unittest.TestCase):
 
 
 class Others(unittest.TestCase):
-    # Promise: so does the ensemble.
+    # Promise: so does the ensemble, whose members are learnt by all processes, of which some may have
+    # none; for that they get the points.
     def test_ensemble(self):
         alone, _ = play(1, "ensemble", "uneven")
         self.assertEqual((alone["vertices"], alone["genus"]), (1000, 1))
-        parts, _ = play(2, "ensemble", "shuffled")
-        self.assertEqual(parts["digest"], alone["digest"])
+        for processes, division in ((2, "shuffled"), (4, "last")):
+            with self.subTest(processes=processes, division=division):
+                parts, _ = play(processes, "ensemble", division)
+                self.assertEqual(parts["digest"], alone["digest"])
+                handed_out = (processes - 1) * 20000 * 4 * 8
+                self.assertGreater(parts["bytes"], handed_out)
 
     # Promise: a first mesh that lies in pieces is joined to one.
     def test_first_mesh(self):
@@ -76,6 +81,16 @@ class Others(unittest.TestCase):
 
 
 class Ends(unittest.TestCase):
+    # Promise: an abort on any process ends the learning of members on all.
+    def test_abort_of_members(self):
+        for process in ("0", "1"):
+            with self.subTest(process=process):
+                result, _ = play(2, "abort", process, "ensemble")
+                self.assertEqual(result["aborted"]["stop"], "cancelled")
+                # That is what was learnt of the first member.
+                self.assertTrue(10 < result["aborted"]["vertices"] < 5000, result)
+                self.assertEqual(result["next"]["stop"], "vertices")
+
     # Promise: an abort on any process ends the run on all and keeps the mesh; all are told of
     # progress; the next run is as ever.
     def test_abort(self):
