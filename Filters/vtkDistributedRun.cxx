@@ -231,8 +231,9 @@ int vtkDistributedRun::Execute(vtkInformationVector** inputVector,
   {
     learn(inputs.data());
   }
-  const auto noInput = MakeInput(vtkSmartPointer<vtkPolyData>::New());
-  inputs[0] = noInput;
+  // They need no points any more, and their outputs are those of none.
+  cloudInput->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), vtkNew<vtkPolyData>());
+  part = nullptr;
   return this->Follow(inputs.data(), learn);
 }
 

@@ -56,18 +56,6 @@ class Distributed(unittest.TestCase):
 
 
 class Others(unittest.TestCase):
-    # Promise: so does the ensemble, whose members are learnt by all processes, of which some may have
-    # none; for that they get the points.
-    def test_ensemble(self):
-        alone, _ = play(1, "ensemble", "uneven")
-        self.assertEqual((alone["vertices"], alone["genus"]), (1000, 1))
-        for processes, division in ((2, "shuffled"), (4, "last")):
-            with self.subTest(processes=processes, division=division):
-                parts, _ = play(processes, "ensemble", division)
-                self.assertEqual(parts["digest"], alone["digest"])
-                handed_out = (processes - 1) * 20000 * 4 * 8
-                self.assertGreater(parts["bytes"], handed_out)
-
     # Promise: a first mesh that lies in pieces is joined to one.
     def test_first_mesh(self):
         result, _ = play(2, "first_mesh", "shuffled")
@@ -80,7 +68,19 @@ class Others(unittest.TestCase):
         self.assertNotIn("ERR", errors)
 
 
-class Ends(unittest.TestCase):
+class Ensembles(unittest.TestCase):
+    # Promise: the same cloud and seed give the same bytes of an ensemble, too, whose members are learnt
+    # by all processes, of which some may have none; for that they get the points.
+    def test_ensemble(self):
+        alone, _ = play(1, "ensemble", "uneven")
+        self.assertEqual((alone["vertices"], alone["genus"]), (1000, 1))
+        for processes, division in ((2, "shuffled"), (4, "last")):
+            with self.subTest(processes=processes, division=division):
+                parts, _ = play(processes, "ensemble", division)
+                self.assertEqual(parts["digest"], alone["digest"])
+                handed_out = (processes - 1) * 20000 * 4 * 8
+                self.assertGreater(parts["bytes"], handed_out)
+
     # Promise: an abort on any process ends the learning of members on all.
     def test_abort_of_members(self):
         for process in ("0", "1"):
@@ -91,6 +91,8 @@ class Ends(unittest.TestCase):
                 self.assertTrue(10 < result["aborted"]["vertices"] < 5000, result)
                 self.assertEqual(result["next"]["stop"], "vertices")
 
+
+class Ends(unittest.TestCase):
     # Promise: an abort on any process ends the run on all and keeps the mesh; all are told of
     # progress; the next run is as ever.
     def test_abort(self):
