@@ -200,7 +200,10 @@ def abort(process, ensemble=False):
     data = part_of(points, owners_of(points, "shuffled"))
     # Of the ensemble it is the members that take long.
     mesh = (
-        mesh_of(data, simple.NeuralMeshEnsemble, NumberOfVertices=1000, NumberOfMembers=40)
+        mesh_of(
+            data, simple.NeuralMeshEnsemble, NumberOfVertices=1000, NumberOfMembers=30,
+            VerticesPerMember=2000,
+        )
         if ensemble
         else mesh_of(data, NumberOfVertices=20000)
     )

@@ -88,7 +88,7 @@ class Ensembles(unittest.TestCase):
                 result, _ = play(2, "abort", process, "ensemble")
                 self.assertEqual(result["aborted"]["stop"], "cancelled")
                 # That is what was learnt of the first member.
-                self.assertTrue(10 < result["aborted"]["vertices"] < 5000, result)
+                self.assertTrue(10 < result["aborted"]["vertices"] < 2000, result)
                 self.assertEqual(result["next"]["stop"], "vertices")
 
 
