@@ -118,7 +118,9 @@ def write_scan(path):
     """The scan of a ring."""
     ring = simple.Superquadric(Toroidal=1, Thickness=0.5, ThetaRoundness=1.0, PhiRoundness=1.0,
                                ThetaResolution=128, PhiResolution=64)  # fmt: skip
-    simple.SaveData(str(path), simple.NeuralMeshScan(Input=ring, NumberOfPoints=30000))
+    scan = simple.NeuralMeshScan(Input=ring, NumberOfPoints=30000)
+    # Not all versions of expat read appended data.
+    simple.SaveData(str(path), scan, DataMode="Binary")
 
 
 def play(events, folder):
