@@ -218,6 +218,48 @@ def errors():
     return scenes
 
 
+def height_field():
+    x, y = (axis.ravel() for axis in np.meshgrid(np.linspace(-1, 1, 200), np.linspace(-1, 1, 200)))
+    z = 0
+    for octave, turn in enumerate((0.3, 2.1, 4.4, 1.2)):
+        along = np.cos(turn) * x + np.sin(turn) * y
+        z = z + 0.3 / 2**octave * np.sin(2**octave * np.pi * along + turn)
+    corner = (np.arange(199)[:, None] * 200 + np.arange(199)).ravel()
+    below = np.column_stack((corner, corner + 1, corner + 201))
+    above = np.column_stack((corner, corner + 201, corner + 200))
+    return np.column_stack((x, z, -y)), np.vstack((below, above))
+
+
+def seen_from(points, triangles, viewpoint):
+    scan = neuralmesh.vtkNeuralMeshScan()
+    scan.SetInputData(mesh_data(points, triangles))
+    scan.SetNumberOfPoints(200000)
+    scan.OcclusionOn()
+    scan.SetViewpoint(*viewpoint)
+    scan.Update()
+    return scan.GetOutput()
+
+
+def hard_scans():
+    points, triangles = bunny()
+    samples = clouds.sample(points, triangles, 200000)
+    size = np.linalg.norm(np.ptp(samples, axis=0))
+    holed = samples
+    for gap in samples[[11, 5000, 60000, 120000, 190000]]:
+        holed = holed[np.linalg.norm(holed - gap, axis=1) > 0.03 * size]
+    eye = samples.mean(axis=0) + size * np.array((1.5, 0.6, 2.6))
+    field = height_field()
+    scenes = []
+    for scan, surface, most, azimuth, elevation in (
+            (spoilt(samples, 0.005, 4000), (points, triangles), 0.3, 30, 10),
+            (holed, (points, triangles), 0.1, 30, 10),
+            (seen_from(points, triangles, eye), (points, triangles), 0.1, 60, 15),
+            (clouds.sample(*field, 200000), field, 0.1, 30, 35)):
+        mesh = with_errors(neuralmesh.reconstruct(scan), *surface)
+        scenes.append(scene(mesh, "y", azimuth, elevation, "Distance", values=(0, most)))
+    return scenes
+
+
 def details():
     points = clouds.sample(*bunny(), 200000)
     size = np.linalg.norm(np.ptp(points, axis=0))
@@ -237,7 +279,7 @@ def direction(towards):
     return np.degrees(np.arctan2(x, z)), np.degrees(np.arcsin(y))
 
 
-PICTURES = {"leap": leap, "errors": errors, "details": details,
+PICTURES = {"leap": leap, "errors": errors, "hard_scans": hard_scans, "details": details,
             "growth": growth, "noise": noise, "topology": topology, "normals": normals,
             "ensemble": ensemble, "first_mesh": first_mesh, "openings": openings}
 

@@ -4,11 +4,35 @@
 #include "DataGaps.h"
 #include "EdgeFlips.h"
 #include "Refinement.h"
+#include "SelfIntersections.h"
 
+#include <limits>
 #include <numeric>
 
 namespace neuralmesh
 {
+namespace
+{
+/// Defects, at most, whose vertices are taken away if nothing else helps.
+constexpr std::size_t MostCollapsed = 200;
+
+VertexIndex nearestToCollapseInto(const Mesh& mesh, VertexIndex v)
+{
+  VertexIndex nearest = NoVertex;
+  float shortest = std::numeric_limits<float>::max();
+  for (const VertexIndex neighbor : mesh.ring(v))
+  {
+    const float squared = squaredNorm(mesh.position(neighbor) - mesh.position(v));
+    if (squared < shortest && mesh.canCollapse(v, neighbor))
+    {
+      shortest = squared;
+      nearest = neighbor;
+    }
+  }
+  return nearest;
+}
+}
+
 Finish::Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters,
   std::optional<double> bridgeWidth, std::size_t vertexCount)
   : cloud_(cloud)
@@ -55,10 +79,66 @@ bool Finish::run(const Progress& progress)
       flipEdges(this->mesh_);
     }
   }
-  const IntersectionRepair repair = repairIntersections(this->mesh_, partOf(progress, 1., 1.));
+  this->repair(partOf(progress, 1., 1.));
+  return true;
+}
+
+void Finish::repair(const Progress& progress)
+{
+  IntersectionRepair repair = repairIntersections(this->mesh_, progress);
   this->report_.repaired = repair.before;
   this->report_.left = repair.after;
-  return true;
+  while (this->report_.left.total() > 0 && this->report_.left.total() <= MostCollapsed)
+  {
+    const Mesh before = this->mesh_;
+    const std::vector<VertexIndex> originsBefore = this->origins_;
+    this->collapseDefects();
+    repair = repairIntersections(this->mesh_, progress);
+    if (repair.after.total() >= this->report_.left.total() ||
+      this->mesh_.vertexCount() != before.vertexCount())
+    {
+      this->mesh_ = before;
+      this->origins_ = originsBefore;
+      break;
+    }
+    this->report_.left = repair.after;
+  }
+}
+
+/// What cannot be mended is taken away: each vertex of a defect goes into its nearest neighbour. As
+/// many come in again where edges are long.
+void Finish::collapseDefects()
+{
+  std::vector<VertexIndex> broken;
+  for (const Triangle& triangle : intersectingTriangles(this->mesh_))
+  {
+    broken.insert(broken.end(), triangle.begin(), triangle.end());
+  }
+  for (const Edge& edge : foldedEdges(this->mesh_))
+  {
+    const Edge opposite = oppositeTo(this->mesh_, edge);
+    broken.insert(broken.end(), edge.begin(), edge.end());
+    broken.insert(broken.end(), opposite.begin(), opposite.end());
+  }
+  const std::size_t count = this->mesh_.vertexCount();
+  for (const VertexIndex v : broken)
+  {
+    if (this->mesh_.isAlive(v))
+    {
+      const VertexIndex kept = nearestToCollapseInto(this->mesh_, v);
+      if (kept != NoVertex)
+      {
+        this->mesh_.collapse(v, kept);
+      }
+    }
+  }
+  std::vector<VertexIndex> origins;
+  for (const VertexIndex v : this->mesh_.dropErased())
+  {
+    origins.push_back(this->origins_[v]);
+  }
+  this->origins_ = std::move(origins);
+  this->refineTo(count, [](double) { return true; });
 }
 
 bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress)

@@ -44,6 +44,8 @@ public:
 private:
   bool fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   bool openGaps(const SurfaceFit& surfaceFit);
+  void repair(const Progress& progress);
+  void collapseDefects();
   bool refineTo(std::size_t count, const Progress& progress);
 
   const PointCloud& cloud_;

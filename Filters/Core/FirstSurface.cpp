@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -51,19 +52,18 @@ struct SurfaceCandidate
 {
   unsigned resolution;
   TriangleMesh surface;
-  std::size_t occupied;
   std::size_t interior;
-  bool enclosesSomething;
   std::size_t components;
   long genus;
   double bridgeWidth;
 };
 
-SurfaceCandidate candidate(const PointCloud& cloud, unsigned resolution)
+double bridgeWidthOf(const OccupiedSolid& solid) { return ClosedVoxels * solid.grid.width; }
+
+SurfaceCandidate candidate(const OccupiedSolid& solid, unsigned resolution)
 {
-  const OccupiedSolid solid = occupiedSolid(cloud, resolution);
-  SurfaceCandidate result{ resolution, voxelSurface(solid.grid, solid.inside), solid.occupiedCount,
-    solid.interiorCount, solid.enclosesSomething(), 0, 0, ClosedVoxels * double(solid.grid.width) };
+  SurfaceCandidate result{ resolution, voxelSurface(solid.grid, solid.inside), solid.interiorCount,
+    0, 0, bridgeWidthOf(solid) };
   DisjointSets sets(result.surface.points.size());
   result.components = result.surface.points.size();
   for (const auto& [a, b, c] : result.surface.triangles)
@@ -121,26 +121,38 @@ Mesh meshOf(TriangleMesh surface, const PointCloud& cloud)
   return mesh;
 }
 
-/// A thin closed skin around the points: of the finest grid that the points are dense enough for.
-std::optional<FirstSurface> skin(
-  const PointCloud& cloud, std::vector<SurfaceCandidate>&& candidates)
+struct Skin
 {
-  const auto isDense = [&](const SurfaceCandidate& candidate)
-  { return double(cloud.points().size()) >= LeastPointsPerVoxel * double(candidate.occupied); };
-  const auto finest = std::find_if(candidates.rbegin(), candidates.rend(), isDense);
-  if (finest == candidates.rend() || finest->surface.triangles.empty())
+  unsigned resolution;
+  OccupiedSolid solid;
+};
+
+/// A thin closed skin around the points: of the finest grid that the points are dense enough for.
+std::optional<FirstSurface> finestSkin(const PointCloud& cloud, std::span<const Skin> skins)
+{
+  const auto isDense = [&](const Skin& skin) {
+    return double(cloud.points().size()) >= LeastPointsPerVoxel * double(skin.solid.occupiedCount);
+  };
+  const auto finest = std::find_if(skins.rbegin(), skins.rend(), isDense);
+  if (finest == skins.rend())
   {
     return {};
   }
-  FirstSurface result{ meshOf(std::move(finest->surface), cloud), finest->resolution };
-  result.bridgeWidth = finest->bridgeWidth;
-  result.skinThickness = float(SkinThickness / ClosedVoxels * finest->bridgeWidth);
+  const OccupiedSolid& solid = finest->solid;
+  TriangleMesh surface = voxelSurface(solid.grid, solid.inside);
+  if (surface.triangles.empty())
+  {
+    return {};
+  }
+  FirstSurface result{ meshOf(std::move(surface), cloud), finest->resolution };
+  result.bridgeWidth = bridgeWidthOf(solid);
+  result.skinThickness = float(SkinThickness * solid.grid.width);
   return result;
 }
 
-/// Of the finest grid that encloses something; if there is none, what all grids gave are `skins`.
+/// Of the finest grid that encloses something; if there is none, all of them give `skins`.
 std::optional<FirstSurface> closedSurface(
-  const PointCloud& cloud, std::vector<SurfaceCandidate>& skins, const Progress& progress)
+  const PointCloud& cloud, std::vector<Skin>& skins, const Progress& progress)
 {
   std::vector<SurfaceCandidate> candidates;
   for (const unsigned resolution : Resolutions)
@@ -149,11 +161,11 @@ std::optional<FirstSurface> closedSurface(
     {
       break;
     }
-    SurfaceCandidate next = candidate(cloud, resolution);
-    const bool isLeaky = !candidates.empty() && next.interior < candidates.back().interior;
-    if (next.enclosesSomething && !isLeaky)
+    OccupiedSolid solid = occupiedSolid(cloud, resolution);
+    const bool isLeaky = !candidates.empty() && solid.interiorCount < candidates.back().interior;
+    if (solid.enclosesSomething() && !isLeaky)
     {
-      candidates.push_back(std::move(next));
+      candidates.push_back(candidate(solid, resolution));
     }
     else if (!candidates.empty())
     {
@@ -161,7 +173,7 @@ std::optional<FirstSurface> closedSurface(
     }
     else
     {
-      skins.push_back(std::move(next));
+      skins.push_back({ resolution, std::move(solid) });
     }
   }
   if (candidates.empty())
@@ -176,7 +188,7 @@ std::optional<FirstSurface> closedSurface(
     {
       break;
     }
-    SurfaceCandidate next = candidate(cloud, resolution);
+    SurfaceCandidate next = candidate(occupiedSolid(cloud, resolution), resolution);
     if (next.interior < candidates.back().interior)
     {
       break;
@@ -281,12 +293,12 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
     const std::size_t count = surface.mesh.vertexCount();
     return count > 3 && count <= mostVertices;
   };
-  std::vector<SurfaceCandidate> skins;
+  std::vector<Skin> skins;
   std::optional<FirstSurface> result =
     closedSurface(cloud, skins, partOf(progress, 0., PartOfGrids));
   const Progress fitting = partOf(progress, PartOfGrids, 1.);
   const bool hasInterior = result.has_value();
-  if (!hasInterior && (result = skin(cloud, std::move(skins))))
+  if (!hasInterior && (result = finestSkin(cloud, skins)))
   {
     auto sheet = openSurface(cloud, *result, mostVertices, boundaries, partOf(fitting, 0., 0.5));
     if (sheet && hasRightSize(*sheet))
