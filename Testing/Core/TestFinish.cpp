@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Finish.h"
 
+#include "IntersectionRepair.h"
 #include "Learner.h"
 #include "MeshBuilder.h"
 #include "MeshTools.h"
+#include "OpenShapes.h"
 #include "SphereRuns.h"
 #include "SurfaceReport.h"
 #include "TrueSurfaces.h"
@@ -175,6 +177,36 @@ TEST(Finish, RefinesToTheVertexCount)
   EXPECT_GT(regularRatio(refined, cloud), 0.6);
   EXPECT_LT(rmsDistance(sphere, trianglesOf(refined, cloud)),
     1.1 * rmsDistance(sphere, trianglesOf(mesh, cloud)));
+}
+
+// Defects that moving vertices cannot mend are collapsed away; the vertices are as many as before.
+TEST(Finish, WhatCannotBeMendedIsCollapsed)
+{
+  const PointCloud cloud = noisySphere(0., 0., false);
+  Parameters parameters;
+  parameters.fitRounds = 0;
+  std::size_t leftByMoves = 0, left = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed)
+  {
+    Mesh mesh = buildMesh(makeGrid(20), cloud);
+    Random random(seed);
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      const float strength = mesh.isBoundary(v) ? 4.f * float(mesh.meanEdge()) : 0.f;
+      mesh.setPosition(v, mesh.position(v) + randomPoint(random, strength));
+    }
+    const std::size_t vertices = mesh.vertexCount();
+    Mesh moved = mesh;
+    leftByMoves += repairIntersections(moved).after.total();
+    Finish finish(cloud, mesh, parameters, {}, vertices);
+    ASSERT_TRUE(finish.run(goOn));
+    EXPECT_EQ(mesh.vertexCount(), vertices);
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(finish.origins().size(), vertices);
+    left += finish.report().left.total();
+  }
+  EXPECT_GT(leftByMoves, 0u);
+  EXPECT_LT(left, leftByMoves);
 }
 
 // Ended anywhere, it leaves a valid mesh.
