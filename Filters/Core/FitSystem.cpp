@@ -80,7 +80,7 @@ void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vecto
   this->applyLaplacian(x, laplacian);
   const auto smooth = float(lambda);
   const float boundaryPart = this->boundaryPart(lambda);
-  for (VertexIndex v = 0; v < x.size(); ++v)
+  for (VertexIndex v = 0; v < x.size() && boundaryPart < 1.f; ++v)
   {
     laplacian[v] = this->mesh_.isBoundary(v) ? boundaryPart * laplacian[v] : laplacian[v];
   }

@@ -23,7 +23,7 @@ namespace
 {
 /// In thicknesses: the width of cells, 27 of which tell the plane of the sheet,
 constexpr float PlaneCell = 1.3f;
-/// how far behind a triangle those of the other side are at most,
+/// how far behind a vertex those of the other side are at most,
 constexpr float OtherSideDepth = 2.f;
 /// and how far aside.
 constexpr float OtherSideWidth = 1.f;
@@ -159,16 +159,13 @@ public:
   /// The triangles that do not belong to the side that is kept.
   std::vector<Triangle> otherSide()
   {
-    std::vector<std::uint32_t> byFlatness(this->normals_.size());
-    for (std::uint32_t t = 0; t < byFlatness.size(); ++t)
-    {
-      byFlatness[t] = t;
-    }
+    std::vector<VertexIndex> byFlatness(this->normals_.size());
+    std::iota(byFlatness.begin(), byFlatness.end(), VertexIndex(0));
     std::sort(byFlatness.begin(), byFlatness.end(),
-      [&](std::uint32_t a, std::uint32_t b)
+      [&](VertexIndex a, VertexIndex b)
       { return std::tie(this->steepness_[a], a) < std::tie(this->steepness_[b], b); });
     this->sides_.assign(this->normals_.size(), Side::Unknown);
-    for (const std::uint32_t seed : byFlatness)
+    for (const VertexIndex seed : byFlatness)
     {
       if (this->sides_[seed] == Side::Unknown)
       {
@@ -195,8 +192,8 @@ private:
     Other
   };
 
-  /// How far a triangle is from lying in the plane of the sheet around it: 0 on a flat side, 1 on
-  /// its rim. Both sides together tell that plane.
+  /// How far the skin at a vertex is from lying in the plane of the sheet around it: 0 on a flat side,
+  /// 1 on its rim. Both sides together tell that plane.
   void findSteepness()
   {
     this->steepness_.resize(this->normals_.size());
@@ -205,9 +202,9 @@ private:
     std::vector<std::size_t> filled;
     for (std::size_t cell = 0; cell < moments.size(); ++cell)
     {
-      for (const std::uint32_t t : cells.in(cell))
+      for (const VertexIndex v : cells.in(cell))
       {
-        moments[cell].add(this->skin_.position(t).toDouble());
+        moments[cell].add(this->skin_.position(v).toDouble());
       }
       if (!cells.in(cell).empty())
       {
@@ -221,34 +218,34 @@ private:
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
       solver.computeDirect(sum.covariance());
       const Eigen::Vector3d across = solver.eigenvectors().col(0);
-      for (const std::uint32_t t : cells.in(cell))
+      for (const VertexIndex v : cells.in(cell))
       {
-        this->steepness_[t] = float(1. - std::abs(across.dot(this->normals_[t].toDouble())));
+        this->steepness_[v] = float(1. - std::abs(across.dot(this->normals_[v].toDouble())));
       }
     }
   }
 
-  void flood(std::uint32_t seed)
+  void flood(VertexIndex seed)
   {
-    using Entry = std::pair<float, std::uint32_t>;
+    using Entry = std::pair<float, VertexIndex>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
     open.emplace(this->steepness_[seed], seed);
     while (!open.empty())
     {
-      const std::uint32_t t = open.top().second;
+      const VertexIndex v = open.top().second;
       open.pop();
-      if (this->sides_[t] != Side::Unknown)
+      if (this->sides_[v] != Side::Unknown)
       {
         continue;
       }
-      if (this->hasKeptSideBehind(t))
+      if (this->hasKeptSideBehind(v))
       {
-        this->sides_[t] = Side::Other;
+        this->sides_[v] = Side::Other;
         continue;
       }
-      this->sides_[t] = Side::Kept;
-      this->markOtherSide(t);
-      for (const VertexIndex next : this->skin_.ring(t))
+      this->sides_[v] = Side::Kept;
+      this->markOtherSide(v);
+      for (const VertexIndex next : this->skin_.ring(v))
       {
         if (this->sides_[next] == Side::Unknown)
         {
@@ -260,43 +257,43 @@ private:
 
   bool isKept(VertexIndex v) const { return this->sides_[v] == Side::Kept; }
 
-  /// Whether a triangle turns its back on another one, as one side of the skin on the other side.
-  bool isBackToBack(std::uint32_t t, std::uint32_t other) const
+  /// Whether a vertex turns its back on another one, as one side of the skin on the other side.
+  bool isBackToBack(VertexIndex v, VertexIndex other) const
   {
-    const Vector4 offset = this->skin_.position(other) - this->skin_.position(t);
-    const float depth = -dot(offset, this->normals_[t]);
+    const Vector4 offset = this->skin_.position(other) - this->skin_.position(v);
+    const float depth = -dot(offset, this->normals_[v]);
     const float aside = squaredNorm(offset) - depth * depth;
     const float width = OtherSideWidth * this->thickness_;
     return depth > 0.f && depth < OtherSideDepth * this->thickness_ && aside < width * width &&
-      dot(this->normals_[other], this->normals_[t]) < OtherSideCosine;
+      dot(this->normals_[other], this->normals_[v]) < OtherSideCosine;
   }
 
-  /// Where those lie on which a triangle can turn its back.
-  Vector4 placeBehind(std::uint32_t t) const
+  /// About where those lie on which a vertex can turn its back.
+  Vector4 placeBehind(VertexIndex v) const
   {
-    return this->skin_.position(t) - 0.5f * OtherSideDepth * this->thickness_ * this->normals_[t];
+    return this->skin_.position(v) - 0.5f * OtherSideDepth * this->thickness_ * this->normals_[v];
   }
 
-  void markOtherSide(std::uint32_t t)
+  void markOtherSide(VertexIndex v)
   {
-    this->voxels_.forEachAround(this->placeBehind(t),
-      [&](std::uint32_t other)
+    this->voxels_.forEachAround(this->placeBehind(v),
+      [&](VertexIndex other)
       {
-        if (this->sides_[other] == Side::Unknown && this->isBackToBack(t, other))
+        if (this->sides_[other] == Side::Unknown && this->isBackToBack(v, other))
         {
           this->sides_[other] = Side::Other;
         }
       });
   }
 
-  /// Around a bend the outer side is the larger one: the inner side's triangles see but a part of
+  /// Around a bend the outer side is the larger one: the inner side's vertices see but a part of
   /// it behind them, while all of it has the inner side behind it.
-  bool hasKeptSideBehind(std::uint32_t t) const
+  bool hasKeptSideBehind(VertexIndex v) const
   {
     bool result = false;
-    this->voxels_.forEachAround(this->placeBehind(t),
-      [&](std::uint32_t other)
-      { result = result || (this->sides_[other] == Side::Kept && this->isBackToBack(t, other)); });
+    this->voxels_.forEachAround(this->placeBehind(v),
+      [&](VertexIndex other)
+      { result = result || (this->sides_[other] == Side::Kept && this->isBackToBack(v, other)); });
     return result;
   }
 
