@@ -60,6 +60,7 @@ struct ReconstructOptions
   int Preset = vtkNeuralMesh::DEFAULT;
   std::vector<std::string> Assignments;
   double TimeLimit = 0.0;
+  int Threads = 0;
   std::string Statistics;
   bool DryRun = false;
   bool Quiet = false;
@@ -160,6 +161,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
   filter->SetComputeFeatureStrength(options.Features);
   filter->SetPreset(options.Preset);
   filter->SetTimeLimit(options.TimeLimit);
+  filter->SetNumberOfThreads(options.Threads);
   filter->SetWeightArrayName(options.Weights.c_str());
   if (!options.Jump.empty())
   {
@@ -409,6 +411,12 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
       "Learn for so many seconds at most, and write the mesh learnt so far")
     ->check(CLI::Range(0.0, 1e9).description(""))
     ->type_name("SECONDS");
+  command
+    ->add_option("--threads", options->Threads,
+      "Work on so many threads at most; 0 (default): on as many as the machine runs at once; the "
+      "mesh is the same with any number")
+    ->check(CLI::Range(0, 1024).description(""))
+    ->type_name("N");
   command
     ->add_option("--statistics", options->Statistics,
       "Write how the run went, step by step, to this .csv file")

@@ -3,6 +3,7 @@
 
 #include "MeshBuilder.h"
 #include "Reconstruction.h"
+#include "ThreadPool.h"
 #include "vtkMeshArrays.h"
 #include "vtkNeuralMeshGrowth.h"
 #include "vtkNeuralMeshRun.h"
@@ -24,9 +25,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 vtkStandardNewMacro(vtkNeuralMesh);
@@ -49,6 +52,19 @@ namespace
 {
 /// Where point data begins to be carried over, as a fraction of the run.
 constexpr double EndOfMesh = 0.95;
+
+/// What NumberOfThreads stands for.
+unsigned ThreadsOf(int wanted)
+{
+  if (wanted > 0)
+  {
+    return static_cast<unsigned>(wanted);
+  }
+  const unsigned available = std::max(1u, std::thread::hardware_concurrency());
+  const char* const text = std::getenv("VTK_SMP_MAX_THREADS");
+  const int most = text ? std::atoi(text) : 0;
+  return most > 0 ? std::min(available, static_cast<unsigned>(most)) : available;
+}
 
 /// What the mesh is worth, in units of the input, where a unit of the cloud is so long.
 void AddQuality(const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output)
@@ -351,8 +367,9 @@ int vtkNeuralMesh::RequestData(
     carrier.emplace(collector);
   }
   const bool carries = carrier && carrier->HasArrays();
+  const neuralmesh::ThreadPool executor(ThreadsOf(this->NumberOfThreads));
   const double cloudBegin = neuralmesh::cpuSeconds();
-  const neuralmesh::PointCloud cloud(collector.GetPoints(), weights, carries);
+  const neuralmesh::PointCloud cloud(collector.GetPoints(), weights, carries, executor);
   this->CloudTime = neuralmesh::cpuSeconds() - cloudBegin;
   collector.ReleasePoints();
   std::vector<double>().swap(weights);
@@ -368,7 +385,7 @@ int vtkNeuralMesh::RequestData(
   {
     precision = collector.HasDoublePoints() ? DOUBLE_PRECISION : SINGLE_PRECISION;
   }
-  vtkNeuralMeshRun run{ cloud, {}, precision, vtkNeuralMeshProgress(this), {} };
+  vtkNeuralMeshRun run{ cloud, {}, precision, vtkNeuralMeshProgress(this), {}, executor };
   this->FillParameters(run.Parameters);
 #define SET_PARAMETER(property, parameter)                                                         \
   run.Parameters.parameter = static_cast<decltype(run.Parameters.parameter)>(this->property);
@@ -403,8 +420,9 @@ int vtkNeuralMesh::RequestData(
   const neuralmesh::Progress progress = [&run](double fraction)
   { return run.Progress.Report(fraction); };
   const double endOfMesh = carries ? EndOfMesh : 1.0;
-  const neuralmesh::Reconstruction result = neuralmesh::reconstruct(cloud, run.Parameters,
-    neuralmesh::partOf(progress, 0.0, endOfMesh), run.FirstMesh, this->WatchGrowth(precision));
+  const neuralmesh::Reconstruction result =
+    neuralmesh::reconstruct(cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, endOfMesh),
+      run.FirstMesh, this->WatchGrowth(precision), executor);
   this->StopReason = neuralmesh::name(result.stopReason).data();
   this->StartTime = result.startSeconds;
   this->LearningTime = result.learningSeconds;
@@ -432,8 +450,9 @@ int vtkNeuralMesh::RequestData(
   {
     const neuralmesh::Progress carrying = neuralmesh::partOf(progress, endOfMesh, 1.0);
     const neuralmesh::CloudPlaces places(
-      cloud, result.surface, neuralmesh::partOf(carrying, 0.0, 0.5));
-    carrier->Carry(places, output->GetPointData(), neuralmesh::partOf(carrying, 0.5, 1.0));
+      cloud, result.surface, neuralmesh::partOf(carrying, 0.0, 0.5), executor);
+    carrier->Carry(
+      places, output->GetPointData(), executor, neuralmesh::partOf(carrying, 0.5, 1.0));
     this->AbortExecute = 0;
   }
 
@@ -473,6 +492,7 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "WeightArrayName: " << this->GetWeightArrayName() << "\n";
   os << indent << "GrowthAsTime: " << this->GrowthAsTime << "\n";
   os << indent << "NumberOfSnapshots: " << this->NumberOfSnapshots << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "StopReason: " << this->StopReason << "\n";
   os << indent << "CloudTime: " << this->CloudTime << "\n";

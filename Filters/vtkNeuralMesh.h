@@ -262,6 +262,18 @@ public:
 
   ///@{
   /**
+   * How many threads may work at the same time: on the search for winners, on the fit, on members of
+   * an ensemble and on point data. 0 for as many as the machine runs at once, or as the environment
+   * variable VTK_SMP_MAX_THREADS allows. The mesh is the same to the byte with any number. They are
+   * threads of the filter's own, which end with the run; the backend of vtkSMPTools does not matter.
+   * Default 0, range 0 to 1024.
+   */
+  vtkNeuralMeshSetClampMacro(NumberOfThreads, int, 0, 1024);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
    * Precision of the output points, a vtkAlgorithm::DesiredOutputPrecision. DEFAULT_PRECISION
    * (default) is that of the input; double if blocks differ. Inside, positions are resolved to
    * about 10^-7 of the extent in any case.
@@ -375,6 +387,7 @@ private:
   double TargetNormalChange = 0.0;
   double TimeLimit = 0.0;
   double StallPatience;
+  int NumberOfThreads = 0;
 
   vtkTypeBool GrowthAsTime = 0;
   int NumberOfSnapshots = 24;

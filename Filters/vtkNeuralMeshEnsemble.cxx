@@ -5,7 +5,6 @@
 #include "MeshBuilder.h"
 #include "Simplification.h"
 #include "vtkNeuralMeshRun.h"
-#include "vtkParallelLoop.h"
 #include "vtkTriangleMeshCollector.h"
 
 #include "vtkCommunicator.h"
@@ -56,11 +55,12 @@ constexpr double TimeOfAveraging = 0.3;
 /// Where the parts of a run end, as fractions of its time.
 struct Schedule
 {
-  Schedule(const neuralmesh::Ensemble& ensemble, const neuralmesh::Parameters& refinement)
+  Schedule(const neuralmesh::Ensemble& ensemble, const vtkNeuralMeshRun& run)
   {
-    const int threads =
-      std::min(vtkParallelLoop::GetNumberOfThreads(), static_cast<int>(ensemble.size()));
-    const double population = ensemble.expectedSamples() / std::max(1, threads);
+    const neuralmesh::Parameters& refinement = run.Parameters;
+    const std::size_t threads = std::min<std::size_t>(run.Executor.threadCount(), ensemble.size());
+    const double population =
+      ensemble.expectedSamples() / static_cast<double>(std::max<std::size_t>(1, threads));
     const double averaging = TimeOfAveraging * population;
     const double refining =
       static_cast<double>(refinement.numberOfVertices) * refinement.samplesPerAddition;
@@ -95,26 +95,26 @@ bool LearnMembers(
     {
       return !isLearning;
     }
-    vtkParallelLoop::Run(ensemble.size(), [&](std::size_t member) { ensemble.learn(member); });
+    run.Executor.forEachPart(ensemble.size(), [&](std::size_t member) { ensemble.learn(member); });
   }
 }
 
 /// Calls `body` with all members, in groups that run at the same time, and reports between them,
 /// from a fraction of the part on to another. Returns false if the filter was aborted.
 template <typename Body>
-bool ForEachMember(const neuralmesh::Ensemble& ensemble, vtkNeuralMeshProgress& progress,
-  double from, double to, const Body& body)
+bool ForEachMember(const neuralmesh::Ensemble& ensemble, vtkNeuralMeshRun& run, double from,
+  double to, const Body& body)
 {
-  const auto group = static_cast<std::size_t>(std::max(1, vtkParallelLoop::GetNumberOfThreads()));
+  const std::size_t group = run.Executor.threadCount();
   for (std::size_t first = 0; first < ensemble.size(); first += group)
   {
     const double done = static_cast<double>(first) / static_cast<double>(ensemble.size());
-    if (!progress.Report(from + done * (to - from)))
+    if (!run.Progress.Report(from + done * (to - from)))
     {
       return false;
     }
     const std::size_t count = std::min(group, ensemble.size() - first);
-    vtkParallelLoop::Run(count, [&](std::size_t i) { body(first + i); });
+    run.Executor.forEachPart(count, [&](std::size_t i) { body(first + i); });
   }
   return true;
 }
@@ -145,19 +145,19 @@ std::vector<T> SumOfAll(const std::vector<T>& own, vtkMultiProcessController* co
 std::optional<neuralmesh::VoxelVotes> Populate(
   neuralmesh::Ensemble& ensemble, vtkNeuralMeshRun& run, vtkMultiProcessController* controller)
 {
-  const Schedule schedule(ensemble, run.Parameters);
+  const Schedule schedule(ensemble, run);
   vtkNeuralMeshProgress& progress = run.Progress;
   progress.EnterPart(0.0, schedule.Population, "Learning the members");
   bool isDone = LearnMembers(ensemble, run, controller);
   progress.EnterPart(schedule.Population, schedule.Averaging, "Averaging");
   isDone = isDone &&
-    AllGoOn(ForEachMember(ensemble, progress, 0.0, 0.5,
-              [&](std::size_t member) { ensemble.findPhantoms(member); }),
+    AllGoOn(ForEachMember(
+              ensemble, run, 0.0, 0.5, [&](std::size_t member) { ensemble.findPhantoms(member); }),
       progress, controller);
   if (isDone)
   {
     ensemble.makeGrid(SumOfAll(ensemble.boxes(), controller));
-    isDone = AllGoOn(ForEachMember(ensemble, progress, 0.5, 1.0,
+    isDone = AllGoOn(ForEachMember(ensemble, run, 0.5, 1.0,
                        [&](std::size_t member) { ensemble.voxelize(member); }),
       progress, controller);
   }

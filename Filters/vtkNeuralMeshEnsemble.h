@@ -32,8 +32,8 @@
  * OutputPointsPrecision. Port 3, a vtkImageData in units and coordinates of the input: the point
  * data `Votes` (float) is the fraction of the members that hold a voxel, whose centre the point is.
  *
- * The same input and seed give the same bytes on any number of threads and with any backend of
- * vtkSMPTools, unless TimeLimit is met or somebody aborts.
+ * The same input and seed give the same bytes on any number of threads, unless TimeLimit is met or
+ * somebody aborts.
  *
  * @par Errors and warnings
  * As of vtkNeuralMesh. Open and flat clouds have no inside, and their members agree on little: on

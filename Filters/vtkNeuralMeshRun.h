@@ -9,6 +9,7 @@
 #ifndef vtkNeuralMeshRun_h
 #define vtkNeuralMeshRun_h
 
+#include "Executor.h"
 #include "Mesh.h"
 #include "Parameters.h"
 #include "PointCloud.h"
@@ -54,6 +55,7 @@ struct vtkNeuralMeshRun
   int PointsPrecision; ///< of the output
   vtkNeuralMeshProgress Progress;
   std::optional<neuralmesh::Mesh> FirstMesh;
+  const neuralmesh::Executor& Executor;
 };
 
 #endif

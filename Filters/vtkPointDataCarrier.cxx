@@ -172,7 +172,7 @@ void vtkPointDataCarrier::FindArray(vtkPointData* first, vtkAbstractArray* array
 }
 
 bool vtkPointDataCarrier::Carry(const neuralmesh::CloudPlaces& places, vtkPointData* output,
-  const neuralmesh::Progress& progress) const
+  const neuralmesh::Executor& executor, const neuralmesh::Progress& progress) const
 {
   const auto vertices = static_cast<vtkIdType>(places.mesh().vertexCount());
   for (std::size_t i = 0; i < this->Arrays.size(); ++i)
@@ -186,7 +186,7 @@ bool vtkPointDataCarrier::Carry(const neuralmesh::CloudPlaces& places, vtkPointD
     const auto result = MakeArrayLike(like, vertices, output);
     if (IsReal(like) || IsColor(like))
     {
-      this->Fit(array, places, vtkDataArray::SafeDownCast(result));
+      this->Fit(array, places, executor, vtkDataArray::SafeDownCast(result));
     }
     else
     {
@@ -208,8 +208,8 @@ vtkPointDataCarrier::Tuple vtkPointDataCarrier::TupleOf(const Array& array, std:
   return { array.OfLeaf[place], leaf.IdOf(point) };
 }
 
-void vtkPointDataCarrier::Fit(
-  const Array& array, const neuralmesh::CloudPlaces& places, vtkDataArray* result) const
+void vtkPointDataCarrier::Fit(const Array& array, const neuralmesh::CloudPlaces& places,
+  const neuralmesh::Executor& executor, vtkDataArray* result) const
 {
   std::vector<double> tuple(static_cast<std::size_t>(result->GetNumberOfComponents()));
   // Calls `use` for each point that has finite values, which are then in `tuple`.
@@ -242,7 +242,7 @@ void vtkPointDataCarrier::Fit(
   for (std::size_t first = 0; first < tuple.size(); first += Lanes)
   {
     const std::size_t lanes = std::min(Lanes, tuple.size() - first);
-    neuralmesh::AttributeFit fit(places.mesh());
+    neuralmesh::AttributeFit fit(places.mesh(), executor);
     forEachTuple(
       [&](const neuralmesh::CloudPlaces::Corners& corners, double weight)
       {

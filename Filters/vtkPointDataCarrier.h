@@ -44,7 +44,7 @@ public:
    * early.
    */
   bool Carry(const neuralmesh::CloudPlaces& places, vtkPointData* output,
-    const neuralmesh::Progress& progress) const;
+    const neuralmesh::Executor& executor, const neuralmesh::Progress& progress) const;
 
 private:
   /** A tuple of an array, that of a point. */
@@ -56,7 +56,8 @@ private:
 
   void FindArray(vtkPointData* first, vtkAbstractArray* array);
   Tuple TupleOf(const Array& array, std::size_t point) const;
-  void Fit(const Array& array, const neuralmesh::CloudPlaces& places, vtkDataArray* result) const;
+  void Fit(const Array& array, const neuralmesh::CloudPlaces& places,
+    const neuralmesh::Executor& executor, vtkDataArray* result) const;
   void Vote(
     const Array& array, const neuralmesh::CloudPlaces& places, vtkAbstractArray* result) const;
   std::vector<std::uint32_t> MakeLabels(

@@ -16,6 +16,9 @@ public:
   /// Weights must be finite, at least 0, and not all be 0.
   explicit AliasTable(std::span<const float> weights);
 
+  /// draw() calls Random::next() so often.
+  static constexpr std::uint64_t CallsPerDraw = 2;
+
   bool isEmpty() const { return this->entries_.empty(); }
   std::uint32_t draw(Random& random) const
   {

@@ -11,6 +11,8 @@ namespace
 /// Against the few points that a triangle has at least, in general.
 constexpr double Lambda = 0.1;
 constexpr int MostAttributeIterations = 300;
+/// A part for the executor.
+constexpr std::size_t AttributeRowsPerRange = 4096;
 /// Of the residual of the equations, against that at the start.
 constexpr double AttributeTolerance = 1e-6;
 
@@ -23,8 +25,9 @@ Values ratio(const Values& numerator, const Values& denominator)
 }
 }
 
-AttributeFit::AttributeFit(const Mesh& mesh)
+AttributeFit::AttributeFit(const Mesh& mesh, const Executor& executor)
   : mesh_(mesh)
+  , executor_(executor)
   , support_(mesh.indexEnd())
   , diagonal_(mesh.indexEnd())
   , rightSide_(mesh.indexEnd(), Values::Zero())
@@ -57,8 +60,10 @@ void AttributeFit::add(const CloudPlaces::Corners& corners, double weight, const
 void AttributeFit::apply(
   const std::vector<Values>& x, std::vector<Values>& laplacian, std::vector<Values>& result) const
 {
-  applyUmbrella<double, Values>(this->mesh_, x, laplacian);
-  for (VertexIndex v = 0; v < x.size(); ++v)
+  this->executor_.forEachRange(x.size(), AttributeRowsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    { applyUmbrella<double, Values>(this->mesh_, x, laplacian, begin, end); });
+  const auto applyRow = [&](VertexIndex v)
   {
     const Ring& ring = this->mesh_.ring(v);
     Values sum = this->diagonal_[v] * x[v] - Lambda * laplacian[v];
@@ -69,7 +74,15 @@ void AttributeFit::apply(
         Lambda * umbrellaWeight<double>(this->mesh_.ring(neighbor), v) * laplacian[neighbor];
     }
     result[v] = sum;
-  }
+  };
+  this->executor_.forEachRange(x.size(), AttributeRowsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        applyRow(v);
+      }
+    });
 }
 
 std::vector<double> AttributeFit::inverseDiagonal() const

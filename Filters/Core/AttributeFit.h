@@ -2,6 +2,7 @@
 #pragma once
 
 #include "CloudPlaces.h"
+#include "Executor.h"
 #include "Mesh.h"
 
 #include <Eigen/Core>
@@ -22,8 +23,8 @@ class AttributeFit
 public:
   using Values = Eigen::Array4d;
 
-  /// No vertex may be erased.
-  explicit AttributeFit(const Mesh& mesh);
+  /// No vertex may be erased. Mesh and executor must outlive the fit.
+  explicit AttributeFit(const Mesh& mesh, const Executor& executor = Executor::sequential());
 
   void add(const CloudPlaces::Corners& corners, double weight, const Values& values);
 
@@ -40,6 +41,7 @@ private:
   std::vector<Values> firstValues() const;
 
   const Mesh& mesh_;
+  const Executor& executor_;
   std::vector<double> support_; ///< sum of the weights of points
   std::vector<std::size_t> rowBegin_;
   std::vector<double> diagonal_;

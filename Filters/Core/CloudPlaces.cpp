@@ -11,10 +11,13 @@ namespace neuralmesh
 {
 namespace
 {
-constexpr std::size_t PointsPerCheck = 16384;
+constexpr std::size_t PointsPerCheck = 65536;
+/// A part for the executor.
+constexpr std::size_t PlacesPerRange = 1024;
 }
 
-CloudPlaces::CloudPlaces(const PointCloud& cloud, const Mesh& mesh, const Progress& progress)
+CloudPlaces::CloudPlaces(
+  const PointCloud& cloud, const Mesh& mesh, const Progress& progress, const Executor& executor)
   : cloud_(cloud)
   , mesh_(mesh)
 {
@@ -22,17 +25,28 @@ CloudPlaces::CloudPlaces(const PointCloud& cloud, const Mesh& mesh, const Progre
   const VertexGrid grid = gridOf(mesh, cloud);
   std::vector<Place> places(count);
   std::vector<float> squaredDistances(count);
-  for (std::size_t i = 0; i < count; ++i)
+  const auto findPlace = [&](std::size_t i)
   {
-    if (i % PointsPerCheck == 0 && !progress(double(i) / double(count)))
-    {
-      return;
-    }
     const PlaceOnMesh place = closestPlace(cloud.points()[i], mesh, grid);
     const VertexIndex vertex = place.triangle[0];
     places[i] = { vertex, mesh.ring(vertex).find(place.triangle[1]), place.weights[1],
       place.weights[2] };
     squaredDistances[i] = place.squaredDistance;
+  };
+  for (std::size_t first = 0; first < count; first += PointsPerCheck)
+  {
+    if (!progress(double(first) / double(count)))
+    {
+      return;
+    }
+    executor.forEachRange(std::min(PointsPerCheck, count - first), PlacesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = first + begin; i < first + end; ++i)
+        {
+          findPlace(i);
+        }
+      });
   }
   std::vector<float> sorted = squaredDistances;
   const auto median = sorted.begin() + std::ptrdiff_t(count / 2);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Executor.h"
 #include "Mesh.h"
 #include "PointCloud.h"
 #include "Progress.h"
@@ -25,7 +26,8 @@ public:
 
   /// No vertex of the mesh may be erased. If it is ended early, all points are as
   /// outliers.
-  CloudPlaces(const PointCloud& cloud, const Mesh& mesh, const Progress& progress);
+  CloudPlaces(const PointCloud& cloud, const Mesh& mesh, const Progress& progress,
+    const Executor& executor = Executor::sequential());
 
   const PointCloud& cloud() const { return this->cloud_; }
   const Mesh& mesh() const { return this->mesh_; }

@@ -12,13 +12,15 @@ namespace neuralmesh
 namespace
 {
 constexpr float MostDensity = 4.f;
+/// A part for the executor.
+constexpr std::size_t DensitiesPerRange = 4096;
 
 /// The umbrella Laplacian over the mean squared edge is a quarter of twice the mean curvature; as
 /// only ratios are asked for, without that factor.
 std::vector<float> meanCurvatures(const Mesh& mesh)
 {
   std::vector<Vector4> laplacian(mesh.indexEnd());
-  applyUmbrella<float, Vector4>(mesh, mesh.positions(), laplacian);
+  applyUmbrella<float, Vector4>(mesh, mesh.positions(), laplacian, 0, laplacian.size());
   std::vector<float> curvatures(mesh.indexEnd(), 0.f);
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
@@ -55,7 +57,8 @@ std::vector<float> smoothed(const Mesh& mesh, const std::vector<float>& values)
 }
 }
 
-std::vector<float> curvatureDensity(const PointCloud& cloud, const Mesh& mesh, double exponent)
+std::vector<float> curvatureDensity(
+  const PointCloud& cloud, const Mesh& mesh, double exponent, const Executor& executor)
 {
   std::vector<float> densities = smoothed(mesh, meanCurvatures(mesh));
   std::vector<float> sorted = densities;
@@ -71,10 +74,14 @@ std::vector<float> curvatureDensity(const PointCloud& cloud, const Mesh& mesh, d
   }
   const VertexGrid grid = gridOf(mesh, cloud);
   std::vector<float> result(cloud.points().size());
-  for (std::size_t i = 0; i < result.size(); ++i)
-  {
-    result[i] = cloud.weight(i) * densities[grid.closest(cloud.points()[i], mesh.positions())];
-  }
+  executor.forEachRange(result.size(), DensitiesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        result[i] = cloud.weight(i) * densities[grid.closest(cloud.points()[i], mesh.positions())];
+      }
+    });
   return result;
 }
 }

@@ -34,12 +34,13 @@ VertexIndex nearestToCollapseInto(const Mesh& mesh, VertexIndex v)
 }
 
 Finish::Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters,
-  std::optional<double> bridgeWidth, std::size_t vertexCount)
+  std::optional<double> bridgeWidth, std::size_t vertexCount, const Executor& executor)
   : cloud_(cloud)
   , mesh_(mesh)
   , parameters_(parameters)
   , bridgeWidth_(bridgeWidth)
   , vertexCount_(vertexCount)
+  , executor_(executor)
   , origins_(mesh.vertexCount())
 {
   std::iota(this->origins_.begin(), this->origins_.end(), VertexIndex(0));
@@ -48,7 +49,10 @@ Finish::Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters
 bool Finish::run(const Progress& progress)
 {
   const auto samples = std::size_t(this->parameters_.fitSamples * double(this->vertexCount_));
-  std::optional<SurfaceFit> surfaceFit(std::in_place, this->cloud_, this->mesh_, samples);
+  std::optional<SurfaceFit> surfaceFit;
+  const auto beginAnew = [&]
+  { surfaceFit.emplace(this->cloud_, this->mesh_, samples, this->executor_); };
+  beginAnew();
   double smoothness = this->parameters_.fitSmoothness;
   for (int round = 0; round < this->parameters_.fitRounds; ++round)
   {
@@ -62,7 +66,7 @@ bool Finish::run(const Progress& progress)
         return false;
       }
       flipEdges(this->mesh_);
-      surfaceFit.emplace(this->cloud_, this->mesh_, samples);
+      beginAnew();
     }
     if (!this->fit(*surfaceFit, smoothness, partOf(progress, round / rounds, (round + 1) / rounds)))
     {
@@ -73,7 +77,7 @@ bool Finish::run(const Progress& progress)
       smoothness = this->report_.smoothness;
       if (this->bridgeWidth_ && this->openGaps(*surfaceFit))
       {
-        surfaceFit.emplace(this->cloud_, this->mesh_, samples);
+        beginAnew();
       }
       // A fitted surface is smoother than the learnt one, and lets more edges be flipped.
       flipEdges(this->mesh_);

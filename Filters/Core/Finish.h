@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Executor.h"
 #include "IntersectionRepair.h"
 #include "Mesh.h"
 #include "Parameters.h"
@@ -32,7 +33,8 @@ class Finish
 {
 public:
   Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters,
-    std::optional<double> bridgeWidth, std::size_t vertexCount);
+    std::optional<double> bridgeWidth, std::size_t vertexCount,
+    const Executor& executor = Executor::sequential());
 
   /// Returns false if it was ended before its end; then the mesh is valid all the same.
   bool run(const Progress& progress);
@@ -53,6 +55,7 @@ private:
   const Parameters& parameters_;
   std::optional<double> bridgeWidth_;
   std::size_t vertexCount_;
+  const Executor& executor_;
   std::vector<VertexIndex> origins_;
   FinishReport report_;
 };

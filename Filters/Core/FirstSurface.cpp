@@ -213,10 +213,10 @@ void closeBoundaries(Mesh& mesh)
 class FirstFit
 {
 public:
-  FirstFit(const PointCloud& cloud, Mesh& mesh)
+  FirstFit(const PointCloud& cloud, Mesh& mesh, const Executor& executor)
     : cloud_(cloud)
     , mesh_(mesh)
-    , fit_(cloud, mesh, FitSamples * mesh.vertexCount())
+    , fit_(cloud, mesh, FitSamples * mesh.vertexCount(), executor)
   {
   }
 
@@ -255,7 +255,8 @@ private:
 
 /// One sheet of a skin, if there is one and the points lie on it.
 std::optional<FirstSurface> openSurface(const PointCloud& cloud, const FirstSurface& skin,
-  std::size_t mostVertices, Boundaries boundaries, const Progress& progress)
+  std::size_t mostVertices, Boundaries boundaries, const Progress& progress,
+  const Executor& executor)
 {
   FirstSurface result = skin;
   result.isOpen = true;
@@ -264,7 +265,7 @@ std::optional<FirstSurface> openSurface(const PointCloud& cloud, const FirstSurf
     return {};
   }
   simplify(result.mesh, mostVertices);
-  FirstFit fit(cloud, result.mesh);
+  FirstFit fit(cloud, result.mesh, executor);
   if (!fit.run(progress) || fit.isBetweenLayers())
   {
     return {};
@@ -282,7 +283,7 @@ std::optional<FirstSurface> openSurface(const PointCloud& cloud, const FirstSurf
 }
 
 std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
-  Boundaries boundaries, const Progress& progress)
+  Boundaries boundaries, const Progress& progress, const Executor& executor)
 {
   if (cloud.differentCount() < LeastPoints)
   {
@@ -300,7 +301,8 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
   const bool hasInterior = result.has_value();
   if (!hasInterior && (result = finestSkin(cloud, skins)))
   {
-    auto sheet = openSurface(cloud, *result, mostVertices, boundaries, partOf(fitting, 0., 0.5));
+    auto sheet =
+      openSurface(cloud, *result, mostVertices, boundaries, partOf(fitting, 0., 0.5), executor);
     if (sheet && hasRightSize(*sheet))
     {
       return sheet;
@@ -311,7 +313,7 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
     return {};
   }
   simplify(result->mesh, mostVertices);
-  FirstFit fit(cloud, result->mesh);
+  FirstFit fit(cloud, result->mesh, executor);
   if (!hasRightSize(*result) || !fit.run(partOf(fitting, 0.5, 1.)))
   {
     return {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Executor.h"
 #include "Mesh.h"
 #include "Parameters.h"
 #include "PointCloud.h"
@@ -32,5 +33,6 @@ struct FirstSurface
 /// Has at most so many vertices. Nothing if that is too few for the topology, or the cloud has too
 /// few points to tell.
 std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
-  Boundaries boundaries, const Progress& progress);
+  Boundaries boundaries, const Progress& progress,
+  const Executor& executor = Executor::sequential());
 }

@@ -15,19 +15,13 @@ namespace
 constexpr int MostIterations = 300;
 constexpr int IterationsPerCheck = 4;
 
-double dotOf(std::span<const Vector4> a, std::span<const Vector4> b)
-{
-  double sum = 0.;
-  for (std::size_t i = 0; i < a.size(); ++i)
-  {
-    sum += double(dot(a[i], b[i]));
-  }
-  return sum;
-}
+/// A part for the executor.
+constexpr std::size_t RowsPerRange = 4096;
 }
 
-FitSystem::FitSystem(const Mesh& mesh, double slip)
+FitSystem::FitSystem(const Mesh& mesh, double slip, const Executor& executor)
   : mesh_(mesh)
+  , executor_(executor)
   , slip_(float(slip))
   , diagonal_(mesh.indexEnd())
   , rightSide_(mesh.indexEnd())
@@ -41,7 +35,8 @@ FitSystem::FitSystem(const Mesh& mesh, double slip)
   this->others_.resize(this->rowBegin_.back());
 }
 
-void FitSystem::add(const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight)
+void FitSystem::add(
+  const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight, const Rows& rows)
 {
   const float squared = squaredNorm(normal);
   const float along = squared > 0.f ? weight * this->slip_ : weight;
@@ -52,6 +47,10 @@ void FitSystem::add(const PlaceOnMesh& place, Vector4 sample, Vector4 normal, fl
   for (unsigned i = 0; i < 3; ++i)
   {
     const VertexIndex v = place.triangle[i];
+    if (v < rows.begin || v >= rows.end)
+    {
+      continue;
+    }
     const float share = place.weights[int(i)];
     this->diagonal_[v] += share * share * metric;
     this->rightSide_[v] += share * pull;
@@ -66,7 +65,9 @@ void FitSystem::add(const PlaceOnMesh& place, Vector4 sample, Vector4 normal, fl
 
 void FitSystem::applyLaplacian(std::span<const Vector4> x, std::span<Vector4> result) const
 {
-  applyUmbrella<float>(this->mesh_, x, result);
+  this->executor_.forEachRange(x.size(), RowsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    { applyUmbrella<float>(this->mesh_, x, result, begin, end); });
 }
 
 float FitSystem::boundaryPart(double lambda)
@@ -84,7 +85,7 @@ void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vecto
   {
     laplacian[v] = this->mesh_.isBoundary(v) ? boundaryPart * laplacian[v] : laplacian[v];
   }
-  for (VertexIndex v = 0; v < x.size(); ++v)
+  const auto applyRow = [&](VertexIndex v)
   {
     const Ring& ring = this->mesh_.ring(v);
     Vector4 sum = this->diagonal_[v] * x[v] - smooth * laplacian[v];
@@ -95,7 +96,15 @@ void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vecto
       sum += smooth * umbrellaWeight<float>(this->mesh_.ring(neighbor), v) * laplacian[neighbor];
     }
     result[v] = sum;
-  }
+  };
+  this->executor_.forEachRange(x.size(), RowsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        applyRow(v);
+      }
+    });
 }
 
 FitSystem::Block FitSystem::Block::inverse() const
@@ -113,7 +122,7 @@ std::vector<FitSystem::Block> FitSystem::inverseDiagonal(double lambda) const
   std::vector<Block> result = this->diagonal_;
   const float boundaryPart = this->boundaryPart(lambda);
   const auto part = [&](VertexIndex v) { return this->mesh_.isBoundary(v) ? boundaryPart : 1.f; };
-  for (VertexIndex v = 0; v < result.size(); ++v)
+  const auto invert = [&](VertexIndex v)
   {
     float squares = part(v);
     for (const VertexIndex neighbor : this->mesh_.ring(v))
@@ -124,7 +133,15 @@ std::vector<FitSystem::Block> FitSystem::inverseDiagonal(double lambda) const
     const float smooth = float(lambda) * squares;
     result[v].diagonal += Vector4(smooth, smooth, smooth);
     result[v] = result[v].inverse();
-  }
+  };
+  this->executor_.forEachRange(result.size(), RowsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        invert(v);
+      }
+    });
   return result;
 }
 
@@ -135,22 +152,15 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
   // Across the surface the system is stiff, along it not: a whole block tells these apart.
   const std::vector<Block> inverse = this->inverseDiagonal(lambda);
   std::vector<Vector4> residual(n), direction(n), product(n), laplacian(n);
-  const auto squaredResidual = [&]
-  {
-    double sum = 0.;
-    for (std::size_t v = 0; v < n; ++v)
-    {
-      sum += double(dot(inverse[v] * residual[v], residual[v]));
-    }
-    return sum;
-  };
+  const auto sumOver = [&](const auto& term) { return this->executor_.sum(n, RowsPerRange, term); };
   this->apply(lambda, x, laplacian, product);
-  for (std::size_t v = 0; v < n; ++v)
-  {
-    residual[v] = this->rightSide_[v] - product[v];
-    direction[v] = inverse[v] * residual[v];
-  }
-  double squared = squaredResidual();
+  double squared = sumOver(
+    [&](std::size_t v)
+    {
+      residual[v] = this->rightSide_[v] - product[v];
+      direction[v] = inverse[v] * residual[v];
+      return dot(direction[v], residual[v]);
+    });
   scale = std::max(scale, std::sqrt(squared));
   const double start = squared, end = tolerance * tolerance * scale * scale;
   double done = 0.;
@@ -163,23 +173,29 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
       return false;
     }
     this->apply(lambda, direction, laplacian, product);
-    const double curvature = dotOf(direction, product);
+    const double curvature = sumOver([&](std::size_t v) { return dot(direction[v], product[v]); });
     if (!(curvature > 0.))
     {
       break;
     }
     const auto step = float(squared / curvature);
-    for (std::size_t v = 0; v < n; ++v)
-    {
-      x[v] += step * direction[v];
-      residual[v] += -step * product[v];
-    }
     const double before = squared;
-    squared = squaredResidual();
-    for (std::size_t v = 0; v < n; ++v)
-    {
-      direction[v] = inverse[v] * residual[v] + float(squared / before) * direction[v];
-    }
+    squared = sumOver(
+      [&](std::size_t v)
+      {
+        x[v] += step * direction[v];
+        residual[v] += -step * product[v];
+        return dot(inverse[v] * residual[v], residual[v]);
+      });
+    const auto turn = float(squared / before);
+    this->executor_.forEachRange(n, RowsPerRange,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t v = first; v < last; ++v)
+        {
+          direction[v] = inverse[v] * residual[v] + turn * direction[v];
+        }
+      });
   }
   return true;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Executor.h"
 #include "Mesh.h"
 #include "PlaceOnMesh.h"
 #include "Progress.h"
@@ -23,11 +24,24 @@ public:
   static constexpr double MostBoundarySmoothness = 20.;
 
   /// How much a sample weighs along the normal of its triangle is 1; along the triangle, `slip`: if
-  /// it is below 1, the surface may slide below its samples.
-  FitSystem(const Mesh& mesh, double slip);
+  /// it is below 1, the surface may slide below its samples. Mesh and executor must outlive the
+  /// system.
+  FitSystem(const Mesh& mesh, double slip, const Executor& executor = Executor::sequential());
 
-  /// Adds a sample whose place is on a triangle with this normal (of any length).
-  void add(const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight);
+  /// Some of the vertices: those from `begin` to before `end`.
+  struct Rows
+  {
+    VertexIndex begin = 0;
+    VertexIndex end = NoVertex;
+  };
+  /// Adds a sample whose place is on a triangle with this normal (of any length), to the equations
+  /// of those corners that are among `rows`. Other rows may be added to at the same time.
+  void add(const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight)
+  {
+    this->add(place, sample, normal, weight, Rows());
+  }
+  void add(
+    const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight, const Rows& rows);
 
   /// Improves `x` until the residual is `tolerance` times `scale`, which is raised first to the
   /// residual of the given `x`. Returns false if it was ended before.
@@ -65,6 +79,7 @@ private:
   std::vector<Block> inverseDiagonal(double lambda) const;
 
   const Mesh& mesh_;
+  const Executor& executor_;
   float slip_;
   std::vector<std::uint32_t> rowBegin_;
   std::vector<Block> diagonal_;

@@ -69,15 +69,15 @@ std::unique_ptr<ActivityOrder> orderAfterOneWin(std::size_t count)
 }
 }
 
-Learner::Learner(const PointCloud& cloud, const Parameters& parameters)
-  : Learner(cloud, parameters, firstTetrahedron(cloud), std::make_unique<ExactOrder>(4))
+Learner::Learner(const PointCloud& cloud, const Parameters& parameters, const Executor& executor)
+  : Learner(cloud, parameters, firstTetrahedron(cloud), std::make_unique<ExactOrder>(4), executor)
 {
   this->isListDue_ = parameters.order == Order::List;
 }
 
 Learner::Learner(const PointCloud& cloud, const Parameters& parameters, const Mesh& mesh,
-  std::span<const float> weights)
-  : Learner(cloud, parameters, mesh, orderAfterOneWin(mesh.indexEnd()))
+  std::span<const float> weights, const Executor& executor)
+  : Learner(cloud, parameters, mesh, orderAfterOneWin(mesh.indexEnd()), executor)
 {
   if (!weights.empty())
   {
@@ -89,8 +89,9 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters, const Me
 }
 
 Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh,
-  std::unique_ptr<ActivityOrder> order)
+  std::unique_ptr<ActivityOrder> order, const Executor& executor)
   : parameters_(parameters)
+  , executor_(executor)
   , mesh_(std::move(mesh))
   , order_(std::move(order))
   , samples_(cloud.points(), parameters.seed, cloud.weights())
@@ -143,7 +144,7 @@ void Learner::learnBatch(std::size_t size)
     this->samplesAfterGrowth_ -= size;
   }
   this->mesh_.releaseErased();
-  const std::span<const Vector4> samples = this->samples_.draw(size);
+  const std::span<const Vector4> samples = this->samples_.draw(size, this->executor_);
   this->prepareNoiseFilter(size);
   this->winGain_.beginBatch(this->observationStride_);
   this->findWinners(samples);
@@ -180,14 +181,7 @@ std::size_t Learner::batchSize() const
 void Learner::findWinners(std::span<const Vector4> samples)
 {
   this->winners_.resize(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i)
-  {
-    if (i + PrefetchDistance < samples.size())
-    {
-      this->grid_.prefetch(samples[i + PrefetchDistance]);
-    }
-    this->winners_[i] = this->grid_.closest(samples[i], this->mesh_.positions());
-  }
+  this->grid_.closest(samples, this->mesh_.positions(), this->winners_, this->executor_);
 }
 
 void Learner::prefetchAhead(std::size_t sample) const
@@ -247,7 +241,7 @@ void Learner::observeFirstMesh()
     std::min(std::size_t(this->parameters_.noiseWindow), MostFirstSamples / FirstObservations);
   for (int i = 0; i < FirstObservations; ++i)
   {
-    const std::span<const Vector4> samples = this->samples_.draw(count);
+    const std::span<const Vector4> samples = this->samples_.draw(count, this->executor_);
     this->prepareNoiseFilter(count);
     this->findWinners(samples);
     for (std::size_t sample = 0; sample < count; ++sample)
@@ -343,7 +337,8 @@ void Learner::renumber()
       positions.push_back(this->mesh_.position(v));
     }
   }
-  std::vector<VertexIndex> order = mortonOrder(positions, this->boxMin_, this->boxMax_);
+  std::vector<VertexIndex> order =
+    mortonOrder(positions, this->boxMin_, this->boxMax_, this->executor_);
   std::vector<std::uint8_t> hasWon(order.size());
   for (std::size_t i = 0; i < order.size(); ++i)
   {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ActivityOrder.h"
+#include "Executor.h"
 #include "FeatureStrength.h"
 #include "Mesh.h"
 #include "MovingStatistics.h"
@@ -41,17 +42,18 @@ struct RunCounts
 class Learner
 {
 public:
-  /// Starts from `mesh`, in the coordinates of `cloud`, which must outlive the learner. `order`
-  /// holds the vertices of the mesh.
+  /// Starts from `mesh`, in the coordinates of `cloud`, which must outlive the learner, as the
+  /// executor must. `order` holds the vertices of the mesh.
   Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh,
-    std::unique_ptr<ActivityOrder> order);
+    std::unique_ptr<ActivityOrder> order, const Executor& executor = Executor::sequential());
   /// Starts from `mesh` with exact counters, as if each vertex had just won once; with the list,
   /// the counters are dropped as soon as the mesh is large enough. Samples are drawn in proportion
   /// to `weights`, one for each point, instead of those of the cloud, if there are any.
   Learner(const PointCloud& cloud, const Parameters& parameters, const Mesh& mesh,
-    std::span<const float> weights = {});
+    std::span<const float> weights = {}, const Executor& executor = Executor::sequential());
   /// Starts from a tetrahedron in the middle of the cloud.
-  Learner(const PointCloud& cloud, const Parameters& parameters);
+  Learner(const PointCloud& cloud, const Parameters& parameters,
+    const Executor& executor = Executor::sequential());
 
   /// Learns so many samples, batch by batch, and calls `afterBatch`, if it is a function, after
   /// each. Ends early once all is learnt.
@@ -132,6 +134,7 @@ private:
   void updateDecay();
 
   Parameters parameters_;
+  const Executor& executor_;
   Mesh mesh_;
   VertexGrid grid_;
   std::unique_ptr<ActivityOrder> order_;

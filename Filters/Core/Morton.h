@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Executor.h"
 #include "Vector4.h"
 
 #include <cstdint>
@@ -13,6 +14,6 @@ namespace neuralmesh
 /// order[i] is the index of the i-th point. Points that are neighbours in it are neighbours in
 /// space, mostly, so that what is stored in this order is found in the cache. O(n); points on the
 /// same spot keep their order.
-std::vector<std::uint32_t> mortonOrder(
-  std::span<const Vector4> points, Vector4 boxMin, Vector4 boxMax);
+std::vector<std::uint32_t> mortonOrder(std::span<const Vector4> points, Vector4 boxMin,
+  Vector4 boxMax, const Executor& executor = Executor::sequential());
 }

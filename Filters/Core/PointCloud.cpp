@@ -12,28 +12,30 @@ namespace neuralmesh
 namespace
 {
 /// The box that holds all but the outermost hundredth of the points at each side of each axis.
-Eigen::AlignedBox3d bulkOf(std::span<const Eigen::Vector3d> points)
+Eigen::AlignedBox3d bulkOf(std::span<const Eigen::Vector3d> points, const Executor& executor)
 {
   Eigen::Vector3d low, high;
-  std::vector<double> coordinates(points.size());
   const auto outermost = std::ptrdiff_t(points.size() / 100);
-  for (Eigen::Index axis = 0; axis < 3; ++axis)
-  {
-    std::transform(points.begin(), points.end(), coordinates.begin(),
-      [axis](const Eigen::Vector3d& point) { return point[axis]; });
-    const auto lowest = coordinates.begin() + outermost;
-    const auto highest = coordinates.end() - 1 - outermost;
-    std::nth_element(coordinates.begin(), lowest, coordinates.end());
-    low[axis] = *lowest;
-    std::nth_element(lowest, highest, coordinates.end());
-    high[axis] = *highest;
-  }
+  executor.forEachPart(3,
+    [&](std::size_t part)
+    {
+      const auto axis = Eigen::Index(part);
+      std::vector<double> coordinates(points.size());
+      std::transform(points.begin(), points.end(), coordinates.begin(),
+        [axis](const Eigen::Vector3d& point) { return point[axis]; });
+      const auto lowest = coordinates.begin() + outermost;
+      const auto highest = coordinates.end() - 1 - outermost;
+      std::nth_element(coordinates.begin(), lowest, coordinates.end());
+      low[axis] = *lowest;
+      std::nth_element(lowest, highest, coordinates.end());
+      high[axis] = *highest;
+    });
   return { low, high };
 }
 }
 
-PointCloud::PointCloud(
-  std::span<const Eigen::Vector3d> points, std::span<const double> weights, bool keepsOrigins)
+PointCloud::PointCloud(std::span<const Eigen::Vector3d> points, std::span<const double> weights,
+  bool keepsOrigins, const Executor& executor)
 {
   const bool tracksOrigins = keepsOrigins || !weights.empty();
   std::vector<Eigen::Vector3d> finite;
@@ -62,7 +64,7 @@ PointCloud::PointCloud(
     return;
   }
 
-  Eigen::AlignedBox3d bulk = bulkOf(finite);
+  Eigen::AlignedBox3d bulk = bulkOf(finite, executor);
   if (!(bulk.diagonal().norm() > 0.))
   {
     // Nearly all points on one spot: the rest is what there is.
@@ -102,13 +104,14 @@ PointCloud::PointCloud(
   this->bulkMax_ = Vector4(enlarged.max());
 
   origins.resize(tracksOrigins ? scaled.size() : 0);
-  this->sort(scaled, std::move(origins), weights, keepsOrigins);
+  this->sort(scaled, std::move(origins), weights, keepsOrigins, executor);
 }
 
 void PointCloud::sort(const std::vector<Vector4>& points, std::vector<std::uint32_t> origins,
-  std::span<const double> weights, bool keepsOrigins)
+  std::span<const double> weights, bool keepsOrigins, const Executor& executor)
 {
-  const std::vector<std::uint32_t> order = mortonOrder(points, this->bulkMin_, this->bulkMax_);
+  const std::vector<std::uint32_t> order =
+    mortonOrder(points, this->bulkMin_, this->bulkMax_, executor);
   this->points_.reserve(points.size());
   for (const std::uint32_t i : order)
   {

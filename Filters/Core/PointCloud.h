@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Executor.h"
 #include "LargePageAllocator.h"
 #include "Vector4.h"
 
@@ -26,7 +27,7 @@ public:
   /// `weights` are those of the points, or none: then all weigh alike. Points whose weight is no
   /// finite number above 0 are not there. With `keepsOrigins` the cloud knows origins().
   explicit PointCloud(std::span<const Eigen::Vector3d> points, std::span<const double> weights = {},
-    bool keepsOrigins = false);
+    bool keepsOrigins = false, const Executor& executor = Executor::sequential());
 
   /// The cloud less those points for which `isLeftOut(point)`. Unit, diagonal and weights
   /// stay as they are.
@@ -73,7 +74,7 @@ public:
 
 private:
   void sort(const std::vector<Vector4>& points, std::vector<std::uint32_t> origins,
-    std::span<const double> weights, bool keepsOrigins);
+    std::span<const double> weights, bool keepsOrigins, const Executor& executor);
 
   LargeVector<Vector4> points_;
   std::vector<float> weights_;

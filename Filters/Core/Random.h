@@ -23,6 +23,14 @@ public:
     return mix(this->state_);
   }
 
+  /// The same stream after so many calls of next().
+  Random ahead(std::uint64_t calls) const
+  {
+    Random later = *this;
+    later.state_ += calls * Golden;
+    return later;
+  }
+
   /// Uniform in 0 ... bound - 1.
   std::uint32_t below(std::uint32_t bound)
   {

@@ -28,10 +28,6 @@ std::size_t firstVertices(std::uint64_t vertices)
   return std::size_t(std::max(vertices / 8, std::min<std::uint64_t>(vertices / 2, 1500)));
 }
 
-// Where the parts of a run end, as fractions of its time.
-constexpr double EndOfStart = 0.15;
-constexpr double EndOfLearning = 0.65;
-
 /// Learns until a stopping rule is met; returns which.
 StopReason learn(Learner& learner, StoppingRules& rules, const PointCloud& cloud,
   const Parameters& parameters, LearningCurve& curve, const GrowthWatch& watch,
@@ -84,14 +80,14 @@ struct Beginning
   std::vector<float> weights;        ///< to draw samples by; empty: those of the cloud
 };
 
-Beginning beginFromSpace(
-  const PointCloud& cloud, const Parameters& parameters, const Progress& progress)
+Beginning beginFromSpace(const PointCloud& cloud, const Parameters& parameters,
+  const Progress& progress, const Executor& executor)
 {
   Beginning result;
   result.cloud = withoutClusters(cloud);
   const PointCloud& used = result.cloud ? *result.cloud : cloud;
-  auto surface =
-    firstSurface(used, firstVertices(parameters.numberOfVertices), parameters.boundaries, progress);
+  auto surface = firstSurface(
+    used, firstVertices(parameters.numberOfVertices), parameters.boundaries, progress, executor);
   if (!surface)
   {
     return result;
@@ -106,7 +102,7 @@ Beginning beginFromSpace(
   if (parameters.curvatureDensity > 0. && parameters.variant != Variant::NormalBased &&
     !parameters.computeFeatureStrength)
   {
-    result.weights = curvatureDensity(used, *result.mesh, parameters.curvatureDensity);
+    result.weights = curvatureDensity(used, *result.mesh, parameters.curvatureDensity, executor);
   }
   return result;
 }
@@ -115,7 +111,7 @@ Beginning beginFromSpace(
 double cpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, const Progress& tell,
-  const std::optional<Mesh>& first, const GrowthWatch& watch)
+  const std::optional<Mesh>& first, const GrowthWatch& watch, const Executor& executor)
 {
   Reconstruction result;
   // Once the caller has ended the run, it is asked no more.
@@ -126,17 +122,18 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, cons
   const Parameters parameters = first ? wanted : learnable(wanted, all);
   const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
   const Beginning beginning = startsFromSpace
-    ? beginFromSpace(all, parameters, partOf(progress, 0., EndOfStart))
+    ? beginFromSpace(all, parameters, partOf(progress, 0., StartOfLearning), executor)
     : Beginning{ {}, first, {}, {} };
   const PointCloud& cloud = beginning.cloud ? *beginning.cloud : all;
   const double learningBegin = cpuSeconds();
-  Learner learner = beginning.mesh ? Learner(cloud, parameters, *beginning.mesh, beginning.weights)
-                                   : Learner(cloud, parameters);
-  const double endOfStart = startsFromSpace ? EndOfStart : 0.;
+  Learner learner = beginning.mesh
+    ? Learner(cloud, parameters, *beginning.mesh, beginning.weights, executor)
+    : Learner(cloud, parameters, executor);
+  const double startOfLearning = startsFromSpace ? StartOfLearning : 0.;
   const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
   StoppingRules rules(cloud, parameters, learner.mesh().vertexCount());
   result.stopReason = learn(learner, rules, cloud, parameters, result.curve, watch,
-    partOf(progress, endOfStart, endOfLearning));
+    partOf(progress, startOfLearning, endOfLearning));
   result.counts = learner.counts();
 
   learner.renumber();
@@ -144,7 +141,7 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, cons
   Mesh mesh = learner.mesh();
   const bool isLearnt = result.stopReason == StopReason::Vertices;
   Finish finish(cloud, mesh, parameters, beginning.bridgeWidth,
-    isLearnt ? std::size_t(wanted.numberOfVertices) : mesh.vertexCount());
+    isLearnt ? std::size_t(wanted.numberOfVertices) : mesh.vertexCount(), executor);
   if (parameters.fitRounds > 0 && isTimeLeft(result.stopReason) && result.counts.iterations > 0)
   {
     const Progress finishing = partOf(progress, endOfLearning, 1.);

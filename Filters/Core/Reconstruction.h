@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Executor.h"
 #include "Finish.h"
 #include "GrowthWatch.h"
 #include "LearningCurve.h"
@@ -38,9 +39,14 @@ struct Reconstruction
 /// CPU seconds that the process has used so far.
 double cpuSeconds();
 
+// Where the parts of a run begin and end, as fractions of its progress.
+inline constexpr double StartOfLearning = 0.15;
+inline constexpr double EndOfLearning = 0.65;
+
 /// Grows a mesh over a cloud that has an extent: from `first`, or what the parameters have it start
 /// from if there is none, until a stopping rule is met. Then finishes it, unless there is no time
 /// left, or nothing was learnt; and orients it outwards. Snapshots of the growth go to `watch`.
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
-  const Progress& progress, const std::optional<Mesh>& first = {}, const GrowthWatch& watch = {});
+  const Progress& progress, const std::optional<Mesh>& first = {}, const GrowthWatch& watch = {},
+  const Executor& executor = Executor::sequential());
 }

@@ -5,22 +5,39 @@
 
 namespace neuralmesh
 {
-std::span<const Vector4> SampleStream::draw(std::size_t count)
+namespace
+{
+constexpr std::size_t DrawsPerRange = 2048;
+}
+
+std::span<const Vector4> SampleStream::draw(std::size_t count, const Executor& executor)
 {
   this->drawn_.resize(count);
+  this->sorted_.resize(count);
   this->batch_.resize(count);
+
+  const auto pointCount = std::uint32_t(this->points_.size());
+  const bool isWeighted = !this->weighted_.isEmpty();
+  const std::uint64_t callsPerDraw = isWeighted ? AliasTable::CallsPerDraw : 1;
+  executor.forEachRange(count, DrawsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Random random = this->random_.ahead(begin * callsPerDraw);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        this->drawn_[i] = isWeighted ? this->weighted_.draw(random) : random.below(pointCount);
+      }
+    });
+  this->random_ = this->random_.ahead(count * callsPerDraw);
 
   // A counting sort by the place in the cloud, which is in Morton order, with about a sample to a
   // bucket: within a bucket the order is that of drawing.
-  const auto pointCount = std::uint32_t(this->points_.size());
   const std::size_t bucketCount = std::bit_ceil(count);
   this->bucketBegin_.assign(bucketCount + 1, 0);
   const auto bucketOf = [&](std::uint32_t point)
   { return std::size_t(std::uint64_t(point) * bucketCount / pointCount); };
-  for (std::uint32_t& point : this->drawn_)
+  for (const std::uint32_t point : this->drawn_)
   {
-    point = this->weighted_.isEmpty() ? this->random_.below(pointCount)
-                                      : this->weighted_.draw(this->random_);
     ++this->bucketBegin_[bucketOf(point) + 1];
   }
   for (std::size_t bucket = 1; bucket <= bucketCount; ++bucket)
@@ -29,8 +46,17 @@ std::span<const Vector4> SampleStream::draw(std::size_t count)
   }
   for (const std::uint32_t point : this->drawn_)
   {
-    this->batch_[this->bucketBegin_[bucketOf(point)]++] = this->points_[point];
+    this->sorted_[this->bucketBegin_[bucketOf(point)]++] = point;
   }
+
+  executor.forEachRange(count, DrawsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        this->batch_[i] = this->points_[this->sorted_[i]];
+      }
+    });
   return this->batch_;
 }
 }

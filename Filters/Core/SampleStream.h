@@ -2,6 +2,7 @@
 #pragma once
 
 #include "AliasTable.h"
+#include "Executor.h"
 #include "PointCloud.h"
 #include "Random.h"
 
@@ -27,13 +28,15 @@ public:
   }
 
   /// The next `count` samples; valid until the next call.
-  std::span<const Vector4> draw(std::size_t count);
+  std::span<const Vector4> draw(
+    std::size_t count, const Executor& executor = Executor::sequential());
 
 private:
   std::span<const Vector4> points_;
   Random random_;
   AliasTable weighted_; ///< empty if all points are drawn alike
   std::vector<std::uint32_t> drawn_;
+  std::vector<std::uint32_t> sorted_;
   std::vector<std::uint32_t> bucketBegin_;
   std::vector<Vector4> batch_;
 };

@@ -15,7 +15,10 @@ constexpr double Slip = 0.01;
 /// In the first round samples are no outliers up to so many edges: the mesh does not fit yet.
 constexpr float FirstOutlierEdges = 1.f;
 constexpr float LaterOutlierEdges = 0.5f;
-constexpr std::size_t SamplesPerAbortCheck = 16384;
+constexpr std::size_t SamplesPerAbortCheck = 65536;
+// Parts for the executor.
+constexpr std::size_t FitSamplesPerRange = 1024;
+constexpr std::size_t FitVerticesPerRange = 4096;
 /// Of the residual of the equations, against the largest at the start of a round.
 constexpr double Tolerance = 1e-3;
 /// While lambda is chosen, against that at the start.
@@ -46,9 +49,11 @@ Vector4 normalAt(const PlaceOnMesh& place, std::span<const Vector4> positions)
 }
 }
 
-SurfaceFit::SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount)
+SurfaceFit::SurfaceFit(
+  const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount, const Executor& executor)
   : cloud_(cloud)
   , mesh_(mesh)
+  , executor_(executor)
 {
   const std::size_t all = cloud.points().size();
   const std::size_t fitted = all - all / HeldOutStride;
@@ -72,16 +77,25 @@ bool SurfaceFit::findPlaces(const Progress& progress)
 {
   const VertexGrid grid = this->hasPlaces_ ? VertexGrid() : gridOf(this->mesh_, this->cloud_);
   std::vector<float> distances(this->samples_.size());
-  for (std::size_t i = 0; i < this->samples_.size(); ++i)
+  const std::size_t count = this->samples_.size();
+  for (std::size_t first = 0; first < count; first += SamplesPerAbortCheck)
   {
-    if (i % SamplesPerAbortCheck == 0 && !progress(double(i) / double(this->samples_.size())))
+    if (!progress(double(first) / double(count)))
     {
       return false;
     }
-    PlaceOnMesh& place = this->places_[i];
-    place = this->hasPlaces_ ? closestPlaceFrom(this->samples_[i], this->mesh_, place.triangle[0])
-                             : closestPlace(this->samples_[i], this->mesh_, grid);
-    distances[i] = place.squaredDistance;
+    this->executor_.forEachRange(std::min(SamplesPerAbortCheck, count - first), FitSamplesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = first + begin; i < first + end; ++i)
+        {
+          PlaceOnMesh& place = this->places_[i];
+          place = this->hasPlaces_
+            ? closestPlaceFrom(this->samples_[i], this->mesh_, place.triangle[0])
+            : closestPlace(this->samples_[i], this->mesh_, grid);
+          distances[i] = place.squaredDistance;
+        }
+      });
   }
   const float edges = this->hasPlaces_ ? LaterOutlierEdges : FirstOutlierEdges;
   this->hasPlaces_ = true;
@@ -97,21 +111,34 @@ bool SurfaceFit::findPlaces(const Progress& progress)
 void SurfaceFit::fillSystem()
 {
   // Anew, as edges may have been flipped.
-  this->system_.emplace(this->mesh_, Slip);
-  this->usedCount_ = 0;
+  this->system_.emplace(this->mesh_, Slip, this->executor_);
+  // Each part goes through all samples for its rows: so that these add up in the same order however
+  // many parts there are.
+  const std::size_t parts = this->executor_.threadCount(), rows = this->mesh_.indexEnd();
+  this->executor_.forEachPart(parts,
+    [&](std::size_t part) {
+      this->fillRows({ VertexIndex(part * rows / parts), VertexIndex((part + 1) * rows / parts) });
+    });
+  this->usedCount_ = std::size_t(std::count_if(this->places_.begin(), this->places_.end(),
+    [this](const PlaceOnMesh& place) { return this->isUsed(place); }));
+  this->pullBoundariesIn();
+}
+
+void SurfaceFit::fillRows(const FitSystem::Rows& rows)
+{
+  const auto isIn = [&rows](VertexIndex v) { return v >= rows.begin && v < rows.end; };
   for (std::size_t i = 0; i < this->samples_.size(); ++i)
   {
     const PlaceOnMesh& place = this->places_[i];
-    if (this->isUsed(place))
+    const auto& [a, b, c] = place.triangle;
+    if (this->isUsed(place) && (isIn(a) || isIn(b) || isIn(c)))
     {
       // Beyond a boundary the distance along the surface counts in full: there is no other place.
       const Vector4 normal =
         isOnBoundary(place, this->mesh_) ? Vector4() : normalAt(place, this->mesh_.positions());
-      this->system_->add(place, this->samples_[i], normal, this->weight(i));
-      ++this->usedCount_;
+      this->system_->add(place, this->samples_[i], normal, this->weight(i), rows);
     }
   }
-  this->pullBoundariesIn();
 }
 
 /// Samples beyond a boundary pull it outwards, but where it is beyond the samples there are none to
@@ -230,20 +257,22 @@ bool SurfaceFit::chooseSmoothness(const Progress& progress)
 
 double SurfaceFit::residualVariance(std::span<const Vector4> positions, double lambda) const
 {
-  double sum = 0.;
-  for (std::size_t i = 0; i < this->samples_.size(); ++i)
+  const auto squaredDistance = [&](std::size_t i)
   {
     const PlaceOnMesh& place = this->places_[i];
-    if (this->isUsed(place))
+    if (!this->isUsed(place))
     {
-      const Vector4 normal = normalAt(place, positions);
-      const Vector4 offset = this->samples_[i] - positions[place.triangle[0]];
-      const float across = dot(offset, normal);
-      const float squared = squaredNorm(normal);
-      sum += double(this->weight(i)) *
-        (squared > 0.f ? double(across * across / squared) : double(squaredNorm(offset)));
+      return 0.;
     }
-  }
+    const Vector4 normal = normalAt(place, positions);
+    const Vector4 offset = this->samples_[i] - positions[place.triangle[0]];
+    const float across = dot(offset, normal);
+    const float squared = squaredNorm(normal);
+    return double(this->weight(i)) *
+      (squared > 0.f ? double(across * across / squared) : double(squaredNorm(offset)));
+  };
+  const double sum =
+    this->executor_.sum(this->samples_.size(), FitSamplesPerRange, squaredDistance);
   // Vertices follow noise, the less the smoother they are held: so many of them do (a curve through
   // traces of the solution, measured for 2 to 20 samples a vertex).
   const auto vertices = double(positions.size());
@@ -256,9 +285,9 @@ double SurfaceFit::roughness(std::span<const Vector4> positions) const
 {
   std::vector<Vector4> laplacian(positions.size());
   this->system_->applyLaplacian(positions, laplacian);
-  double sum = 0.;
-  for (VertexIndex v = 0; v < positions.size(); ++v)
+  const auto squaredAcross = [&](std::size_t vertex)
   {
+    const auto v = VertexIndex(vertex);
     const Ring& ring = this->mesh_.ring(v);
     Vector4 normal;
     for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
@@ -268,9 +297,10 @@ double SurfaceFit::roughness(std::span<const Vector4> positions) const
     }
     const float across = dot(laplacian[v], normal);
     const float squared = squaredNorm(normal);
-    sum += squared > 0.f ? double(across * across / squared) : 0.;
-  }
-  return sum / double(positions.size());
+    return squared > 0.f ? double(across * across / squared) : 0.;
+  };
+  return this->executor_.sum(positions.size(), FitVerticesPerRange, squaredAcross) /
+    double(positions.size());
 }
 
 double SurfaceFit::distanceEvenness() const

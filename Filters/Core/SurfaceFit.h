@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Executor.h"
 #include "FitSystem.h"
 #include "Mesh.h"
 #include "PlaceOnMesh.h"
@@ -30,8 +31,9 @@ class SurfaceFit
 {
 public:
   /// Takes so many points of the cloud, evenly picked but for those held out, as samples. No vertex
-  /// may be erased.
-  SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount);
+  /// may be erased. Cloud, mesh and executor must outlive the fit.
+  SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount,
+    const Executor& executor = Executor::sequential());
 
   /// Finds the places of the samples on the mesh as it is now. Returns false if it was ended before.
   bool findPlaces(const Progress& progress);
@@ -67,6 +69,7 @@ private:
     return this->weights_.empty() ? 1.f : this->weights_[sample];
   }
   void fillSystem();
+  void fillRows(const FitSystem::Rows& rows);
   void pullBoundariesIn();
   bool chooseSmoothness(const Progress& progress);
   double residualVariance(std::span<const Vector4> positions, double lambda) const;
@@ -74,6 +77,7 @@ private:
 
   const PointCloud& cloud_;
   Mesh& mesh_;
+  const Executor& executor_;
   std::optional<FitSystem> system_;
   std::vector<Vector4> samples_;
   std::vector<float> weights_; ///< of the samples; empty if all weigh alike

@@ -21,11 +21,12 @@ Real umbrellaWeight(const Ring& ring, VertexIndex neighbor)
   return ring.front() == neighbor || ring.back() == neighbor ? Real(0.5) : Real(0);
 }
 
-/// L x.
+/// L x, for the vertices from `begin` to before `end`.
 template <typename Real, typename Value>
-void applyUmbrella(const Mesh& mesh, std::span<const Value> x, std::span<Value> result)
+void applyUmbrella(const Mesh& mesh, std::span<const Value> x, std::span<Value> result,
+  std::size_t begin, std::size_t end)
 {
-  for (VertexIndex v = 0; v < x.size(); ++v)
+  for (auto v = VertexIndex(begin); v < end; ++v)
   {
     const Ring& ring = mesh.ring(v);
     if (ring.isOpen())

@@ -17,6 +17,10 @@ constexpr double MaximumBlockCount = double(1 << 24);
 constexpr double MaximumBlocksAlong = double(1 << 12);
 constexpr float CellMargin = 0.01f;
 
+/// A part for the executor.
+constexpr std::size_t QueriesPerRange = 256;
+constexpr std::size_t QueriesAhead = 8; ///< whose cell is brought into the cache
+
 float squaredDistanceOf(std::uint64_t candidate)
 {
   return std::bit_cast<float>(std::uint32_t(candidate >> 32));
@@ -293,5 +297,22 @@ VertexIndex VertexGrid::closest(Vector4 sample, std::span<const Vector4> positio
     ? this->searchBall(home, sample, positions.data(), best)
     : this->searchBlocks(home, sample, positions.data(), best);
   return VertexIndex(best & NoVertex);
+}
+
+void VertexGrid::closest(std::span<const Vector4> samples, std::span<const Vector4> positions,
+  std::span<VertexIndex> closest, const Executor& executor) const
+{
+  executor.forEachRange(samples.size(), QueriesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        if (i + QueriesAhead < end)
+        {
+          this->prefetch(samples[i + QueriesAhead]);
+        }
+        closest[i] = this->closest(samples[i], positions);
+      }
+    });
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Executor.h"
 #include "LargePageAllocator.h"
 #include "Ring.h"
 #include "Vector4.h"
@@ -51,6 +52,11 @@ public:
   /// The vertex closest to `sample` (of equally close ones the lowest index), where `positions` are
   /// those that the grid was told of. NoVertex if the grid is empty.
   VertexIndex closest(Vector4 sample, std::span<const Vector4> positions) const;
+
+  /// The same for all samples, each of which finds in the cache what the one before it has used if
+  /// they are neighbours in space. `closest` has room for as many.
+  void closest(std::span<const Vector4> samples, std::span<const Vector4> positions,
+    std::span<VertexIndex> closest, const Executor& executor) const;
 
   /// Brings the cell of `sample` into the cache.
   void prefetch(Vector4 sample) const;

@@ -2,7 +2,6 @@
 // Promises: an ensemble gives a torus its handle, with the average mesh and the votes beside it; the
 // same bytes at any number of threads; empty input is quiet; an abort leaves a valid mesh.
 #include "FilterTesting.h"
-#include "VTKThreads.h"
 
 #include "vtkNeuralMeshEnsemble.h"
 
@@ -18,12 +17,13 @@ namespace
 {
 using namespace FilterTesting;
 
-vtkNew<vtkNeuralMeshEnsemble> Run(vtkPolyData* cloud)
+vtkNew<vtkNeuralMeshEnsemble> Run(vtkPolyData* cloud, int threads = 0)
 {
   vtkNew<vtkNeuralMeshEnsemble> filter;
   filter->SetNumberOfMembers(5);
   filter->SetVerticesPerMember(1500);
   filter->SetNumberOfVertices(3000);
+  filter->SetNumberOfThreads(threads);
   filter->SetInputData(cloud);
   filter->Update();
   return filter;
@@ -53,8 +53,7 @@ bool SamePoints(vtkPolyData* a, vtkPolyData* b)
 int TestNeuralMeshEnsemble(int, char*[])
 {
   const auto cloud = TorusCloud();
-  SetNumberOfVTKThreads(1);
-  const auto first = Run(cloud);
+  const auto first = Run(cloud, 1);
   CHECK(first->GetTopologyLearning());
   CHECK(first->GetOutput()->GetNumberOfPoints() == 3000);
   CHECK(EulerCharacteristic(first->GetOutput()) == 0);
@@ -69,8 +68,7 @@ int TestNeuralMeshEnsemble(int, char*[])
 
   for (const int threads : { 2, 3, 8 })
   {
-    SetNumberOfVTKThreads(threads);
-    const auto other = Run(cloud);
+    const auto other = Run(cloud, threads);
     CHECK(SamePoints(first->GetOutput(), other->GetOutput()));
     CHECK(SamePoints(first->GetAverageMesh(), other->GetAverageMesh()));
   }

@@ -63,8 +63,8 @@ int TestNeuralMeshProperties(int, char*[])
       "NoiseTolerance", "NoiseWindow", "OutlierLimit", "OutlierLimitVertices", "SamplesPerAddition",
       "EarlyPatience", "EarlyVertices", "AdditionsPerRemoval", "RemovalPatience", "RemovalLimit",
       "EdgeFlips", "BatchSize", "MaximumIterations", "TargetSampleDistance", "TargetCloudDistance",
-      "TimeLimit", "StallPatience", "OutputPointsPrecision", "GrowthAsTime", "NumberOfSnapshots",
-      "StopReason" })
+      "TimeLimit", "StallPatience", "NumberOfThreads", "OutputPointsPrecision", "GrowthAsTime",
+      "NumberOfSnapshots", "StopReason" })
   {
     CHECK(text.str().find(std::string(property) + ": ") != std::string::npos);
   }

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Prints, as a table in Markdown, whole runs of up to a million vertices: what a sample costs, how
+// much memory a vertex takes beyond the cloud, and how good the mesh is. Sizes in thousands of
+// vertices are arguments.
+#include "CloudGenerator.h"
+#include "Reconstruction.h"
+#include "Shapes.h"
+#include "ThreadPool.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <vector>
+
+namespace
+{
+using namespace neuralmesh;
+
+constexpr std::size_t PointCount = 5'000'000;
+/// The thesis's largest mesh took so long, on a Pentium 4 of 1.7 GHz.
+constexpr double AtlasVertices = 270'000.;
+constexpr double AtlasSeconds = (3. * 60. + 46.) * 60.;
+
+/// Bytes of memory in use that no file stands behind.
+double anonymousBytes()
+{
+  std::ifstream file("/proc/self/statm");
+  double size = 0., resident = 0., shared = 0.;
+  file >> size >> resident >> shared;
+  return (resident - shared) * double(sysconf(_SC_PAGESIZE));
+}
+
+/// The most memory that a part of a run has used.
+class Peak
+{
+public:
+  Peak(double begin, double end)
+    : begin_(begin)
+    , end_(end)
+  {
+  }
+  void look(double fraction)
+  {
+    if (fraction >= this->begin_ && fraction < this->end_)
+    {
+      this->bytes_ = std::max(this->bytes_, anonymousBytes());
+    }
+  }
+  double bytes() const { return this->bytes_; }
+
+private:
+  double begin_, end_;
+  double bytes_ = 0.;
+};
+
+void printRow(const PointCloud& cloud, std::uint64_t vertices, const Executor& executor)
+{
+  Parameters parameters;
+  parameters.numberOfVertices = vertices;
+  const double before = anonymousBytes();
+  Peak learning(StartOfLearning, EndOfLearning), finish(EndOfLearning, 1.);
+  const auto begin = std::chrono::steady_clock::now();
+  const Reconstruction result = reconstruct(
+    cloud, parameters,
+    [&](double fraction)
+    {
+      learning.look(fraction);
+      finish.look(fraction);
+      return true;
+    },
+    {}, {}, executor);
+  const double wall =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double cpu = result.startSeconds + result.learningSeconds + result.finishSeconds;
+  const auto bytesPerVertex = [&](const Peak& peak)
+  { return (peak.bytes() - before) / double(vertices); };
+  // One can assume that the thesis's time grows as the number of vertices does.
+  const double atlas = AtlasSeconds / AtlasVertices * double(vertices);
+  std::printf("| %llu | %.0f | %.0f | %.0f | %.1f | %.1f | %.0f | %.2e | %ld | %zu | %.1f |\n",
+    static_cast<unsigned long long>(vertices),
+    1e9 * result.learningSeconds / double(result.counts.iterations), bytesPerVertex(learning),
+    bytesPerVertex(finish), cpu, wall, atlas / cpu, result.quality->residual / cloud.diagonal(),
+    result.quality->surface.genus.value_or(-1), result.quality->surface.foldedEdges,
+    100. * result.quality->surface.regularRatio);
+  std::fflush(stdout);
+}
+}
+
+int main(int argc, char* argv[])
+{
+  std::vector<std::uint64_t> sizes;
+  for (int i = 1; i < argc; ++i)
+  {
+    sizes.push_back(1000 * std::strtoull(argv[i], nullptr, 10));
+  }
+  CloudOptions options;
+  options.count = PointCount;
+  const ThreadPool executor;
+  const PointCloud cloud(generateCloud(makeTorus(), options), {}, false, executor);
+  std::printf("A torus of %zu points, on %u threads. Bytes are those beyond the cloud.\n\n",
+    PointCount, executor.threadCount());
+  std::printf(
+    "| vertices | learning, ns a sample | learning, bytes a vertex | finish, bytes a vertex "
+    "| CPU s | wall s | the thesis's time / CPU time | residual / diagonal | handles | folds "
+    "| regular, %% |\n");
+  std::printf("|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+  for (const std::uint64_t vertices :
+    sizes.empty() ? std::vector<std::uint64_t>{ 20'000, 270'000, 1'000'000 } : sizes)
+  {
+    printRow(cloud, vertices, executor);
+  }
+  return 0;
+}
