@@ -288,11 +288,11 @@ int Reconstruct(const ReconstructOptions& options)
   {
     throw UsageError("--features: " + options.Output + " must be a .vtp; no other format keeps it");
   }
-  RequireWritablePlace(options.Output);
+  neuralmesh::requireWritablePlace(options.Output);
   if (!options.Statistics.empty())
   {
     RequireTableExtension(options.Statistics);
-    RequireWritablePlace(options.Statistics);
+    neuralmesh::requireWritablePlace(options.Statistics);
   }
 
   Stopwatch stopwatch;

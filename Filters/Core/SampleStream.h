@@ -29,6 +29,13 @@ public:
   /// The next `count` samples; valid until the next call.
   std::span<const Vector4> draw(std::size_t count);
 
+  /// Which samples come next; the points and their weights must be the same.
+  template <typename Archive>
+  void exchange(Archive& archive)
+  {
+    archive(this->random_);
+  }
+
 private:
   std::span<const Vector4> points_;
   Random random_;

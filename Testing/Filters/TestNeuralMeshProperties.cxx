@@ -64,6 +64,7 @@ int TestNeuralMeshProperties(int, char*[])
       "EarlyPatience", "EarlyVertices", "AdditionsPerRemoval", "RemovalPatience", "RemovalLimit",
       "EdgeFlips", "BatchSize", "MaximumIterations", "TargetSampleDistance", "TargetCloudDistance",
       "TimeLimit", "StallPatience", "OutputPointsPrecision", "GrowthAsTime", "NumberOfSnapshots",
+      "CheckpointFileName", "CheckpointInterval", "KeepCheckpoint", "ResumedIterations",
       "StopReason" })
   {
     CHECK(text.str().find(std::string(property) + ": ") != std::string::npos);
