@@ -3,13 +3,13 @@
 
 #include "MeshBuilder.h"
 #include "Reconstruction.h"
-#include "WholeFile.h"
 #include "vtkMeshArrays.h"
 #include "vtkNeuralMeshGrowth.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkPointCloudCollector.h"
 #include "vtkPointDataCarrier.h"
 #include "vtkTriangleMeshCollector.h"
+#include "WholeFile.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
@@ -321,11 +321,13 @@ void vtkNeuralMesh::SetCheckpointFileName(const char* name)
   }
 }
 
+void vtkNeuralMesh::RemoveCheckpoint() { neuralmesh::removeWholeFile(this->CheckpointFileName); }
+
 neuralmesh::CheckpointPlan vtkNeuralMesh::PlanCheckpoint()
 {
-  return { this->CheckpointFileName, this->CheckpointInterval,
-    [this](const std::string& text)
-    { vtkWarningMacro(<< "The run goes on without a checkpoint: " << text); } };
+  return { this->CheckpointFileName, this->CheckpointInterval, [this](const std::string& text) {
+            vtkWarningMacro(<< "The run goes on without a checkpoint: " << text);
+          } };
 }
 
 int vtkNeuralMesh::RequestData(
@@ -341,8 +343,9 @@ int vtkNeuralMesh::RequestData(
   }
   if (this->GrowthAsTime && !this->CheckpointFileName.empty())
   {
-    vtkErrorMacro(<< "CheckpointFileName and GrowthAsTime exclude each other: a checkpoint holds no "
-                     "snapshots.");
+    vtkErrorMacro(
+      << "CheckpointFileName and GrowthAsTime exclude each other: a checkpoint holds no "
+         "snapshots.");
     return 0;
   }
 
@@ -431,9 +434,9 @@ int vtkNeuralMesh::RequestData(
   neuralmesh::Reconstruction result;
   try
   {
-    result = neuralmesh::reconstruct(cloud, run.Parameters,
-      neuralmesh::partOf(progress, 0.0, endOfMesh), run.FirstMesh, this->WatchGrowth(precision),
-      this->PlanCheckpoint());
+    result =
+      neuralmesh::reconstruct(cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, endOfMesh),
+        run.FirstMesh, this->WatchGrowth(precision), this->PlanCheckpoint());
   }
   catch (const std::runtime_error& error)
   {
@@ -490,7 +493,7 @@ int vtkNeuralMesh::RequestData(
   }
   if (!this->KeepCheckpoint && isComplete)
   {
-    neuralmesh::removeWholeFile(this->CheckpointFileName);
+    this->RemoveCheckpoint();
   }
   return 1;
 }

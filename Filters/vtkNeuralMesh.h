@@ -311,8 +311,8 @@ public:
    * TimeLimit may be another one, and counts what all executions have learnt. The file is replaced
    * as a whole, so that one is there at any moment; if it cannot be written while learning goes on,
    * there is a warning. It is removed once the mesh is the output, unless the run was aborted or has
-   * met TimeLimit, or KeepCheckpoint (default off) is on: for whoever has yet to write the mesh,
-   * and then removes it.
+   * met TimeLimit, or KeepCheckpoint (default off) is on: for whoever has yet to write the mesh, and
+   * then calls RemoveCheckpoint().
    *
    * What learning starts from is found anew, as are the members of vtkNeuralMeshEnsemble.
    * Checkpoints hold no snapshots: with GrowthAsTime they are an error. See
@@ -326,6 +326,12 @@ public:
   vtkGetMacro(KeepCheckpoint, vtkTypeBool);
   vtkBooleanMacro(KeepCheckpoint, vtkTypeBool);
   ///@}
+
+  /**
+   * Removes the file, if it is there, and what executions have left beside it that were killed while
+   * they wrote it.
+   */
+  void RemoveCheckpoint();
 
   /**
    * How many samples had been learnt where the last run went on from a checkpoint; 0 if it began at

@@ -19,7 +19,10 @@ namespace neuralmesh
 class Archive;
 
 template <typename T>
-concept Archived = requires(T& value, Archive& archive) { value.exchange(archive); };
+concept Archived = requires(T& value, Archive& archive)
+{
+  value.exchange(archive);
+};
 
 /// Values one behind the other, in the byte order of the machine: either all are written, or all are
 /// read. Each class has one function `exchange(Archive&)` for both, so that the two cannot disagree;

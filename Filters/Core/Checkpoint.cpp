@@ -224,8 +224,7 @@ void Checkpoint::read(const std::function<void(Archive&)>& use) const
   }
   catch (const std::exception& error)
   {
-    throw std::runtime_error(
-      "the run cannot go on from " + this->plan_.path + ": " + error.what());
+    throw std::runtime_error("the run cannot go on from " + this->plan_.path + ": " + error.what());
   }
 }
 

@@ -64,7 +64,7 @@ private:
   CheckpointPlan plan_;
   Parameters parameters_;
   std::vector<std::pair<std::string, std::uint64_t>> input_; ///< names and checksums
-  std::uint64_t start_ = 0;                                  ///< checksum of what learning starts from
+  std::uint64_t start_ = 0; ///< checksum of what learning starts from
   std::uint64_t savedIterations_ = 0;
   bool isFound_ = false;
   bool hasWarned_ = false;

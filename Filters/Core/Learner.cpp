@@ -424,8 +424,7 @@ void Learner::exchange(Archive& archive)
   archive(this->untilObservation_, this->nextAddition_, this->nextRemoval_, this->nextTopology_);
   archive(this->samplesAfterGrowth_, this->nextRenumbering_);
   archive.require(this->samplesAfterGrowth_ <= mostSamplesAfterGrowth &&
-    double(this->nextRenumbering_) <=
-      1. + GrowthUntilRenumbering * double(this->mesh_.indexEnd()));
+    double(this->nextRenumbering_) <= 1. + GrowthUntilRenumbering * double(this->mesh_.indexEnd()));
   if (archive.isReading())
   {
     // What follows from the rest.

@@ -38,7 +38,8 @@ void exchangePosition(Archive& archive, Vector4& position)
   float x = position[0], y = position[1], z = position[2];
   archive(x, y, z);
   position = Vector4(x, y, z);
-  archive.require(std::fmax(std::fabs(x), std::fmax(std::fabs(y), std::fabs(z))) <= FarthestPosition &&
+  archive.require(
+    std::fmax(std::fabs(x), std::fmax(std::fabs(y), std::fabs(z))) <= FarthestPosition &&
     !std::isnan(x + y + z));
 }
 }

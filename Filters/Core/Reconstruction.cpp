@@ -136,8 +136,8 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, cons
   StoppingRules rules(cloud, parameters, learner.mesh().vertexCount());
   LearningState state{ learner, rules, result.curve };
   result.resumedIterations = checkpoint.resume(state, !isCancelled);
-  result.stopReason = learn(state, checkpoint, cloud, parameters, watch,
-    partOf(progress, endOfStart, endOfLearning));
+  result.stopReason =
+    learn(state, checkpoint, cloud, parameters, watch, partOf(progress, endOfStart, endOfLearning));
   result.counts = learner.counts();
 
   learner.renumber();

@@ -42,7 +42,8 @@ bool isTemporaryOf(const fs::path& path, const std::string& name)
   const std::string begin = beginOfTemporary(path), end = endOfTemporary(path);
   return name.size() > begin.size() + end.size() && name.starts_with(begin) &&
     name.ends_with(end) &&
-    std::all_of(name.begin() + std::ptrdiff_t(begin.size()), name.end() - std::ptrdiff_t(end.size()),
+    std::all_of(name.begin() + std::ptrdiff_t(begin.size()),
+      name.end() - std::ptrdiff_t(end.size()),
       [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 

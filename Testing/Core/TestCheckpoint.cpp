@@ -124,8 +124,7 @@ void expectSame(const Reconstruction& a, const Reconstruction& b)
       double(counts.additions), double(counts.removals), double(counts.flips),
       double(counts.illegalOperations), double(counts.removedTriangles),
       double(counts.mergedBoundaries), double(counts.filledBoundaries), double(row.vertices),
-      row.sampleDistanceMean, row.sampleDistanceDeviation, row.normalChangeMean,
-      row.regularRatio };
+      row.sampleDistanceMean, row.sampleDistanceDeviation, row.normalChangeMean, row.regularRatio };
   };
   ASSERT_EQ(a.curve.rows().size(), b.curve.rows().size());
   for (std::size_t i = 0; i < a.curve.rows().size(); ++i)
@@ -203,18 +202,19 @@ std::string caseName(const ::testing::TestParamInfo<Case>& info)
 {
   const auto [preset, variant, order, topology, features] = info.param;
   return std::string(preset == Preset::Default ? "Default" : "Thesis") +
-    (variant == Variant::Basic             ? "Basic"
-        : variant == Variant::NormalBased  ? "NormalBased"
-                                           : "NoiseFiltering") +
+    (variant == Variant::Basic            ? "Basic"
+        : variant == Variant::NormalBased ? "NormalBased"
+                                          : "NoiseFiltering") +
     (order == Order::List ? "List" : "") + (topology ? "Topology" : "") +
     (features ? "Features" : "");
 }
 
-class EveryCheckpoint : public Checkpoints, public ::testing::WithParamInterface<Case>
+class EveryCheckpoint
+  : public Checkpoints
+  , public ::testing::WithParamInterface<Case>
 {
 };
-INSTANTIATE_TEST_SUITE_P(
-  Checkpoint, EveryCheckpoint, ::testing::ValuesIn(allCases()), caseName);
+INSTANTIATE_TEST_SUITE_P(Checkpoint, EveryCheckpoint, ::testing::ValuesIn(allCases()), caseName);
 
 Parameters fewVertices()
 {
@@ -277,11 +277,14 @@ TEST_F(Checkpoints, CoverTheWholeRun)
 // So do runs that end by another rule, also where that is not met any more when it is asked again.
 TEST_F(Checkpoints, GoOnWithEveryStoppingRule)
 {
-  std::vector<Parameters> cases(4, fewVertices());
+  Parameters many = fewVertices();
+  many.numberOfVertices = 3000;
+  std::vector<Parameters> cases(4, many);
   cases[0].targetCloudDistance = 0.02;
   cases[1].targetSampleDistance = 0.06;
   cases[2].maximumIterations = 20011;
-  cases[3].stallPatience = 1.;
+  cases[3].samplesPerAddition = 10000;
+  cases[3].stallPatience = 300.;
   for (const Parameters& parameters : cases)
   {
     const Reconstruction unbroken = reconstruct(hardCloud(), parameters, goOn);
@@ -331,8 +334,8 @@ TEST_F(Checkpoints, RefuseAnotherRun)
 
   std::vector<Eigen::Vector3d> other = points;
   other[7] *= 1.01;
-  EXPECT_NE(this->refusal(PointCloud(other), parameters).find("differ: the points"),
-    std::string::npos);
+  EXPECT_NE(
+    this->refusal(PointCloud(other), parameters).find("differ: the points"), std::string::npos);
   for (Eigen::Vector3d& point : other = points)
   {
     point = 2. * point;
@@ -347,8 +350,7 @@ TEST_F(Checkpoints, RefuseAnotherRun)
       ": it is that of another run, from which these differ: Seed (1 there, 2 here), WinnerRate "
       "(0.1 there, 0.25 here)");
   const Mesh first = Mesh::tetrahedron(Vector4(0.1f, 0.f, 0.f), 0.2f);
-  EXPECT_THROW(
-    reconstruct(cloud, parameters, goOn, first, {}, this->plan()), std::runtime_error);
+  EXPECT_THROW(reconstruct(cloud, parameters, goOn, first, {}, this->plan()), std::runtime_error);
   EXPECT_EQ(this->refusal(cloud, parameters), "");
 }
 
@@ -450,8 +452,7 @@ TEST_F(Checkpoints, TellWhatCannotBeWritten)
     fs::remove_all(later);
     return true;
   };
-  const Reconstruction result =
-    reconstruct(cleanSphere(), parameters, removeFolder, {}, {}, gone);
+  const Reconstruction result = reconstruct(cleanSphere(), parameters, removeFolder, {}, {}, gone);
   EXPECT_EQ(result.stopReason, StopReason::Vertices);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find(gone.path), std::string::npos);
