@@ -51,7 +51,8 @@ class Checkpoints(unittest.TestCase):
                 value = next(value for value in parameter.setters if value != parameter.default)
                 shown = name.title().replace("_", "")
             elif isinstance(parameter, Number):
-                value = 5 if parameter.integral else parameter.maximum / 2
+                values = (5, 6) if parameter.integral else (parameter.minimum, parameter.maximum)
+                value = next(value for value in values if value != parameter.default)
                 shown = parameter.setter[3:]
             else:
                 value = not parameter.default
@@ -60,6 +61,7 @@ class Checkpoints(unittest.TestCase):
                 with self.assertRaisesRegex(ValueError, rf"run.checkpoint: .*\b{shown} \("):
                     reconstruct(
                         checkpoint=self.path,
+                        keep_checkpoint=True,
                         **{{"number_of_vertices": "vertices"}.get(name, name): value},
                     )
         reconstruct(checkpoint=self.path, carry_point_data=False, time_limit=1000)
