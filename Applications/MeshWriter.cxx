@@ -77,7 +77,7 @@ void WriteVTP(vtkPolyData* mesh, const std::string& path)
   {
     throw std::runtime_error(vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
   }
-  WriteText(writer->GetOutputString(), path);
+  neuralmesh::writeText(writer->GetOutputString(), path);
 }
 
 using Write = std::function<void(vtkPolyData*, const std::string&)>;
@@ -106,7 +106,7 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path)
 {
   RequireWritableExtension(path);
   const std::string extension = FileExtension(path);
-  WriteWholeFile(path,
+  neuralmesh::writeWholeFile(path,
     [&](const std::string& temporary)
     {
       Writers().at(extension)(mesh, temporary);

@@ -30,6 +30,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string_view>
@@ -62,6 +63,8 @@ struct ReconstructOptions
   double TimeLimit = 0.0;
   int Threads = 0;
   std::string Statistics;
+  std::string Checkpoint;
+  double CheckpointInterval = 60.0;
   bool DryRun = false;
   bool Quiet = false;
 };
@@ -240,6 +243,22 @@ void Learn(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions&
   RequireResult(filter, *errors, options);
 }
 
+/** Where the run went on from, and where it may go on. */
+void PrintCheckpoint(vtkNeuralMesh* filter)
+{
+  const std::string path = filter->GetCheckpointFileName();
+  if (filter->GetResumedIterations() > 0)
+  {
+    std::printf("resumed    at sample %lld, from %s\n",
+      static_cast<long long>(filter->GetResumedIterations()), path.c_str());
+  }
+  std::error_code ignored;
+  if (!path.empty() && std::filesystem::exists(path, ignored))
+  {
+    std::printf("checkpoint %s: the same command goes on from there\n", path.c_str());
+  }
+}
+
 void PrintPhases(vtkNeuralMesh* filter)
 {
   const double cloud = filter->GetCloudTime(), start = filter->GetStartTime();
@@ -290,11 +309,15 @@ int Reconstruct(const ReconstructOptions& options)
   {
     throw UsageError("--features: " + options.Output + " must be a .vtp; no other format keeps it");
   }
-  RequireWritablePlace(options.Output);
+  neuralmesh::requireWritablePlace(options.Output);
   if (!options.Statistics.empty())
   {
     RequireTableExtension(options.Statistics);
-    RequireWritablePlace(options.Statistics);
+    neuralmesh::requireWritablePlace(options.Statistics);
+  }
+  if (!options.Checkpoint.empty())
+  {
+    neuralmesh::requireWritablePlace(options.Checkpoint);
   }
 
   Stopwatch stopwatch;
@@ -309,6 +332,9 @@ int Reconstruct(const ReconstructOptions& options)
     return PrintEstimate(filter, points, options);
   }
 
+  filter->SetCheckpointFileName(options.Checkpoint.c_str());
+  filter->SetCheckpointInterval(options.CheckpointInterval);
+  filter->KeepCheckpointOn(); // until the mesh is written
   vtkNew<Interruption> interruption;
   filter->AddObserver(vtkCommand::ProgressEvent, interruption);
   Learn(filter, points, options);
@@ -321,6 +347,12 @@ int Reconstruct(const ReconstructOptions& options)
     WriteTable(filter->GetLearningCurve(), options.Statistics);
   }
   const double writing = stopwatch.Lap();
+  const std::string_view reason = filter->GetStopReason();
+  const bool isCancelled = reason == "cancelled";
+  if (!isCancelled && reason != "time limit")
+  {
+    filter->RemoveCheckpoint();
+  }
 
   if (!options.Quiet)
   {
@@ -330,12 +362,12 @@ int Reconstruct(const ReconstructOptions& options)
     std::printf("triangles  %lld\n", static_cast<long long>(mesh->GetNumberOfPolys()));
     std::printf(
       "samples    %lld, ended by: %s\n", FieldValue(mesh, "Iterations"), filter->GetStopReason());
+    PrintCheckpoint(filter);
     PrintPhases(filter);
     std::printf("time       %.2f s (reading %.2f, learning %.2f, writing %.2f)\n",
       reading + learning + writing, reading, learning, writing);
     PrintReport(mesh);
   }
-  const bool isCancelled = std::string_view(filter->GetStopReason()) == "cancelled";
   return isCancelled ? InterruptedStatus : 0;
 }
 }
@@ -421,6 +453,19 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     ->add_option("--statistics", options->Statistics,
       "Write how the run went, step by step, to this .csv file")
     ->type_name("FILE");
+  CLI::Option* const checkpoint =
+    command
+      ->add_option("--checkpoint", options->Checkpoint,
+        "Leave the state of the run in this file while it lasts, and go on from there if it "
+        "exists: "
+        "the same command ends with the same bytes, however often it was killed")
+      ->type_name("FILE");
+  command
+    ->add_option("--checkpoint-interval", options->CheckpointInterval,
+      "Seconds from one checkpoint to the next, 0 to 1000000 (default 60)")
+    ->check(CLI::Range(0.0, 1e6).description(""))
+    ->needs(checkpoint)
+    ->type_name("SECONDS");
   command->add_flag("--dry-run", options->DryRun,
     "Write nothing; print how much memory and time the run will take, roughly");
   command->add_flag("--quiet", options->Quiet, "Print nothing but errors and warnings");

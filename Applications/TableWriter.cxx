@@ -27,5 +27,6 @@ void WriteTable(vtkTable* table, const std::string& path)
   writer->SetInputData(table);
   writer->Write();
   const std::unique_ptr<char[]> text(writer->RegisterAndGetOutputString());
-  WriteWholeFile(path, [&](const std::string& temporary) { WriteText(text.get(), temporary); });
+  neuralmesh::writeWholeFile(
+    path, [&](const std::string& temporary) { neuralmesh::writeText(text.get(), temporary); });
 }

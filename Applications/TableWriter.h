@@ -10,7 +10,8 @@ class vtkTable;
 void RequireTableExtension(const std::string& path);
 
 /**
- * Writes a table as .csv, with a line of column names. Whole or not at all, as WriteWholeFile().
+ * Writes a table as .csv, with a line of column names. Whole or not at all, as
+ * neuralmesh::writeWholeFile().
  * Throws std::runtime_error, with a message that names the file, on failure.
  */
 void WriteTable(vtkTable* table, const std::string& path);

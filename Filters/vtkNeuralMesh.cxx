@@ -10,6 +10,7 @@
 #include "vtkPointCloudCollector.h"
 #include "vtkPointDataCarrier.h"
 #include "vtkTriangleMeshCollector.h"
+#include "WholeFile.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
@@ -326,14 +327,41 @@ neuralmesh::GrowthWatch vtkNeuralMesh::WatchGrowth(int precision)
     } };
 }
 
+void vtkNeuralMesh::SetCheckpointFileName(const char* name)
+{
+  const std::string given = name ? name : "";
+  if (given != this->CheckpointFileName)
+  {
+    this->CheckpointFileName = given;
+    this->Modified();
+  }
+}
+
+void vtkNeuralMesh::RemoveCheckpoint() { neuralmesh::removeWholeFile(this->CheckpointFileName); }
+
+neuralmesh::CheckpointPlan vtkNeuralMesh::PlanCheckpoint()
+{
+  return { this->CheckpointFileName, this->CheckpointInterval, [this](const std::string& text) {
+            vtkWarningMacro(<< "The run goes on without a checkpoint: " << text);
+          } };
+}
+
 int vtkNeuralMesh::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
   vtkTable* learningCurve = vtkTable::GetData(outputVector, 1);
   this->StopReason = "none";
+  this->ResumedIterations = 0;
   if (!this->CheckParameters())
   {
+    return 0;
+  }
+  if (this->GrowthAsTime && !this->CheckpointFileName.empty())
+  {
+    vtkErrorMacro(
+      << "CheckpointFileName and GrowthAsTime exclude each other: a checkpoint holds no "
+         "snapshots.");
     return 0;
   }
 
@@ -420,9 +448,19 @@ int vtkNeuralMesh::RequestData(
   const neuralmesh::Progress progress = [&run](double fraction)
   { return run.Progress.Report(fraction); };
   const double endOfMesh = carries ? EndOfMesh : 1.0;
-  const neuralmesh::Reconstruction result =
-    neuralmesh::reconstruct(cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, endOfMesh),
-      run.FirstMesh, this->WatchGrowth(precision), executor);
+  neuralmesh::Reconstruction result;
+  try
+  {
+    result =
+      neuralmesh::reconstruct(cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, endOfMesh),
+        run.FirstMesh, this->WatchGrowth(precision), this->PlanCheckpoint(), executor);
+  }
+  catch (const std::runtime_error& error)
+  {
+    vtkErrorMacro(<< "Of the checkpoint: " << error.what() << ".");
+    return 0;
+  }
+  this->ResumedIterations = static_cast<vtkIdType>(result.resumedIterations);
   this->StopReason = neuralmesh::name(result.stopReason).data();
   this->StartTime = result.startSeconds;
   this->LearningTime = result.learningSeconds;
@@ -446,6 +484,7 @@ int vtkNeuralMesh::RequestData(
       vtkMeshArrays::MakeNumbers("FeatureStrength", result.featureStrengths));
   }
 
+  bool isComplete = result.isComplete();
   if (carries && result.stopReason != neuralmesh::StopReason::Cancelled)
   {
     const neuralmesh::Progress carrying = neuralmesh::partOf(progress, endOfMesh, 1.0);
@@ -453,6 +492,7 @@ int vtkNeuralMesh::RequestData(
       cloud, result.surface, neuralmesh::partOf(carrying, 0.0, 0.5), executor);
     carrier->Carry(
       places, output->GetPointData(), executor, neuralmesh::partOf(carrying, 0.5, 1.0));
+    isComplete = isComplete && !this->AbortExecute;
     this->AbortExecute = 0;
   }
 
@@ -468,6 +508,10 @@ int vtkNeuralMesh::RequestData(
   if (result.quality)
   {
     AddQuality(result, cloud.unit(), output);
+  }
+  if (!this->KeepCheckpoint && isComplete)
+  {
+    this->RemoveCheckpoint();
   }
   return 1;
 }
@@ -493,6 +537,10 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "GrowthAsTime: " << this->GrowthAsTime << "\n";
   os << indent << "NumberOfSnapshots: " << this->NumberOfSnapshots << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "CheckpointFileName: " << this->CheckpointFileName << "\n";
+  os << indent << "CheckpointInterval: " << this->CheckpointInterval << "\n";
+  os << indent << "KeepCheckpoint: " << this->KeepCheckpoint << "\n";
+  os << indent << "ResumedIterations: " << this->ResumedIterations << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "StopReason: " << this->StopReason << "\n";
   os << indent << "CloudTime: " << this->CloudTime << "\n";

@@ -102,6 +102,7 @@
 #include "vtkNeuralMeshAlgorithm.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 class vtkNeuralMeshGrowth;
@@ -110,6 +111,7 @@ class vtkTable;
 struct vtkNeuralMeshRun;
 namespace neuralmesh
 {
+struct CheckpointPlan;
 struct GrowthWatch;
 }
 
@@ -308,6 +310,47 @@ public:
   vtkGetMacro(NumberOfSnapshots, int);
   ///@}
 
+  ///@{
+  /**
+   * The file in which the run leaves its state, every CheckpointInterval seconds (default 60, range
+   * 0 to 1000000), once learning is over, and when it is aborted: so that another execution, in
+   * another process, say, goes on from there, to the same mesh to the byte as without a break. Where
+   * there is no such file learning starts at its beginning. Default none (an empty name, for which
+   * null may be given, too).
+   *
+   * It is an error if the file is damaged, or if it is that of another run: other points, weights or
+   * first mesh, another version, or a property on which the mesh depends; the message says which.
+   * TimeLimit may be another one, and counts what all executions have learnt. The file is replaced
+   * as a whole, so that one is there at any moment; if it cannot be written while learning goes on,
+   * there is a warning. It is removed once the mesh is the output, unless the run was aborted or has
+   * met TimeLimit, or KeepCheckpoint (default off) is on: for whoever has yet to write the mesh, and
+   * then calls RemoveCheckpoint().
+   *
+   * What learning starts from is found anew, as are the members of vtkNeuralMeshEnsemble.
+   * Checkpoints hold no snapshots: with GrowthAsTime they are an error. See
+   * Documentation/Checkpoints.md.
+   */
+  void SetCheckpointFileName(const char* name);
+  const char* GetCheckpointFileName() const { return this->CheckpointFileName.c_str(); }
+  vtkNeuralMeshSetClampMacro(CheckpointInterval, double, 0.0, 1e6);
+  vtkGetMacro(CheckpointInterval, double);
+  vtkSetMacro(KeepCheckpoint, vtkTypeBool);
+  vtkGetMacro(KeepCheckpoint, vtkTypeBool);
+  vtkBooleanMacro(KeepCheckpoint, vtkTypeBool);
+  ///@}
+
+  /**
+   * Removes the file, if it is there, and what executions have left beside it that were killed while
+   * they wrote it.
+   */
+  void RemoveCheckpoint();
+
+  /**
+   * How many samples had been learnt where the last run went on from a checkpoint; 0 if it began at
+   * the beginning.
+   */
+  vtkIdType GetResumedIterations() const { return this->ResumedIterations; }
+
   enum EventIds
   {
     /**
@@ -374,6 +417,7 @@ protected:
 private:
   vtkInformation* GetWeightArrayInformation();
   neuralmesh::GrowthWatch WatchGrowth(int precision);
+  neuralmesh::CheckpointPlan PlanCheckpoint();
 
   vtkNeuralMesh(const vtkNeuralMesh&) = delete;
   void operator=(const vtkNeuralMesh&) = delete;
@@ -392,6 +436,10 @@ private:
   vtkTypeBool GrowthAsTime = 0;
   int NumberOfSnapshots = 24;
   std::unique_ptr<vtkNeuralMeshGrowth> Growth;
+  std::string CheckpointFileName;
+  double CheckpointInterval = 60.0;
+  vtkTypeBool KeepCheckpoint = 0;
+  vtkIdType ResumedIterations = 0;
   int OutputPointsPrecision = DEFAULT_PRECISION;
   double CloudTime = 0.0;
   double StartTime = 0.0;

@@ -8,6 +8,8 @@
 
 namespace neuralmesh
 {
+class Archive;
+
 /// The vertices in the order of their activity: which one to split, which to remove. What counts
 /// as activity (wins, changes of the normal) is told by the gain of a win.
 class ActivityOrder
@@ -47,5 +49,8 @@ public:
   virtual void reserve(std::size_t count) = 0;
   /// As Mesh::renumber().
   virtual void renumber(std::span<const VertexIndex> order) = 0;
+
+  /// Writes the order of the `vertices`, or reads it: which ones there are is known by the mesh.
+  virtual void exchange(Archive& archive, std::span<const VertexIndex> vertices) = 0;
 };
 }

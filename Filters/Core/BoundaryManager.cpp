@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryManager.h"
 
+#include "Archive.h"
 #include "Renumbering.h"
+
+#include <algorithm>
 
 namespace neuralmesh
 {
@@ -86,6 +89,55 @@ void BoundaryManager::renumber(std::span<const VertexIndex> order)
       loop.first = newIndex[loop.first];
     }
   }
+}
+
+void BoundaryManager::exchange(Archive& archive, const Mesh& mesh)
+{
+  archive(this->loops_, this->unused_);
+  if (archive.isReading())
+  {
+    archive.require(this->findVertices(mesh));
+    archive.require(std::all_of(this->unused_.begin(), this->unused_.end(),
+      [this](LoopIndex loop)
+      { return loop < this->loops_.size() && this->loops_[loop].size == 0; }));
+  }
+}
+
+/// Which vertices lie in the loops. False if those are not the boundaries of the mesh.
+bool BoundaryManager::findVertices(const Mesh& mesh)
+{
+  this->loopOf_.assign(mesh.indexEnd(), NoLoop);
+  const auto isFree = [&](VertexIndex v)
+  {
+    return v < mesh.indexEnd() && mesh.isAlive(v) && mesh.isBoundary(v) &&
+      this->loopOf_[v] == NoLoop;
+  };
+  for (LoopIndex loop = 0; loop < this->loops_.size(); ++loop)
+  {
+    const auto [first, size] = this->loops_[loop];
+    VertexIndex v = first;
+    for (std::uint32_t i = 0; i < size; ++i)
+    {
+      if (!isFree(v))
+      {
+        return false;
+      }
+      this->loopOf_[v] = loop;
+      v = mesh.ring(v).back();
+    }
+    if (size > 0 && v != first)
+    {
+      return false;
+    }
+  }
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    if (isFree(v))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 void BoundaryManager::forget(VertexIndex v)

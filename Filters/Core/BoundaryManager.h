@@ -10,6 +10,8 @@
 
 namespace neuralmesh
 {
+class Archive;
+
 /// The boundaries of a mesh, as loops of boundary edges (12.5). They are traced from the whole mesh
 /// once, at the start; from then on only what an operation has touched is looked at. The edges of a
 /// loop are found in the rings of the mesh: it runs from each boundary vertex to the last one in
@@ -24,6 +26,12 @@ public:
   {
     VertexIndex first = NoVertex; ///< where it may be entered
     std::uint32_t size = 0;       ///< vertices in it; 0 = there is no such loop any more
+
+    template <typename Archive>
+    void exchange(Archive& archive)
+    {
+      archive(this->first, this->size);
+    }
   };
 
   explicit BoundaryManager(const Mesh& mesh);
@@ -49,7 +57,11 @@ public:
   /// As Mesh::renumber().
   void renumber(std::span<const VertexIndex> order);
 
+  /// Writes the boundaries of the mesh, or reads them.
+  void exchange(Archive& archive, const Mesh& mesh);
+
 private:
+  bool findVertices(const Mesh& mesh);
   void forget(VertexIndex v);
   void trace(const Mesh& mesh, VertexIndex first);
 

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExactOrder.h"
 
+#include "Archive.h"
 #include "Renumbering.h"
+
+#include <cmath>
+#include <cstdlib>
 
 namespace neuralmesh
 {
+namespace
+{
+/// No run gets there.
+constexpr std::int32_t LargestEpoch = 1 << 30;
+}
+
 ExactOrder::ExactOrder(std::size_t count)
 {
   for (std::size_t v = 0; v < count; ++v)
@@ -87,6 +97,32 @@ void ExactOrder::renumber(std::span<const VertexIndex> order)
   const std::vector<VertexIndex> newIndex = newIndices(order);
   this->mostActive_.renumber(newIndex);
   this->leastActive_.renumber(newIndex);
+}
+
+void ExactOrder::exchange(Archive& archive, std::span<const VertexIndex> vertices)
+{
+  archive(this->inverseS_.significand, this->inverseS_.epoch);
+  archive.require(this->inverseS_.significand > 0. && std::isfinite(this->inverseS_.significand) &&
+    std::abs(this->inverseS_.epoch) < LargestEpoch);
+  if (archive.isReading())
+  {
+    this->mostActive_ = {};
+    this->leastActive_ = {};
+    this->reserve(vertices.size());
+  }
+  // All answers follow from keys and indices, whatever the heaps look like: they are made anew.
+  for (const VertexIndex v : vertices)
+  {
+    WideReal key = archive.isReading() ? WideReal() : this->mostActive_.key(v);
+    archive(key.significand, key.epoch);
+    if (archive.isReading())
+    {
+      archive.require(key.significand >= 0. && std::isfinite(key.significand) &&
+        key.epoch <= this->inverseS_.epoch && key.epoch > -LargestEpoch);
+      this->mostActive_.insert(v, key);
+      this->leastActive_.insert(v, key);
+    }
+  }
 }
 
 void ExactOrder::reserve(std::size_t count)

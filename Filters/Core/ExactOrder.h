@@ -33,6 +33,7 @@ public:
   double activity(VertexIndex v) const override;
   void reserve(std::size_t count) override;
   void renumber(std::span<const VertexIndex> order) override;
+  void exchange(Archive& archive, std::span<const VertexIndex> vertices) override;
 
 private:
   struct MoreActive

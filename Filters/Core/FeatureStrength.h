@@ -36,16 +36,26 @@ public:
   }
   float operator[](VertexIndex v) const { return this->strengths_[v]; }
 
-  /// As Mesh::renumber(), with memory for `capacity` indices.
-  void renumber(std::span<const VertexIndex> order, std::size_t capacity)
+  /// Memory for `count` indices: up to there no operation allocates.
+  void reserve(std::size_t count) { this->strengths_.reserve(count); }
+  /// As Mesh::renumber().
+  void renumber(std::span<const VertexIndex> order)
   {
     std::vector<float> strengths;
-    strengths.reserve(capacity);
+    strengths.reserve(order.size());
     for (const VertexIndex v : order)
     {
       strengths.push_back(this->strengths_[v]);
     }
     this->strengths_ = std::move(strengths);
+  }
+
+  /// Those of all indices below `indexEnd`, and maybe of more.
+  template <typename Archive>
+  void exchange(Archive& archive, std::size_t indexEnd)
+  {
+    archive(this->strengths_);
+    archive.require(this->strengths_.size() >= indexEnd);
   }
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Learner.h"
 
+#include "Archive.h"
 #include "ExactOrder.h"
 #include "Morton.h"
 #include "Smoothing.h"
@@ -325,17 +326,12 @@ void Learner::smoothNeighbors(VertexIndex winner)
 
 void Learner::renumber()
 {
-  std::vector<VertexIndex> alive;
+  const std::vector<VertexIndex> alive = this->vertices();
   std::vector<Vector4> positions;
-  alive.reserve(this->mesh_.vertexCount());
-  positions.reserve(this->mesh_.vertexCount());
-  for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
+  positions.reserve(alive.size());
+  for (const VertexIndex v : alive)
   {
-    if (this->mesh_.isAlive(v))
-    {
-      alive.push_back(v);
-      positions.push_back(this->mesh_.position(v));
-    }
+    positions.push_back(this->mesh_.position(v));
   }
   std::vector<VertexIndex> order =
     mortonOrder(positions, this->boxMin_, this->boxMax_, this->executor_);
@@ -353,20 +349,95 @@ void Learner::renumber()
     this->topology_->boundaries().renumber(order);
   }
 
-  this->capacity_ = 64 + std::size_t(GrowthUntilRenumbering * 1.1 * double(order.size()));
   this->nextRenumbering_ = 1 + std::size_t(GrowthUntilRenumbering * double(order.size()));
+  if (this->featureStrength_)
+  {
+    this->featureStrength_->renumber(order);
+  }
+  this->reserve();
+  this->makeGrid();
+}
+
+std::vector<VertexIndex> Learner::vertices() const
+{
+  std::vector<VertexIndex> result;
+  result.reserve(this->mesh_.vertexCount());
+  for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
+  {
+    if (this->mesh_.isAlive(v))
+    {
+      result.push_back(v);
+    }
+  }
+  return result;
+}
+
+/// Memory up to the next renumbering, and for what a batch may add beyond.
+void Learner::reserve()
+{
+  this->capacity_ = 64 + std::size_t(1.1 * double(this->nextRenumbering_));
   this->mesh_.reserve(this->capacity_);
   this->order_->reserve(this->capacity_);
   this->hasWon_.reserve(this->capacity_);
   if (this->featureStrength_)
   {
-    this->featureStrength_->renumber(order, this->capacity_);
+    this->featureStrength_->reserve(this->capacity_);
   }
+}
+
+void Learner::makeGrid()
+{
   this->grid_.reset(
     this->boxMin_, this->boxMax_, EdgesPerCell * float(this->mesh_.meanEdge()), this->capacity_);
-  for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
+  for (const VertexIndex v : this->vertices())
   {
     this->grid_.insert(v, this->mesh_.position(v));
   }
+}
+
+// --- The state as a whole ------------------------------------------------------------------------
+
+void Learner::exchange(Archive& archive)
+{
+  archive(this->counts_, this->mesh_, this->samples_, this->sampleDistances_, this->winGain_);
+  archive.require(this->mesh_.vertexCount() > 0);
+  this->exchangeOrder(archive);
+  if (this->topology_)
+  {
+    this->topology_->boundaries().exchange(archive, this->mesh_);
+  }
+  if (this->featureStrength_)
+  {
+    this->featureStrength_->exchange(archive, this->mesh_.indexEnd());
+  }
+  if (!this->parameters_.filtersNoise())
+  {
+    archive(this->hasWon_);
+    archive.require(this->hasWon_.size() >= this->mesh_.indexEnd());
+  }
+  const std::uint64_t mostSamplesAfterGrowth = this->samplesAfterGrowth_;
+  archive(this->untilObservation_, this->nextAddition_, this->nextRemoval_, this->nextTopology_);
+  archive(this->samplesAfterGrowth_, this->nextRenumbering_);
+  archive.require(this->samplesAfterGrowth_ <= mostSamplesAfterGrowth &&
+    double(this->nextRenumbering_) <= 1. + GrowthUntilRenumbering * double(this->mesh_.indexEnd()));
+  if (archive.isReading())
+  {
+    // What follows from the rest.
+    this->updateDecay();
+    this->reserve();
+    this->makeGrid();
+  }
+}
+
+void Learner::exchangeOrder(Archive& archive)
+{
+  bool isListDue = this->isListDue_;
+  archive(isListDue);
+  if (this->isListDue_ && !isListDue)
+  {
+    this->enterList({});
+  }
+  archive.require(this->isListDue_ == isListDue);
+  this->order_->exchange(archive, this->vertices());
 }
 }

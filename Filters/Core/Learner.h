@@ -19,10 +19,13 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace neuralmesh
 {
+class Archive;
+
 /// What has happened in a run so far.
 struct RunCounts
 {
@@ -35,6 +38,14 @@ struct RunCounts
   std::uint64_t removedTriangles = 0;
   std::uint64_t mergedBoundaries = 0; ///< pairs
   std::uint64_t filledBoundaries = 0;
+
+  template <typename Archive>
+  void exchange(Archive& archive)
+  {
+    archive(this->iterations, this->rejectedSamples, this->additions, this->removals, this->flips);
+    archive(this->illegalOperations, this->removedTriangles, this->mergedBoundaries);
+    archive(this->filledBoundaries);
+  }
 };
 
 /// The Neural Mesh algorithm: a mesh that grows and moves towards samples of a cloud. Here is the
@@ -87,6 +98,10 @@ public:
   /// Vertices in Morton order without gaps, in all structures.
   void renumber();
 
+  /// Writes all that has been learnt, or reads it into a learner that was made alike: the same cloud,
+  /// parameters, weights and mesh. Then it goes on to the same bytes as the one that was written.
+  void exchange(Archive& archive);
+
 private:
   void learnBatch(std::size_t size);
   void findWinners(std::span<const Vector4> samples);
@@ -124,6 +139,7 @@ private:
   void removeVertices();
   bool removeVertex(VertexIndex v);
   void enterListIfDue();
+  void enterList(std::span<const VertexIndex> laziestFirst);
 
   bool isTopologyDue() const { return this->counts_.iterations >= this->nextTopology_; }
   void learnTopology();
@@ -132,6 +148,11 @@ private:
   void follow(const TopologyLearning::Result& result);
 
   void updateDecay();
+
+  std::vector<VertexIndex> vertices() const;
+  void reserve();
+  void makeGrid();
+  void exchangeOrder(Archive& archive);
 
   Parameters parameters_;
   const Executor& executor_;

@@ -224,14 +224,19 @@ void Learner::enterListIfDue()
   {
     return;
   }
-  this->isListDue_ = false;
-  this->winGain_.enterList();
   std::vector<VertexIndex> laziestFirst(this->mesh_.vertexCount());
   for (VertexIndex& v : laziestFirst)
   {
     v = this->order_->bottom();
     this->order_->erase(v);
   }
+  this->enterList(laziestFirst);
+}
+
+void Learner::enterList(std::span<const VertexIndex> laziestFirst)
+{
+  this->isListDue_ = false;
+  this->winGain_.enterList();
   this->order_ = std::make_unique<ListOrder>(
     laziestFirst, this->parameters_.jumpFraction, this->parameters_.seed);
   this->order_->reserve(this->capacity_);

@@ -20,6 +20,13 @@ public:
     double sampleDistanceDeviation = 0.;
     double normalChangeMean = 0.; ///< M_delta of (8.2)
     double regularRatio = 0.;     ///< vertices of valence 6, on a boundary 4
+
+    template <typename Archive>
+    void exchange(Archive& archive)
+    {
+      archive(this->counts, this->vertices, this->seconds, this->sampleDistanceMean);
+      archive(this->sampleDistanceDeviation, this->normalChangeMean, this->regularRatio);
+    }
   };
 
   /// Whether it is time for a row: each comes a twentieth later than the one before, so that all
@@ -29,6 +36,12 @@ public:
   void add(const Learner& learner, double unit, double seconds);
 
   const std::vector<Row>& rows() const { return this->rows_; }
+
+  template <typename Archive>
+  void exchange(Archive& archive)
+  {
+    archive(this->rows_);
+  }
 
 private:
   std::vector<Row> rows_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ListOrder.h"
 
+#include "Archive.h"
 #include "Renumbering.h"
 
 #include <algorithm>
@@ -68,5 +69,33 @@ double ListOrder::activity(VertexIndex v) const
 void ListOrder::renumber(std::span<const VertexIndex> order)
 {
   this->list_.renumber(newIndices(order));
+}
+
+void ListOrder::exchange(Archive& archive, std::span<const VertexIndex> vertices)
+{
+  archive(this->random_);
+  if (!archive.isReading())
+  {
+    for (std::size_t position = 0; position < vertices.size(); ++position)
+    {
+      VertexIndex v = this->list_.at(position);
+      archive(v);
+    }
+    return;
+  }
+  std::vector<bool> isMissing(vertices.empty() ? 0 : vertices.back() + std::size_t(1));
+  for (const VertexIndex v : vertices)
+  {
+    isMissing[v] = true;
+  }
+  this->list_ = {};
+  for (std::size_t position = 0; position < vertices.size(); ++position)
+  {
+    VertexIndex v = NoVertex;
+    archive(v);
+    archive.require(v < isMissing.size() && isMissing[v]);
+    isMissing[v] = false;
+    this->list_.insert(v, position);
+  }
 }
 }

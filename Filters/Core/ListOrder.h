@@ -36,6 +36,7 @@ public:
   double activity(VertexIndex v) const override;
   void reserve(std::size_t count) override { this->list_.reserve(count); }
   void renumber(std::span<const VertexIndex> order) override;
+  void exchange(Archive& archive, std::span<const VertexIndex> vertices) override;
 
 private:
   std::size_t jumpDistance(double gain) const;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -39,6 +39,14 @@ public:
     const double mean = this->mean();
     const double count = double(this->count());
     return count > 0. ? std::sqrt(std::fmax(0., this->sumOfSquares_ / count - mean * mean)) : 0.;
+  }
+
+  template <typename Archive>
+  void exchange(Archive& archive)
+  {
+    std::span<double> observations(this->observations_);
+    archive(observations, this->next_, this->full_, this->sum_, this->sumOfSquares_);
+    archive.require(this->next_ < observations.size());
   }
 
 private:

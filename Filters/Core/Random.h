@@ -40,6 +40,12 @@ public:
   /// Uniform in [0, 1).
   double uniform() { return double(this->next() >> 11) * 0x1p-53; }
 
+  template <typename Archive>
+  void exchange(Archive& archive)
+  {
+    archive(this->state_);
+  }
+
 private:
   static constexpr std::uint64_t Golden = 0x9e3779b97f4a7c15u;
 

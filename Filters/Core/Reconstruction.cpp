@@ -29,15 +29,18 @@ std::size_t firstVertices(std::uint64_t vertices)
 }
 
 /// Learns until a stopping rule is met; returns which.
-StopReason learn(Learner& learner, StoppingRules& rules, const PointCloud& cloud,
-  const Parameters& parameters, LearningCurve& curve, const GrowthWatch& watch,
-  const Progress& progress)
+StopReason learn(LearningState state, Checkpoint& checkpoint, const PointCloud& cloud,
+  const Parameters& parameters, const GrowthWatch& watch, const Progress& progress)
 {
+  auto& [learner, rules, curve, reason] = state;
   GrowthRecorder recorder(watch, learner, cloud, parameters.numberOfVertices);
   for (;;)
   {
-    const StopReason reason =
-      progress(rules.progress(learner)) ? rules.check(learner) : StopReason::Cancelled;
+    if (reason == StopReason::None)
+    {
+      reason = progress(rules.progress(learner)) ? rules.check(learner) : StopReason::Cancelled;
+    }
+    checkpoint.look(state);
     if (reason != StopReason::None || curve.isRowDue(learner))
     {
       curve.add(learner, cloud.unit(), rules.seconds());
@@ -64,11 +67,6 @@ Parameters learnable(Parameters parameters, const PointCloud& cloud)
       parameters.numberOfVertices, std::max(LeastLearnt, cloud.differentCount() / PointsPerVertex));
   }
   return parameters;
-}
-
-bool isTimeLeft(StopReason reason)
-{
-  return reason != StopReason::Cancelled && reason != StopReason::TimeLimit;
 }
 
 /// What is known before learning.
@@ -111,13 +109,15 @@ Beginning beginFromSpace(const PointCloud& cloud, const Parameters& parameters,
 double cpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, const Progress& tell,
-  const std::optional<Mesh>& first, const GrowthWatch& watch, const Executor& executor)
+  const std::optional<Mesh>& first, const GrowthWatch& watch, const CheckpointPlan& plan,
+  const Executor& executor)
 {
   Reconstruction result;
   // Once the caller has ended the run, it is asked no more.
   bool isCancelled = false;
   const Progress progress = [&](double fraction)
   { return !isCancelled && !(isCancelled = !tell(fraction)); };
+  Checkpoint checkpoint(plan, all, wanted);
   const double begin = cpuSeconds();
   const Parameters parameters = first ? wanted : learnable(wanted, all);
   const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
@@ -132,8 +132,10 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, cons
   const double startOfLearning = startsFromSpace ? StartOfLearning : 0.;
   const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
   StoppingRules rules(cloud, parameters, learner.mesh().vertexCount());
-  result.stopReason = learn(learner, rules, cloud, parameters, result.curve, watch,
-    partOf(progress, startOfLearning, endOfLearning));
+  LearningState state{ learner, rules, result.curve };
+  result.resumedIterations = checkpoint.resume(state, !isCancelled);
+  result.stopReason = learn(
+    state, checkpoint, cloud, parameters, watch, partOf(progress, startOfLearning, endOfLearning));
   result.counts = learner.counts();
 
   learner.renumber();
@@ -142,7 +144,7 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, cons
   const bool isLearnt = result.stopReason == StopReason::Vertices;
   Finish finish(cloud, mesh, parameters, beginning.bridgeWidth,
     isLearnt ? std::size_t(wanted.numberOfVertices) : mesh.vertexCount(), executor);
-  if (parameters.fitRounds > 0 && isTimeLeft(result.stopReason) && result.counts.iterations > 0)
+  if (parameters.fitRounds > 0 && result.isComplete() && result.counts.iterations > 0)
   {
     const Progress finishing = partOf(progress, endOfLearning, 1.);
     const bool isDone = finish.run(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Checkpoint.h"
 #include "Executor.h"
 #include "Finish.h"
 #include "GrowthWatch.h"
@@ -18,6 +19,12 @@ namespace neuralmesh
 /// What a run gives, in the coordinates of the input.
 struct Reconstruction
 {
+  /// Whether the run came to its end: it was not cancelled, and there was time for all of it.
+  bool isComplete() const
+  {
+    return this->stopReason != StopReason::Cancelled && this->stopReason != StopReason::TimeLimit;
+  }
+
   TriangleMesh mesh;
   Mesh surface; ///< the same mesh, in the coordinates of the cloud
   std::vector<Eigen::Vector3d> normals;
@@ -26,6 +33,7 @@ struct Reconstruction
   RunCounts counts;
   LearningCurve curve;
   StopReason stopReason = StopReason::None;
+  std::uint64_t resumedIterations = 0; ///< those of the checkpoint from which the run went on
   /// Nothing if the mesh was not finished.
   std::optional<FinishReport> finish;
   /// Nothing if the run was cancelled.
@@ -45,8 +53,10 @@ inline constexpr double EndOfLearning = 0.65;
 
 /// Grows a mesh over a cloud that has an extent: from `first`, or what the parameters have it start
 /// from if there is none, until a stopping rule is met. Then finishes it, unless there is no time
-/// left, or nothing was learnt; and orients it outwards. Snapshots of the growth go to `watch`.
+/// left, or nothing was learnt; and orients it outwards. Snapshots of the growth go to `watch`. The
+/// run goes on from the checkpoint that `plan` names, if there is one, and leaves one there: in the
+/// end, too, for what becomes of the result is not known here. Throws as Checkpoint does.
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
   const Progress& progress, const std::optional<Mesh>& first = {}, const GrowthWatch& watch = {},
-  const Executor& executor = Executor::sequential());
+  const CheckpointPlan& plan = {}, const Executor& executor = Executor::sequential());
 }

@@ -31,6 +31,13 @@ public:
   std::span<const Vector4> draw(
     std::size_t count, const Executor& executor = Executor::sequential());
 
+  /// Which samples come next; the points and their weights must be the same.
+  template <typename Archive>
+  void exchange(Archive& archive)
+  {
+    archive(this->random_);
+  }
+
 private:
   std::span<const Vector4> points_;
   Random random_;

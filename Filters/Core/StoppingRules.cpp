@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StoppingRules.h"
 
+#include "Archive.h"
 #include "CloudDistance.h"
 
 #include <algorithm>
@@ -16,6 +17,9 @@ constexpr std::size_t PointsForCloudDistance = 4096;
 
 /// Vertices that a smaller mesh counts as when it is judged whether it has stalled.
 constexpr std::size_t LeastVerticesForStall = 100;
+
+/// As many as a clock can hold.
+constexpr double MostSeconds = 1e9;
 }
 
 std::string_view name(StopReason reason)
@@ -131,6 +135,19 @@ double StoppingRules::samplesUntil(std::size_t vertices) const
 double StoppingRules::seconds() const
 {
   return std::chrono::duration<double>(Clock::now() - this->start_).count();
+}
+
+void StoppingRules::exchange(Archive& archive)
+{
+  double seconds = this->seconds();
+  archive(seconds, this->mostVertices_, this->lastGrowth_, this->nextCloudDistance_);
+  archive(this->samplesAfterGrowth_, this->progress_);
+  archive.require(seconds >= 0. && seconds <= MostSeconds);
+  if (archive.isReading())
+  {
+    this->start_ = Clock::now() -
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
 }
 
 bool StoppingRules::meetsCloudDistance(const Learner& learner)

@@ -8,6 +8,8 @@
 
 namespace neuralmesh
 {
+class Archive;
+
 enum class StopReason
 {
   None,           ///< still learning
@@ -37,6 +39,9 @@ public:
   double progress(const Learner& learner);
   /// Since the start of the run.
   double seconds() const;
+
+  /// With the seconds so far: those in between do not count.
+  void exchange(Archive& archive);
 
 private:
   using Clock = std::chrono::steady_clock;

@@ -38,6 +38,14 @@ public:
   /// Changes of the winner's normal, delta_w of (8.1).
   const MovingStatistics& normalChanges() const { return this->normal_.changes; }
 
+  /// Between two batches. Whether gains are those of the list is for the learner to say.
+  template <typename Archive>
+  void exchange(Archive& archive)
+  {
+    archive(this->normal_.changes, this->area_.changes, this->volume_.changes);
+    archive(this->untilObservation_);
+  }
+
 private:
   /// One figure of a move: its part in the gain, and how much moves change it.
   struct Figure

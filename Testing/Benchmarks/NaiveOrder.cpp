@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NaiveOrder.h"
 
+#include "Archive.h"
+
 #include <cmath>
 
 namespace neuralmesh
@@ -90,5 +92,17 @@ void NaiveOrder::renumber(std::span<const VertexIndex> order)
   this->counters_ = std::move(counters);
   this->updates_.assign(order.size(), this->logDecay_);
   this->isAlive_.assign(order.size(), true);
+}
+
+void NaiveOrder::exchange(Archive& archive, std::span<const VertexIndex> vertices)
+{
+  archive(this->counters_, this->updates_, this->logDecay_);
+  archive.require(this->counters_.size() == this->updates_.size() && !vertices.empty() &&
+    vertices.back() < this->counters_.size());
+  this->isAlive_.assign(this->counters_.size(), false);
+  for (const VertexIndex v : vertices)
+  {
+    this->isAlive_[v] = true;
+  }
 }
 }

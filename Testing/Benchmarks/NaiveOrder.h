@@ -38,6 +38,7 @@ public:
     this->updates_.reserve(count);
   }
   void renumber(std::span<const VertexIndex> order) override;
+  void exchange(Archive& archive, std::span<const VertexIndex> vertices) override;
 
 private:
   void bringUpToDate() const;

@@ -71,7 +71,7 @@ void printRow(const PointCloud& cloud, std::uint64_t vertices, const Executor& e
       finish.look(fraction);
       return true;
     },
-    {}, {}, executor);
+    {}, {}, {}, executor);
   const double wall =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const double cpu = result.startSeconds + result.learningSeconds + result.finishSeconds;

@@ -80,8 +80,8 @@ int main()
       Parameters unfinished = parameters;
       unfinished.fitRounds = 0;
       Mesh mesh;
-      measure(
-        learnt, [&] { mesh = reconstruct(*cloud, unfinished, goOn, {}, {}, executor).surface; });
+      measure(learnt,
+        [&] { mesh = reconstruct(*cloud, unfinished, goOn, {}, {}, {}, executor).surface; });
       const VertexGrid grid = gridOf(mesh, *cloud);
       std::vector<VertexIndex> closest(cloud->points().size());
       measure(winners, [&] { grid.closest(cloud->points(), mesh.positions(), closest, executor); });
@@ -89,7 +89,7 @@ int main()
       measure(projected, [&] { fit.findPlaces(goOn); });
       measure(fitted, [&] { fit.moveVertices(0., goOn); });
       measure(carried, [&] { const CloudPlaces places(*cloud, mesh, goOn, executor); });
-      all += secondsOf([&] { reconstruct(*cloud, parameters, goOn, {}, {}, executor); });
+      all += secondsOf([&] { reconstruct(*cloud, parameters, goOn, {}, {}, {}, executor); });
       whole.best[i] = std::min(whole.best[i], all);
     }
   }

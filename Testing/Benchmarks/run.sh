@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Prints the table of the README and the benchmarks of the parts of the loop. About three minutes.
+# Prints the tables of the README and of Documentation/Checkpoints.md, and the benchmarks of the parts
+# of the loop. About three minutes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source Utilities/build.sh
@@ -7,5 +8,7 @@ source Utilities/build.sh
 install_packages "${build_packages[@]}" libbenchmark-dev
 build build-benchmark all -DNEURALMESH_BUILD_BENCHMARKS=ON -DNEURALMESH_BUILD_APPLICATIONS=OFF
 build-benchmark/bin/NeuralMeshGrowthTable
+echo
+build-benchmark/bin/NeuralMeshCheckpointTable
 echo
 build-benchmark/bin/NeuralMeshBenchmarks

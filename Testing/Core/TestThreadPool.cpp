@@ -149,7 +149,7 @@ TEST(ThreadPool, SameMeshOnAnyNumberOfThreads)
   const auto run = [&](const Executor& executor)
   {
     const PointCloud cloud(points, weights, true, executor);
-    Reconstruction result = reconstruct(cloud, parameters, goOn, {}, {}, executor);
+    Reconstruction result = reconstruct(cloud, parameters, goOn, {}, {}, {}, executor);
     const CloudPlaces places(cloud, result.surface, goOn, executor);
     std::vector<double> numbers = result.activities;
     places.forEach(

@@ -64,7 +64,8 @@ int TestNeuralMeshProperties(int, char*[])
       "EarlyPatience", "EarlyVertices", "AdditionsPerRemoval", "RemovalPatience", "RemovalLimit",
       "EdgeFlips", "BatchSize", "MaximumIterations", "TargetSampleDistance", "TargetCloudDistance",
       "TimeLimit", "StallPatience", "NumberOfThreads", "OutputPointsPrecision", "GrowthAsTime",
-      "NumberOfSnapshots", "StopReason" })
+      "NumberOfSnapshots", "CheckpointFileName", "CheckpointInterval", "KeepCheckpoint",
+      "ResumedIterations", "StopReason" })
   {
     CHECK(text.str().find(std::string(property) + ": ") != std::string::npos);
   }

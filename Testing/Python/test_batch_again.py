@@ -147,6 +147,7 @@ class Ends(BatchTest):
         for name in done:
             self.assertEqual(now[name], before[name])
         self.assertEqual(list(self.results.glob(".*.part*")), [])
+        self.assertEqual(list(self.results.glob(".*.checkpoint")), [])
 
     # Promise: Ctrl-C and SIGTERM end the batch and its jobs at once, without half files.
     def test_interrupted(self):

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import os
+
 from numpy.typing import ArrayLike
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkPolyData
 
@@ -39,6 +41,7 @@ def reconstruct(
     first_mesh: vtkPolyData | None = None,
     ensemble: int | None = None,
     weights: ArrayLike | str | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
     progress: Progress | None = None,
     **parameters: float | bool | str,
 ) -> vtkPolyData:
@@ -66,6 +69,10 @@ def reconstruct(
             array of the dataset. Numbers from 0 on, of which only the ratios count; 0, what is
             negative and what is not finite leave the point out. An array arrives on the mesh as
             `Weights`.
+        checkpoint: The path of a file in which the run leaves its state, every checkpoint_interval
+            seconds and when it is ended early. If the file exists, the run goes on from there: the
+            same call ends with the same bytes, however often it was killed. Once the mesh is done,
+            the file is removed, unless keep_checkpoint is True.
         progress: A function that is called now and then with the fraction that is done, from 0 to
             1. If it returns False, the mesh learnt so far is the result. An exception that it
             raises ends the run and comes out of this function.
@@ -89,7 +96,9 @@ def reconstruct(
         ValueError: A parameter is out of its range, which the message names; parameters do not go
             together, and the message tells what does; or there are no
             points, none that is finite, or none that differs from the others; or first_mesh is no
-            vtkPolyData, or its triangles are no oriented manifold: the message names the points.
+            vtkPolyData, or its triangles are no oriented manifold: the message names the points; or
+            the checkpoint cannot be written, or is damaged, or that of another run: then the message
+            tells what differs.
         TypeError: There is no such parameter.
         RuntimeError: Anything else that VTK finds wrong.
         KeyboardInterrupt: Ctrl-C was pressed. To keep the mesh learnt so far, cancel by progress,
@@ -113,6 +122,8 @@ def reconstruct(
         ensemble=ensemble,
         **parameters,
     )
+    if checkpoint is not None:
+        mesh.SetCheckpointFileName(os.fspath(checkpoint))
     require_one_start(ensemble, first_mesh)
     set_input(mesh, points, weights)
     if first_mesh is not None:

@@ -18,7 +18,15 @@ from typing import Any
 from .._execution import execute
 from .._reconstruct import make_filter, result_of, set_input
 from .meshes import read_mesh, read_points, write_mesh
-from .report import PHASES, SECONDS, identity_of, quality_of, report_path, result_path
+from .report import (
+    PHASES,
+    SECONDS,
+    checkpoint_path,
+    identity_of,
+    quality_of,
+    report_path,
+    result_path,
+)
 from .recipe import Job
 from .whole_file import write_json
 
@@ -46,6 +54,9 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
         first_mesh = job.first_mesh and read_mesh(job.first_mesh)
         times.append(time.perf_counter())
         mesh_filter = make_filter(**parameters)
+        # If it is there, the job was killed: it goes on from there.
+        mesh_filter.SetCheckpointFileName(str(checkpoint_path(folder, job.name, identity)))
+        mesh_filter.KeepCheckpointOn()
         set_input(mesh_filter, points, weights)
         if first_mesh is not None:
             mesh_filter.SetFirstMeshData(first_mesh)
@@ -75,6 +86,7 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
         "warnings": [str(warning.message) for warning in warned],
     }
     write_json(report_path(folder, job.name), report)
+    mesh_filter.RemoveCheckpoint()
 
 
 def _end_with(parent: int):

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import io
 import json
 import math
@@ -25,6 +26,12 @@ def report_path(folder: Path, job_name: str) -> Path:
 
 def result_path(folder: Path, job_name: str, mesh_format: str) -> Path:
     return folder / f"{job_name}.{mesh_format}"
+
+
+def checkpoint_path(folder: Path, job_name: str, identity: dict[str, Any]) -> Path:
+    """Where a job leaves its state while it lasts: another file for another identity."""
+    digest = hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
+    return folder / f".{job_name}.{digest[:16]}.checkpoint"
 
 
 def identity_of(job: Job, mesh_format: str) -> dict[str, Any]:

@@ -1,0 +1,90 @@
+#!/usr/bin/env bash
+# test_checkpoint.sh COMMAND CASE: what `neuralmesh reconstruct --checkpoint` promises to long runs.
+source "$(dirname "$0")/command_testing.sh"
+
+checkpoint=run.checkpoint
+# Half a second of learning.
+learning=(--vertices 1400 --set SamplesPerAddition=1500)
+
+run() { "$neuralmesh" reconstruct cloud.xyz "$@"; }
+
+# Runs until it has left a new checkpoint, and for so many seconds more; then kills it.
+kill_after_checkpoint()
+{
+  local before status=0
+  before=$(stat -c '%i %y' $checkpoint 2> stat_err || true)
+  "$neuralmesh" reconstruct cloud.xyz mesh.ply "${learning[@]}" --checkpoint $checkpoint \
+    --checkpoint-interval 0 > out 2> err &
+  while kill -0 $! 2> stat_err && [ "$(stat -c '%i %y' $checkpoint 2> stat_err)" = "$before" ]; do
+    sleep 0.005
+  done
+  sleep "$1"
+  kill -KILL $! || fail "the run was over too soon"
+  wait $! || status=$?
+  [ "$status" -eq 137 ] || { cat err; fail "status $status of a killed run"; }
+  [ ! -e mesh.ply ] || fail "a killed run wrote a mesh"
+}
+
+# Promise: killed at any moments by SIGKILL, the same command ends with the same bytes as without a
+# break; it says where it went on, and leaves nothing but the mesh.
+test_same_bytes_after_kills()
+{
+  expect 0 run whole.ply "${learning[@]}"
+  local pause
+  for pause in 0 0.013 0.002 0.007 0.004; do
+    kill_after_checkpoint $pause
+  done
+  expect 0 run mesh.ply "${learning[@]}" --checkpoint $checkpoint
+  grep -Eq "^resumed +at sample [1-9][0-9]*, from $checkpoint\$" out || fail "it does not say so"
+  cmp whole.ply mesh.ply || fail "other bytes"
+  [ -z "$(find . -name '*checkpoint*')" ] || { ls -A; fail "more is left than the mesh"; }
+}
+
+# Promise: Ctrl-C writes the mesh learnt so far and a checkpoint, says so, and the same command goes on.
+test_ctrl_c()
+{
+  expect 130 timeout --preserve-status --signal INT 2 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
+    --vertices 100000000 --set FitRounds=0 --checkpoint $checkpoint
+  [ -s mesh.ply ] || fail "no mesh"
+  grep -q "^checkpoint $checkpoint: the same command goes on" out || fail "it does not say so"
+  expect 1 run mesh.ply "${learning[@]}" --checkpoint $checkpoint
+  grep -q 'SamplesPerAddition (50 there, 1500 here)' err || fail "what differs is not said"
+}
+
+# Promise: a run that meets the time limit leaves its checkpoint, and goes on with a longer one.
+test_time_limit()
+{
+  expect 0 run whole.ply "${learning[@]}"
+  expect 0 run mesh.ply "${learning[@]}" --checkpoint $checkpoint --time-limit 0.1
+  grep -q 'ended by: time limit' out || fail "it did not end by the time limit"
+  [ -e $checkpoint ] || fail "no checkpoint"
+  expect 0 run mesh.ply "${learning[@]}" --checkpoint $checkpoint --time-limit 1000
+  cmp whole.ply mesh.ply || fail "other bytes"
+  [ ! -e $checkpoint ] || fail "the checkpoint is left"
+}
+
+# Promise: exit status 1, a message on one line that names the file, and neither mesh nor checkpoint are
+# touched, where that is not a checkpoint, is damaged, or cannot be written.
+test_refusals()
+{
+  local name
+  echo "what was there" > mesh.ply
+  expect 0 run part.ply "${learning[@]}" --checkpoint good.checkpoint --time-limit 0.1
+  head -c 2000 good.checkpoint > short.checkpoint
+  { cat good.checkpoint; echo more; } > long.checkpoint
+  echo "a text" > text.checkpoint
+  mkdir folder.checkpoint
+  for name in short.checkpoint long.checkpoint text.checkpoint folder.checkpoint \
+    nowhere/run.checkpoint; do
+    [ ! -f "$name" ] || cp "$name" before
+    expect 1 run mesh.ply "${learning[@]}" --checkpoint "$name"
+    [ "$(wc -l < err)" -eq 1 ] || { cat err; fail "not one line for $name"; }
+    grep -q "$name" err || { cat err; fail "the message does not name $name"; }
+    [ ! -f "$name" ] || cmp "$name" before || fail "$name was changed"
+  done
+  [ "$(cat mesh.ply)" = "what was there" ] || fail "the mesh was changed"
+  expect 2 run mesh.ply --checkpoint-interval 5
+}
+
+make_cloud
+"test_$2"
