@@ -1,22 +1,19 @@
 # The Debian package: `cpack` in the folder of the build, or Utilities/make_packages.sh.
 if (NEURALMESH_USE_PARAVIEW)
-  set(world paraview)
-  # What is linked, and the modules that Python imports, which no program tells of.
-  set(next_minor "${ParaView_VERSION_MINOR}")
-  math(EXPR next_minor "${next_minor} + 1")
-  set(pinned "paraview (<< ${ParaView_VERSION_MAJOR}.${next_minor})" python3-paraview)
-  set(development paraview-dev)
+  set(world ParaView)
+  set(python_package python3-paraview)
+  set(development_package paraview-dev)
 else ()
-  set(world vtk)
-  set(pinned python3-vtk9)
-  set(development libvtk9-dev)
+  set(world VTK)
+  set(python_package python3-vtk9)
+  set(development_package libvtk9-dev)
 endif ()
+string(TOLOWER "neuralmesh-${world}" CPACK_PACKAGE_NAME)
 
 set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_NAME "neuralmesh-${world}")
 set(CPACK_PACKAGE_VENDOR NeuralMesh)
 set(CPACK_PACKAGE_CONTACT "The authors of NeuralMesh <neuralmesh@localhost>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "triangle meshes from point clouds, by learning (${world})")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "triangle meshes from point clouds, by learning, with ${world}")
 set(CPACK_PACKAGE_DESCRIPTION
 "NeuralMesh turns a raw 3D scan, a point cloud without normals, with noise and
 outliers, into a triangle mesh with as many vertices as are asked for.
@@ -29,11 +26,11 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
-list(JOIN pinned ", " pinned)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "${pinned}, python3-numpy")
+# What Python imports, as no program is linked with it.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "${python_package}, python3-numpy")
 # For the pictures of galleries where there is no display.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "xvfb, xauth, libgl1-mesa-dri")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "${development}, g++, cmake")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "${development_package}, g++, cmake")
 # One for each VTK, of which Debian installs one at a time.
 set(CPACK_DEBIAN_PACKAGE_PROVIDES "neuralmesh (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_PACKAGE_CONFLICTS neuralmesh)

@@ -10,22 +10,23 @@
 
 namespace
 {
-// bash takes an equals sign for a word of its own. Names of files are left to readline.
+// bash takes an equals sign for a word of its own, what follows it is a value. Names of files are left
+// to readline.
 const char* const Beginning = R"(# Completion of neuralmesh for bash.
 _neuralmesh()
 {
-  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} words=
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} words= assigned=
   if [ "$word" = = ]; then
-    word=
+    word= assigned=yes
   elif [ "$before" = = ]; then
-    before=${COMP_WORDS[COMP_CWORD - 2]}
+    before=${COMP_WORDS[COMP_CWORD - 2]} assigned=yes
   fi
   COMPREPLY=()
   case "${COMP_WORDS[1]} $before" in
 )";
 
 const char* const Middle = R"(  esac
-  if [ -z "$words" ] && [[ $COMP_CWORD -eq 1 || $word == -* ]]; then
+  if [ -z "$words$assigned" ] && [[ $COMP_CWORD -eq 1 || $word == -* ]]; then
     case "${COMP_WORDS[1]}" in
 )";
 
@@ -41,7 +42,7 @@ const char* const End = R"(    esac
 complete -F _neuralmesh neuralmesh
 )";
 
-/** After which options which words come; none where a value is up to the user. */
+/** After which options which words come; nothing where a value is up to the user. */
 void WriteValues(const CLI::App& command, std::ostream& script)
 {
   for (const CLI::Option* option : NamedOptions(command))
@@ -61,14 +62,16 @@ void WriteValues(const CLI::App& command, std::ostream& script)
   }
 }
 
-/** The words that parameters of --set take. */
+/** The words that parameters of --set take; the others take numbers. */
 void WriteParameterWords(std::ostream& script)
 {
   for (const LearningParameter& parameter : GetLearningParameters())
   {
-    script << "    *' " << parameter.Name << "') "
-           << (parameter.Words.empty() ? "return" : "words='" + Join(parameter.Words, " ") + "'")
-           << " ;;\n";
+    if (!parameter.Words.empty())
+    {
+      script << "    *' " << parameter.Name << "') words='" << Join(parameter.Words, " ")
+             << "' ;;\n";
+    }
   }
 }
 

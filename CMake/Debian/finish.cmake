@@ -4,10 +4,11 @@ set(documents "${root}/share/doc/${CPACK_PACKAGE_NAME}")
 
 # Its licence and the changes where Debian has them, manual pages packed.
 file(MAKE_DIRECTORY "${documents}")
-file(RENAME "${root}/share/doc/NeuralMesh/LICENSE" "${documents}/copyright")
-file(RENAME "${root}/share/doc/NeuralMesh/CHANGELOG.md" "${documents}/changelog")
+file(COPY_FILE "${root}/share/doc/NeuralMesh/LICENSE" "${documents}/copyright")
+file(COPY_FILE "${root}/share/doc/NeuralMesh/CHANGELOG.md" "${documents}/changelog")
+file(GLOB manual_pages "${root}/share/man/man1/*.1")
 execute_process(
-  COMMAND gzip -9n "${documents}/changelog" "${root}/share/man/man1/neuralmesh.1"
+  COMMAND gzip -9n "${documents}/changelog" ${manual_pages}
   COMMAND_ERROR_IS_FATAL ANY)
 
 # The one folder in which Debian's ParaView and its Python and servers look for plugins unasked.
