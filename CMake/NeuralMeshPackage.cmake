@@ -2,11 +2,11 @@
 if (NEURALMESH_USE_PARAVIEW)
   set(world ParaView)
   set(python_package python3-paraview)
-  set(development_package paraview-dev)
+  set(development_packages "paraview-dev, libopenmpi-dev")
 else ()
   set(world VTK)
   set(python_package python3-vtk9)
-  set(development_package libvtk9-dev)
+  set(development_packages libvtk9-dev)
 endif ()
 string(TOLOWER "neuralmesh-${world}" CPACK_PACKAGE_NAME)
 
@@ -30,7 +30,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTOR
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "${python_package}, python3-numpy")
 # For the pictures of galleries where there is no display.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "xvfb, xauth, libgl1-mesa-dri")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "${development_package}, g++, cmake")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "${development_packages}, g++, cmake, make")
 # One for each VTK, of which Debian installs one at a time.
 set(CPACK_DEBIAN_PACKAGE_PROVIDES "neuralmesh (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_PACKAGE_CONFLICTS neuralmesh)

@@ -31,6 +31,7 @@ enter_debian()
     > "$1/etc/apt/apt.conf.d/99host" || true
   cp -L /etc/resolv.conf /etc/hosts "$1/etc/"
   mount -t proc proc "$1/proc"
+  mount -t sysfs -o ro sysfs "$1/sys"
   mount --rbind /dev "$1/dev"
 }
 

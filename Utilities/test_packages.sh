@@ -24,7 +24,7 @@ shift
 remove_debian()
 {
   cd /
-  umount --recursive "$debian/proc" "$debian/dev" 2> /dev/null || true
+  umount --recursive "$debian/proc" "$debian/sys" "$debian/dev" 2> /dev/null || true
   rm -rf --one-file-system "$debian" "$debian.new"
 }
 trap remove_debian EXIT
