@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CompareCommand.h"
-#include "InfoCommand.h"
+#include "CommandLine.h"
 #include "LearningParameters.h"
-#include "ReconstructCommand.h"
 
-#include <CLI/CLI.hpp>
-
-#include <functional>
 #include <iostream>
-#include <map>
 #include <new>
 
 namespace
@@ -18,25 +12,16 @@ constexpr int WrongUse = 2;
 
 int Run(int argc, char* argv[])
 {
-  CLI::App application("Triangle meshes from point clouds, by learning", "neuralmesh");
-  application.set_version_flag("--version", NEURALMESH_VERSION);
-  application.require_subcommand(1);
-  std::map<CLI::App*, std::function<int()>> commands;
-  for (const auto& add : { AddReconstructCommand, AddCompareCommand, AddInfoCommand })
-  {
-    // The newest subcommand is the last one.
-    const auto run = add(application);
-    commands[application.get_subcommands({}).back()] = run;
-  }
+  CommandLine line;
   try
   {
-    application.parse(argc, argv);
+    line.Application.parse(argc, argv);
   }
   catch (const CLI::ParseError& error)
   {
-    return application.exit(error) == 0 ? 0 : WrongUse;
+    return line.Application.exit(error) == 0 ? 0 : WrongUse;
   }
-  return commands.at(application.get_subcommands().front())();
+  return line.Commands.at(line.Application.get_subcommands().front())();
 }
 }
 

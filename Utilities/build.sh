@@ -9,8 +9,11 @@ if [ "${NEURALMESH_VTK:-paraview}" = plain ]; then
 else
   vtk_packages=(paraview-dev python3-paraview libopenmpi-dev openmpi-bin)
 fi
+# For the Debian package; for pip, manual pages and completions, which tests try.
+package_packages=(dpkg-dev file)
 test_packages=(libgtest-dev libcgal-demo glmark2-data "${screen_packages[@]}"
-  chromium chromium-driver python3-selenium)
+  chromium chromium-driver python3-selenium
+  "${package_packages[@]}" python3-pip python3-venv man-db fish)
 # For the 3D views of galleries; npm may have come in another way than by this package.
 command -v npm > /dev/null || test_packages+=(npm)
 build_packages=(g++ cmake ninja-build "${vtk_packages[@]}" libcli11-dev

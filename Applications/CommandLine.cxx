@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CommandLine.h"
+
+#include "CompareCommand.h"
+#include "InfoCommand.h"
+#include "ReconstructCommand.h"
+
+CommandLine::CommandLine()
+  : Application("Triangle meshes from point clouds, by learning", "neuralmesh")
+{
+  this->Application.set_version_flag("--version", NEURALMESH_VERSION);
+  this->Application.require_subcommand(1);
+  for (const auto& add : { AddReconstructCommand, AddCompareCommand, AddInfoCommand })
+  {
+    // The newest subcommand is the last one.
+    const auto run = add(this->Application);
+    this->Commands[this->Application.get_subcommands({}).back()] = run;
+  }
+}

@@ -1,0 +1,19 @@
+# What Debian wants of the files of a package, beyond what `cmake --install` gives.
+set(root "${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr")
+set(documents "${root}/share/doc/${CPACK_PACKAGE_NAME}")
+
+# Its licence and the changes where Debian has them, manual pages packed.
+file(MAKE_DIRECTORY "${documents}")
+file(COPY_FILE "${root}/share/doc/NeuralMesh/LICENSE" "${documents}/copyright")
+file(COPY_FILE "${root}/share/doc/NeuralMesh/CHANGELOG.md" "${documents}/changelog")
+file(GLOB manual_pages "${root}/share/man/man1/*.1")
+execute_process(
+  COMMAND gzip -9n "${documents}/changelog" ${manual_pages}
+  COMMAND_ERROR_IS_FATAL ANY)
+
+# The one folder in which Debian's ParaView and its Python and servers look for plugins unasked.
+if (EXISTS "${root}/lib/neuralmesh/NeuralMesh/NeuralMesh.so")
+  file(MAKE_DIRECTORY "${root}/bin/plugins")
+  file(CREATE_LINK ../../lib/neuralmesh/NeuralMesh/NeuralMesh.so
+    "${root}/bin/plugins/NeuralMesh.so" SYMBOLIC)
+endif ()

@@ -1,0 +1,55 @@
+# Sourced by scripts that work in a Debian 12 of their own, made by debootstrap; they stand in the
+# root of the repository, have sourced build.sh and are root. The archive is the one that apt uses
+# here, or MIRROR.
+
+# Starts the script anew in a name space of its own, so that what is mounted goes with it however it
+# ends: in_own_namespace "$0" "$@".
+in_own_namespace()
+{
+  [ -z "${IN_OWN_NAMESPACE:-}" ] || return 0
+  [ "$(id -u)" -eq 0 ] || { echo "$1: needs root, for debootstrap and chroot" >&2; exit 2; }
+  IN_OWN_NAMESPACE=1 exec unshare --mount --propagation private bash "$@"
+}
+
+# Makes the Debian at once or not at all: make_debian FOLDER.
+make_debian()
+{
+  install_packages debootstrap
+  local mirror
+  mirror=${MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' \
+    'Codename: bookworm' 'Component: main' 'Created-By: Packages' | head -n 1)}
+  rm -rf --one-file-system "$1.new"
+  debootstrap --variant=minbase bookworm "$1.new" "${mirror:-http://deb.debian.org/debian}"
+  mv "$1.new" "$1"
+}
+
+# Gives it what it needs to run: enter_debian FOLDER. Proxies, and what else apt needs on this machine
+# to reach its archives, are those of the host.
+enter_debian()
+{
+  apt-config dump | grep -E '^Acquire::(Check|http|https|Retries)' \
+    > "$1/etc/apt/apt.conf.d/99host" || true
+  cp -L /etc/resolv.conf /etc/hosts "$1/etc/"
+  mount -t proc proc "$1/proc"
+  mount -t sysfs -o ro sysfs "$1/sys"
+  mount --rbind /dev "$1/dev"
+}
+
+# The files of the working tree, not those that git ignores, in /neuralmesh. Builds in there stay.
+copy_sources()
+{
+  mkdir -p "$1/neuralmesh"
+  find "$1/neuralmesh" -mindepth 1 -maxdepth 1 ! -name 'build*' -exec rm -rf {} +
+  git ls-files -z --cached --others --exclude-standard |
+    tar --create --null --files-from - --ignore-failed-read |
+    tar --extract --directory "$1/neuralmesh"
+}
+
+# in_debian FOLDER COMMAND...: runs it there, with plain VTK as NEURALMESH_VTK.
+in_debian()
+{
+  local debian=$1
+  shift
+  env -i CI=true NEURALMESH_VTK=plain PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
+    TMPDIR=/tmp DEBIAN_FRONTEND=noninteractive chroot "$debian" "$@"
+}
