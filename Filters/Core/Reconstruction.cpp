@@ -28,6 +28,10 @@ std::size_t firstVertices(std::uint64_t vertices)
   return std::size_t(std::max(vertices / 8, std::min<std::uint64_t>(vertices / 2, 1500)));
 }
 
+// Where the parts of a run end, as fractions of its time.
+constexpr double EndOfStart = 0.15;
+constexpr double EndOfLearning = 0.65;
+
 /// Learns until a stopping rule is met; returns which.
 StopReason learn(Learner& learner, StoppingRules& rules, const PointCloud& cloud,
   const Parameters& parameters, LearningCurve& curve, const GrowthWatch& watch,
@@ -53,17 +57,6 @@ StopReason learn(Learner& learner, StoppingRules& rules, const PointCloud& cloud
     }
     learner.learn(samples, [&recorder] { recorder.look(); });
   }
-}
-
-/// A mesh that is finished learns no more vertices than there is something to learn for.
-Parameters learnable(Parameters parameters, const PointCloud& cloud)
-{
-  if (parameters.fitRounds > 0)
-  {
-    parameters.numberOfVertices = std::min<std::uint64_t>(
-      parameters.numberOfVertices, std::max(LeastLearnt, cloud.differentCount() / PointsPerVertex));
-  }
-  return parameters;
 }
 
 bool isTimeLeft(StopReason reason)
@@ -106,6 +99,21 @@ Beginning beginFromSpace(const PointCloud& cloud, const Parameters& parameters,
   }
   return result;
 }
+}
+
+Parameters learnable(Parameters parameters, const PointCloud& cloud)
+{
+  if (parameters.fitRounds > 0)
+  {
+    parameters.numberOfVertices = std::min<std::uint64_t>(
+      parameters.numberOfVertices, std::max(LeastLearnt, cloud.differentCount() / PointsPerVertex));
+  }
+  return parameters;
+}
+
+std::size_t firstVertices(std::uint64_t vertices)
+{
+  return std::size_t(std::max(vertices / 8, std::min<std::uint64_t>(vertices / 2, 1500)));
 }
 
 double cpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }

@@ -65,6 +65,8 @@ int TestNeuralMeshProperties(int, char*[])
       "EdgeFlips", "BatchSize", "MaximumIterations", "TargetSampleDistance", "TargetCloudDistance",
       "TimeLimit", "StallPatience", "NumberOfThreads", "OutputPointsPrecision", "GrowthAsTime",
       "NumberOfSnapshots", "StopReason" })
+      "TimeLimit", "StallPatience", "OutputPointsPrecision", "GrowthAsTime", "NumberOfSnapshots",
+      "PointFileName", "MaximumPoints", "StopReason" })
   {
     CHECK(text.str().find(std::string(property) + ": ") != std::string::npos);
   }
