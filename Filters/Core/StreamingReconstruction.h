@@ -45,6 +45,8 @@ public:
   std::uint64_t sampleCount() const;
   std::size_t beginnings() const { return this->beginnings_; }
   std::size_t vertexCount() const;
+  /// Length of the unit of lengths in the finish report, in the units of the input; of a mesh only.
+  double unit() const { return this->cloud_->unit(); }
 
 private:
   bool takeInPoints(const Progress& progress);
