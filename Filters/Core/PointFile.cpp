@@ -119,6 +119,12 @@ void PointFile::Source::read(std::uint64_t offset, void* bytes, std::size_t size
   }
 }
 
+/// What is to be read ahead: more than usual, or nothing. Advice may be ignored.
+void PointFile::Source::expect(bool isSequential) const
+{
+  posix_fadvise(this->file_, 0, 0, isSequential ? POSIX_FADV_SEQUENTIAL : POSIX_FADV_RANDOM);
+}
+
 PointFile::PointFile(const std::string& path)
   : path_(path)
   , source_(path)
@@ -199,6 +205,7 @@ bool PointFile::draw(std::uint64_t wanted, std::uint64_t seed,
   }
   const std::uint64_t end = offset + count * stride;
   const bool areFarApart = count / shares > FarApart / stride;
+  this->source_.expect(!areFarApart);
   std::vector<unsigned char> piece(areFarApart ? stride : std::max(stride, PieceSize));
   std::uint64_t pieceBegin = 0, pieceEnd = 0;
   Random random(seed, PointFileStream);

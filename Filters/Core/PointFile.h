@@ -55,6 +55,7 @@ private:
     std::uint64_t size() const { return this->size_; }
     /// Throws std::runtime_error if not all can be read.
     void read(std::uint64_t offset, void* bytes, std::size_t size) const;
+    void expect(bool isSequential) const;
 
   private:
     int file_;

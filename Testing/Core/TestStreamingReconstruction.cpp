@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CloudGenerator.h"
-#include "CloudPlaces.h"
 #include "ManifoldCheck.h"
 #include "Shapes.h"
 #include "SphereRuns.h"
@@ -9,8 +8,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numbers>
 
 namespace neuralmesh::testing
 {
@@ -43,8 +45,7 @@ Points turned(Points points)
   return points;
 }
 
-/// Root of the mean square of the distances between the torus and the vertices, both ways: from the
-/// cloud to the nearest vertex, and from vertices to the true surface.
+/// Root of the mean square of the distances of the vertices from the torus.
 double distanceToTorus(const TriangleMesh& mesh)
 {
   double squares = 0.;
@@ -126,8 +127,86 @@ TEST(StreamingReconstruction, FollowsToWhatArrivesLater)
   EXPECT_GT(evenness(inParts.mesh), 0.9 * evenness(atOnce.mesh));
   EXPECT_LT(distanceToTorus(inParts.mesh), 1.1 * distanceToTorus(atOnce.mesh));
   EXPECT_LT(inParts.quality->residual, 1.1 * atOnce.quality->residual);
-  std::printf("even %.3f %.3f dist %.5f %.5f resid %.5f %.5f beginnings %zu\n", evenness(inParts.mesh),
-    evenness(atOnce.mesh), distanceToTorus(inParts.mesh), distanceToTorus(atOnce.mesh),
-    inParts.quality->residual, atOnce.quality->residual, stream.beginnings());
+}
+
+// Where points become denser, vertices wander: their number stays, the mesh is not begun anew, and
+// more of them are there than before.
+TEST(StreamingReconstruction, VerticesWanderToDenserParts)
+{
+  const Points cloud = torusCloud(60000);
+  Points denser;
+  std::copy_if(cloud.begin(), cloud.end(), std::back_inserter(denser),
+    [](const Eigen::Vector3d& p) { return p.x() > 0.8 && std::abs(p.y()) < 0.5; });
+  const auto countDenser = [](const TriangleMesh& mesh)
+  {
+    return std::count_if(mesh.points.begin(), mesh.points.end(),
+      [](const Eigen::Vector3d& p) { return p.x() > 0.8 && std::abs(p.y()) < 0.5; });
+  };
+  StreamingReconstruction stream(wanted(3000), 200000);
+  stream.addPoints(cloud);
+  stream.learn(300000, goOn);
+  const auto before = countDenser(stream.mesh(false, goOn).mesh);
+  for (int times = 0; times < 8; ++times)
+  {
+    stream.addPoints(denser);
+  }
+  ASSERT_LT(stream.pointCount(), 120000u);
+  stream.learn(300000, goOn);
+  const Reconstruction result = stream.mesh(false, goOn);
+  expectSound(result);
+  EXPECT_EQ(stream.beginnings(), 1u);
+  EXPECT_EQ(stream.vertexCount(), 3000u);
+  EXPECT_GT(countDenser(result.mesh), 2 * before);
+}
+
+// The same calls give the same bytes, however points are grouped between two calls of learn(), and
+// whoever looks in between; another seed gives others.
+TEST(StreamingReconstruction, SameCallsSameBytes)
+{
+  const Points cloud = turned(torusCloud(20000));
+  const auto run = [&](std::uint64_t seed, std::size_t group, bool looks)
+  {
+    Parameters parameters = wanted(600);
+    parameters.seed = seed;
+    StreamingReconstruction stream(parameters, 5000);
+    for (std::size_t half = 0; half < 2; ++half)
+    {
+      for (std::size_t i = 0; i < 10000; i += group)
+      {
+        stream.addPoints(std::span(cloud).subspan(half * 10000 + i, std::min(group, 10000 - i)));
+      }
+      stream.learn(30000, goOn);
+      if (looks)
+      {
+        stream.mesh(true, goOn);
+      }
+    }
+    return stream.mesh(true, goOn).mesh.points;
+  };
+  const Points first = run(1, 10000, false);
+  EXPECT_EQ(first, run(1, 700, true));
+  EXPECT_NE(first, run(2, 10000, false));
+}
+
+// Points that are not finite are counted and dropped; without enough others there is no mesh, and
+// nothing is learnt; learning can be ended.
+TEST(StreamingReconstruction, BadPointsAndFewPoints)
+{
+  StreamingReconstruction stream(wanted(500), 10000);
+  EXPECT_EQ(stream.learn(1000, goOn), 0u);
+  const Points bad(10, Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  stream.addPoints(bad);
+  stream.addPoints(Points(500, Eigen::Vector3d(1., 2., 3.))); // on one spot
+  EXPECT_EQ(stream.learn(1000, goOn), 0u);
+  EXPECT_FALSE(stream.hasMesh());
+  EXPECT_EQ(stream.droppedCount(), 10u);
+  EXPECT_EQ(stream.pointCount(), 500u);
+
+  stream.addPoints(torusCloud(20000));
+  EXPECT_EQ(stream.learn(1000, [](double) { return false; }), 0u);
+  EXPECT_EQ(stream.learn(100000, goOn), 100000u);
+  EXPECT_EQ(stream.sampleCount(), 100000u);
+  expectSound(stream.mesh(true, goOn));
+  EXPECT_EQ(stream.mesh(true, [](double) { return false; }).stopReason, StopReason::Cancelled);
 }
 }
