@@ -24,16 +24,20 @@ constexpr double MostUncovered = 0.02;
 /// ... or if there are so many times the points that it was begun with.
 constexpr std::size_t MorePoints = 2;
 
-/// Voxels to see that by are about two edges wide, but within these resolutions.
-constexpr double CoarsestCover = 4., FinestCover = 16.;
+/// Voxels to see that by are about an edge wide, but wide enough that so many points are in one, and
+/// within these resolutions.
+constexpr double PointsPerVoxel = 36.;
+constexpr double CoarsestCover = 4., FinestCover = 32.;
 
 /// The part of the space occupied by a cloud that is farther than a voxel from all vertices of a
 /// mesh, in the coordinates of another cloud.
 double uncoveredPart(const PointCloud& cloud, const Mesh& mesh, const PointCloud& ofMesh)
 {
   const double edge = mesh.meanEdge() * ofMesh.unit() / cloud.unit();
+  const double wanted =
+    std::min(1. / edge, std::sqrt(double(cloud.points().size()) / PointsPerVoxel));
   const OccupiedVoxels voxels =
-    occupiedVoxels(cloud, unsigned(std::clamp(0.5 / edge, CoarsestCover, FinestCover)));
+    occupiedVoxels(cloud, unsigned(std::clamp(wanted, CoarsestCover, FinestCover)));
   const VoxelGrid& grid = voxels.grid;
   std::vector<std::uint8_t> isCovered(grid.size() + 1, 0); // the last one for all places outside
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)

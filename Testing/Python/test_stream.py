@@ -104,9 +104,10 @@ class Streams(unittest.TestCase):
             [os.environ["NEURALMESH_TEST_PYTHON"], str(EXAMPLE)],
             capture_output=True, text=True, timeout=100, check=False)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
-        missing = [float(line.split()[-1]) for line in result.stdout.splitlines()[1:-1]]
-        self.assertEqual(len(missing), 12)
-        self.assertLess(missing[-1], missing[0] / 10)
+        areas = [float(line.split()[-2]) for line in result.stdout.splitlines()[1:-1]]
+        self.assertEqual(len(areas), 12)
+        self.assertLess(areas[0], 50)
+        self.assertGreater(areas[-1], 95)
         self.assertRegex(result.stdout, "finished: 4000 vertices, 1 piece, genus 1, 0 boundaries")
 
 

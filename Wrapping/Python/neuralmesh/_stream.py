@@ -50,8 +50,8 @@ class Stream:
         """Learn, and return the number of samples that were learnt.
 
         Args:
-            samples: How many to learn; 60 for each vertex, the default, let a mesh grow to all its
-                vertices.
+            samples: How many to learn; the default, 60 for each vertex and 150000 more, lets a mesh
+                grow to all its vertices.
             seconds: How long to learn instead, about; the mesh then depends on the machine.
             progress: As in reconstruct(); if it returns False, learning ends.
 
@@ -65,8 +65,9 @@ class Stream:
             raise ValueError(f"samples or seconds must be above 0, not {wanted!r}")
         if seconds is not None:
             return self._call(self._algorithm.LearnForSeconds, float(seconds), progress=progress)
-        samples = 60 * self._algorithm.GetNumberOfVertices() if samples is None else int(samples)
-        return self._call(self._algorithm.Learn, samples, progress=progress)
+        if samples is None:
+            samples = 60 * self._algorithm.GetNumberOfVertices() + 150000
+        return self._call(self._algorithm.Learn, int(samples), progress=progress)
 
     def mesh(self, finish: bool = True, *, progress: Progress | None = None) -> vtkPolyData:
         """The mesh learnt so far; the stream goes on afterwards.
