@@ -155,8 +155,7 @@ int vtkDistributedRun::Execute(vtkInformationVector** inputVector,
   const WeightsFunction& collectWeights, const LearnFunction& learn)
 {
   // The same on all processes, so that none waits for another.
-  if (this->Filter->GetPointFileName() && *this->Filter->GetPointFileName() &&
-    this->Controller->GetNumberOfProcesses() > 1)
+  if (*this->Filter->GetPointFileName() && this->Controller->GetNumberOfProcesses() > 1)
   {
     vtkErrorWithObjectMacro(this->Filter, << "PointFileName is for one process: give each process "
                                              "a part of the cloud as its input.");

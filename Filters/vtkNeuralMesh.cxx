@@ -154,7 +154,7 @@ vtkNeuralMesh::vtkNeuralMesh()
   this->StallPatience = neuralmesh::Parameters().stallPatience;
 }
 
-vtkNeuralMesh::~vtkNeuralMesh() { this->SetPointFileName(nullptr); }
+vtkNeuralMesh::~vtkNeuralMesh() = default;
 
 int vtkNeuralMesh::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -200,6 +200,16 @@ vtkPolyData* vtkNeuralMesh::GetFirstMesh()
 vtkTable* vtkNeuralMesh::GetLearningCurve()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+void vtkNeuralMesh::SetPointFileName(const char* name)
+{
+  const std::string wanted = name ? name : "";
+  if (this->PointFileName != wanted)
+  {
+    this->PointFileName = wanted;
+    this->Modified();
+  }
 }
 
 vtkIdType vtkNeuralMesh::GetUsedMaximumPoints() const
@@ -319,7 +329,7 @@ int vtkNeuralMesh::ExecuteOnCloud(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const bool hasInput = inputVector[0]->GetNumberOfInformationObjects() > 0;
-  const bool hasFile = this->PointFileName && *this->PointFileName;
+  const bool hasFile = !this->PointFileName.empty();
   this->DrawingTime = 0.0;
   if (hasInput == hasFile)
   {
@@ -548,7 +558,7 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << #property ": " << this->property << "\n";
   NEURAL_MESH_FOR_EACH_PARAMETER(PRINT_PROPERTY)
 #undef PRINT_PROPERTY
-  os << indent << "PointFileName: " << (this->PointFileName ? this->PointFileName : "") << "\n";
+  os << indent << "PointFileName: " << this->PointFileName << "\n";
   os << indent << "MaximumPoints: " << this->MaximumPoints << "\n";
   os << indent << "CarryPointData: " << this->CarryPointData << "\n";
   os << indent << "WeightArrayName: " << this->GetWeightArrayName() << "\n";

@@ -102,6 +102,7 @@
 #include "vtkNeuralMeshAlgorithm.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 class vtkNeuralMeshGrowth;
@@ -157,8 +158,8 @@ public:
    * the file and an input, or neither, or if the file cannot be used; and, in vtkPNeuralMesh and
    * vtkPNeuralMeshEnsemble, to have it with more than one process. Default none.
    */
-  vtkSetFilePathMacro(PointFileName);
-  vtkGetFilePathMacro(PointFileName);
+  void SetPointFileName(VTK_FILEPATH const char* name);
+  VTK_FILEPATH const char* GetPointFileName() const { return this->PointFileName.c_str(); }
   ///@}
 
   ///@{
@@ -409,7 +410,7 @@ private:
   vtkNeuralMesh(const vtkNeuralMesh&) = delete;
   void operator=(const vtkNeuralMesh&) = delete;
 
-  char* PointFileName = nullptr;
+  std::string PointFileName;
   vtkIdType MaximumPoints = 0;
   vtkTypeBool CarryPointData = 1;
   vtkIdType NumberOfVertices = 20000;

@@ -18,14 +18,24 @@ vtkStandardNewMacro(vtkNeuralMeshFileSampler);
 
 vtkNeuralMeshFileSampler::vtkNeuralMeshFileSampler() { this->SetNumberOfInputPorts(0); }
 
-vtkNeuralMeshFileSampler::~vtkNeuralMeshFileSampler() { this->SetFileName(nullptr); }
+vtkNeuralMeshFileSampler::~vtkNeuralMeshFileSampler() = default;
+
+void vtkNeuralMeshFileSampler::SetFileName(const char* name)
+{
+  const std::string wanted = name ? name : "";
+  if (this->FileName != wanted)
+  {
+    this->FileName = wanted;
+    this->Modified();
+  }
+}
 
 int vtkNeuralMeshFileSampler::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   const double begin = neuralmesh::cpuSeconds();
   this->NumberOfFilePoints = 0;
-  if (!this->FileName || !*this->FileName)
+  if (this->FileName.empty())
   {
     vtkErrorMacro(<< "There is no FileName.");
     return 0;
@@ -65,7 +75,7 @@ int vtkNeuralMeshFileSampler::RequestData(
 void vtkNeuralMeshFileSampler::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "") << "\n";
+  os << indent << "FileName: " << this->FileName << "\n";
   os << indent << "Format: " << this->Format << "\n";
   os << indent << "HeaderBytes: " << this->HeaderBytes << "\n";
   os << indent << "NumberOfPoints: " << this->NumberOfPoints << "\n";

@@ -52,6 +52,8 @@
 #include "vtkNeuralMeshSetClampMacro.h"
 #include "vtkPolyDataAlgorithm.h"
 
+#include <string>
+
 class VTKFILTERSNEURALMESH_EXPORT vtkNeuralMeshFileSampler : public vtkPolyDataAlgorithm
 {
 public:
@@ -61,10 +63,10 @@ public:
 
   ///@{
   /**
-   * The file. Default none, which is an error.
+   * The file. Default none (an empty name, for which null may be given, too), which is an error.
    */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
+  void SetFileName(VTK_FILEPATH const char* name);
+  VTK_FILEPATH const char* GetFileName() const { return this->FileName.c_str(); }
   ///@}
 
   enum FormatType
@@ -131,7 +133,7 @@ private:
   vtkNeuralMeshFileSampler(const vtkNeuralMeshFileSampler&) = delete;
   void operator=(const vtkNeuralMeshFileSampler&) = delete;
 
-  char* FileName = nullptr;
+  std::string FileName;
   int Format = BY_EXTENSION;
   vtkIdType HeaderBytes = 0;
   vtkIdType NumberOfPoints = 1000000;

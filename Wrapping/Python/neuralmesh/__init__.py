@@ -17,5 +17,5 @@ _vtk.require_vtk(VTK_VERSION)
 
 from ._compare import compare
 from ._reconstruct import reconstruct
-from ._stream import Stream, stream
+from ._stream import stream
 from .vtkFiltersNeuralMesh import *

@@ -120,12 +120,6 @@ def stream(
 ) -> Stream:
     """Begin a mesh that is learnt while points arrive, from a scanner, say.
 
-    >>> stream = neuralmesh.stream(vertices=5000)
-    >>> for points in scanner:
-    ...     stream.add_points(points)
-    ...     stream.learn()
-    >>> mesh = stream.mesh()
-
     The same calls give the same bytes. See Documentation/Streaming.md.
 
     Args:
@@ -138,9 +132,19 @@ def stream(
 
 {table}
 
+    Returns:
+        A Stream, with the methods add_points(), learn() and mesh().
+
     Raises:
         ValueError: A parameter is out of its range, which the message names.
         TypeError: There is no such parameter.
+
+    Example:
+        >>> stream = neuralmesh.stream(vertices=5000)
+        >>> for points in scanner:
+        ...     stream.add_points(points)
+        ...     stream.learn()
+        >>> mesh = stream.mesh()
     """
     refuse_unknown("stream", parameters, PARAMETERS)
     algorithm = vtkNeuralMeshStream()
