@@ -126,7 +126,10 @@ vtkIdType vtkNeuralMeshStream::LearnForSeconds(double seconds)
   {
     learnt = this->Stream->learn(SamplesPerLook,
       [&](double)
-      { return goesOn = progress.Report(std::min(1.0, progress.GetSeconds() / seconds)); });
+      {
+        return goesOn = progress.Report(
+                 seconds > 0.0 ? std::min(1.0, progress.GetSeconds() / seconds) : 1.0);
+      });
     all += learnt;
   } while (goesOn && learnt > 0 && progress.GetSeconds() < seconds);
   this->AbortExecute = 0;
