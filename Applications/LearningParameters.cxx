@@ -84,6 +84,7 @@ std::vector<LearningParameter> MakeParameters()
     PARAMETER(AreaWeight, "... of the change of area"),
     PARAMETER(VolumeWeight, "... of the change of volume"),
     PARAMETER(ListVertices, "counters until there are so many vertices (list)"),
+    PARAMETER(MaximumPoints, "points drawn with --in-place; 0: 50 a vertex or a million"),
     PARAMETER(BatchSize, "samples drawn at once at most"),
     WithWords(PARAMETER(Start, "what learning starts from"), { "occupied_space", "tetrahedron" }),
     PARAMETER(CurvatureDensity, "denser where it bends, by its curvature to that power; 0: not"),

@@ -15,6 +15,7 @@
 
 #include "vtkNeuralMesh.h"
 #include "vtkNeuralMeshEnsemble.h"
+#include "vtkNeuralMeshFileSampler.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
@@ -48,6 +49,9 @@ struct ReconstructOptions
   std::string Input;
   std::string Output;
   std::string Initial;
+  bool InPlace = false;
+  int Raw = vtkNeuralMeshFileSampler::BY_EXTENSION;
+  long long Skip = 0;
   long long Vertices = 20000;
   int Seed = 1;
   int Variant = vtkNeuralMesh::NOISE_FILTERING;
@@ -259,12 +263,18 @@ void PrintCheckpoint(vtkNeuralMesh* filter)
   }
 }
 
-void PrintPhases(vtkNeuralMesh* filter)
+void PrintPhases(vtkNeuralMesh* filter, vtkNeuralMeshFileSampler* sampler)
 {
+  const double drawing = sampler ? sampler->GetDrawingTime() : 0.0;
   const double cloud = filter->GetCloudTime(), start = filter->GetStartTime();
   const double learning = filter->GetLearningTime(), finish = filter->GetFinishTime();
-  std::printf("phases     %.2f CPU s (cloud %.2f, start %.2f, learning %.2f, finish %.2f)\n",
-    cloud + start + learning + finish, cloud, start, learning, finish);
+  std::printf("phases     %.2f CPU s (", drawing + cloud + start + learning + finish);
+  if (sampler)
+  {
+    std::printf("drawing %.2f, ", drawing);
+  }
+  std::printf(
+    "cloud %.2f, start %.2f, learning %.2f, finish %.2f)\n", cloud, start, learning, finish);
 }
 
 std::string Counted(long long count, const std::string& one, const std::string& several)
@@ -300,6 +310,56 @@ void PrintReport(vtkPolyData* mesh)
     FieldNumber(mesh, "TriangleQuality"), 100.0 * FieldNumber(mesh, "RegularRatio"));
 }
 
+/** A sampler of the file in which it lies, if that is wanted. */
+vtkSmartPointer<vtkNeuralMeshFileSampler> MakeSampler(
+  const ReconstructOptions& options, vtkNeuralMesh* filter)
+{
+  const bool isRaw = options.Raw != vtkNeuralMeshFileSampler::BY_EXTENSION;
+  if (options.Skip > 0 && !isRaw)
+  {
+    throw UsageError("--skip: this goes with --raw only");
+  }
+  if (!options.InPlace && !isRaw)
+  {
+    return nullptr;
+  }
+  auto sampler = vtkSmartPointer<vtkNeuralMeshFileSampler>::New();
+  sampler->SetFileName(options.Input.c_str());
+  sampler->SetFormat(options.Raw);
+  sampler->SetHeaderBytes(options.Skip);
+  sampler->SetSeed(options.Seed);
+  sampler->SetNumberOfPoints(filter->GetUsedMaximumPoints());
+  return sampler;
+}
+
+/** Throws if the file is none to sample. */
+vtkSmartPointer<vtkPointSet> DrawPoints(vtkNeuralMeshFileSampler* sampler)
+{
+  vtkNew<ErrorCollector> errors;
+  errors->Observe(sampler);
+  sampler->Update();
+  if (errors->HasError())
+  {
+    throw std::runtime_error(errors->GetMessage());
+  }
+  return sampler->GetOutput();
+}
+
+void PrintPointCount(vtkPointSet* points, vtkNeuralMeshFileSampler* sampler, vtkPolyData* mesh)
+{
+  const auto count = static_cast<long long>(points->GetNumberOfPoints());
+  const long long dropped = FieldValue(mesh, "DroppedPoints");
+  if (sampler)
+  {
+    std::printf("points     %lld (%lld drawn, %lld of them dropped)\n",
+      static_cast<long long>(sampler->GetNumberOfFilePoints()), count, dropped);
+  }
+  else
+  {
+    std::printf("points     %lld (%lld dropped)\n", count, dropped);
+  }
+}
+
 int Reconstruct(const ReconstructOptions& options)
 {
   const vtkSmartPointer<vtkNeuralMesh> filter = MakeFilter(options);
@@ -321,7 +381,8 @@ int Reconstruct(const ReconstructOptions& options)
   }
 
   Stopwatch stopwatch;
-  const auto points = ReadPoints(options.Input);
+  const auto sampler = MakeSampler(options, filter);
+  const auto points = sampler ? DrawPoints(sampler) : ReadPoints(options.Input);
   if (!options.Initial.empty())
   {
     filter->SetFirstMeshData(ReadMesh(options.Initial));
@@ -356,14 +417,13 @@ int Reconstruct(const ReconstructOptions& options)
 
   if (!options.Quiet)
   {
-    std::printf("points     %lld (%lld dropped)\n",
-      static_cast<long long>(points->GetNumberOfPoints()), FieldValue(mesh, "DroppedPoints"));
+    PrintPointCount(points, sampler, mesh);
     std::printf("vertices   %lld\n", static_cast<long long>(mesh->GetNumberOfPoints()));
     std::printf("triangles  %lld\n", static_cast<long long>(mesh->GetNumberOfPolys()));
     std::printf(
       "samples    %lld, ended by: %s\n", FieldValue(mesh, "Iterations"), filter->GetStopReason());
     PrintCheckpoint(filter);
-    PrintPhases(filter);
+    PrintPhases(filter, sampler);
     std::printf("time       %.2f s (reading %.2f, learning %.2f, writing %.2f)\n",
       reading + learning + writing, reading, learning, writing);
     PrintReport(mesh);
@@ -443,6 +503,17 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
       "Learn for so many seconds at most, and write the mesh learnt so far")
     ->check(CLI::Range(0.0, 1e9).description(""))
     ->type_name("SECONDS");
+  command->add_flag("--in-place", options->InPlace,
+    "Do not read INPUT, which may be larger than the memory, but draw as many points from it as "
+    "the "
+    "vertices need: binary .ply, .vtp appended raw");
+  AddChoice(command, "--raw", options->Raw,
+    { { "float", vtkNeuralMeshFileSampler::RAW_FLOAT },
+      { "double", vtkNeuralMeshFileSampler::RAW_DOUBLE } },
+    "INPUT is x y z in binary, of 4 or 8 bytes each, little-endian; drawn as with --in-place");
+  command->add_option("--skip", options->Skip, "With --raw: bytes before the first point")
+    ->check(CLI::Range(0LL, VTK_ID_MAX).description(""))
+    ->type_name("BYTES");
   command
     ->add_option("--threads", options->Threads,
       "Work on so many threads at most; 0 (default): on as many as the machine runs at once; the "

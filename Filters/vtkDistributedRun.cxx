@@ -30,11 +30,6 @@
 
 namespace
 {
-/// If nobody says how many points are taken: as many as learning draws samples, but enough for the
-/// rough shape and for a vote on point data.
-constexpr vtkIdType PointsPerVertex = 50;
-constexpr vtkIdType FewestPoints = 1000000;
-
 /// What process 0 tells the others: its progress, 0 to 1, or one of these.
 constexpr double Done = 2.0;
 constexpr double Failed = -1.0;
@@ -143,13 +138,10 @@ struct vtkDistributedRun::Census
   }
 };
 
-vtkDistributedRun::vtkDistributedRun(vtkNeuralMesh* filter, vtkMultiProcessController* controller,
-  vtkIdType maximumPoints, Others others)
+vtkDistributedRun::vtkDistributedRun(
+  vtkNeuralMesh* filter, vtkMultiProcessController* controller, Others others)
   : Filter(filter)
   , Controller(controller ? controller : this->Alone.Get())
-  , MaximumPoints(maximumPoints > 0
-        ? maximumPoints
-        : std::max(FewestPoints, PointsPerVertex * filter->GetNumberOfVertices()))
   , OfOthers(others)
   , Gatherer(this->Controller)
 {
@@ -162,6 +154,13 @@ bool vtkDistributedRun::IsRoot() const { return this->Controller->GetLocalProces
 int vtkDistributedRun::Execute(vtkInformationVector** inputVector,
   const WeightsFunction& collectWeights, const LearnFunction& learn)
 {
+  // The same on all processes, so that none waits for another.
+  if (*this->Filter->GetPointFileName() && this->Controller->GetNumberOfProcesses() > 1)
+  {
+    vtkErrorWithObjectMacro(this->Filter, << "PointFileName is for one process: give each process "
+                                             "a part of the cloud as its input.");
+    return 0;
+  }
   this->Collector.Collect(vtkDataObject::GetData(inputVector[0]));
   if (this->Collector.GetNumberOfOtherLeaves() > 0)
   {
@@ -184,7 +183,8 @@ int vtkDistributedRun::Execute(vtkInformationVector** inputVector,
   }
 
   const neuralmesh::CloudSelection selection(static_cast<std::uint64_t>(this->Filter->GetSeed()),
-    static_cast<std::uint64_t>(all.UsablePoints), static_cast<std::uint64_t>(this->MaximumPoints));
+    static_cast<std::uint64_t>(all.UsablePoints),
+    static_cast<std::uint64_t>(this->Filter->GetUsedMaximumPoints()));
   std::vector<std::size_t> taken;
   for (std::size_t i = 0; i < this->Collector.GetPoints().size(); ++i)
   {

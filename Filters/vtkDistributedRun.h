@@ -42,9 +42,9 @@ public:
     Help ///< by `learn` with the points of process 0, before they wait
   };
 
-  /** Takes about `maximumPoints` points; 0 for as many as the vertices need. */
-  vtkDistributedRun(vtkNeuralMesh* filter, vtkMultiProcessController* controller,
-    vtkIdType maximumPoints, Others others = Others::Wait);
+  /** Takes about as many points as the filter is to use. */
+  vtkDistributedRun(
+    vtkNeuralMesh* filter, vtkMultiProcessController* controller, Others others = Others::Wait);
   ~vtkDistributedRun();
 
   /** To be called by all processes. Returns what RequestData() returns, the same on all. */
@@ -80,7 +80,6 @@ private:
   vtkNeuralMesh* Filter;
   vtkNew<vtkDummyController> Alone;
   vtkMultiProcessController* Controller;
-  vtkIdType MaximumPoints;
   Others OfOthers;
   bool AllLearn = false;
   vtkPointGatherer Gatherer;

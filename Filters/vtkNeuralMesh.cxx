@@ -4,6 +4,7 @@
 #include "MeshBuilder.h"
 #include "Reconstruction.h"
 #include "ThreadPool.h"
+#include "vtkFilePoints.h"
 #include "vtkMeshArrays.h"
 #include "vtkNeuralMeshGrowth.h"
 #include "vtkNeuralMeshRun.h"
@@ -25,6 +26,7 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -66,6 +68,11 @@ unsigned ThreadsOf(int wanted)
   const int most = text ? std::atoi(text) : 0;
   return most > 0 ? std::min(available, static_cast<unsigned>(most)) : available;
 }
+
+/// How many points are used if nobody says: as many as samples are drawn, but enough to tell the
+/// shape.
+constexpr vtkIdType PointsPerVertex = 50;
+constexpr vtkIdType FewestPoints = 1000000;
 
 /// What the mesh is worth, in units of the input, where a unit of the cloud is so long.
 void AddQuality(const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output)
@@ -156,9 +163,9 @@ int vtkNeuralMesh::FillInputPortInformation(int port, vtkInformation* info)
   {
     return 0;
   }
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   if (port == 1)
   {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
     return 1;
   }
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
@@ -194,6 +201,22 @@ vtkPolyData* vtkNeuralMesh::GetFirstMesh()
 vtkTable* vtkNeuralMesh::GetLearningCurve()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+void vtkNeuralMesh::SetPointFileName(const char* name)
+{
+  const std::string wanted = name ? name : "";
+  if (this->PointFileName != wanted)
+  {
+    this->PointFileName = wanted;
+    this->Modified();
+  }
+}
+
+vtkIdType vtkNeuralMesh::GetUsedMaximumPoints() const
+{
+  return this->MaximumPoints > 0 ? this->MaximumPoints
+                                 : std::max(FewestPoints, PointsPerVertex * this->NumberOfVertices);
 }
 
 vtkInformation* vtkNeuralMesh::GetWeightArrayInformation()
@@ -285,7 +308,7 @@ vtkTypeBool vtkNeuralMesh::ProcessRequest(
   if (!this->GrowthAsTime || !this->Growth->Has(time))
   {
     this->Growth->Clear();
-    if (!this->Superclass::ProcessRequest(request, inputVector, outputVector))
+    if (!this->ExecuteOnCloud(request, inputVector, outputVector))
     {
       return 0;
     }
@@ -300,6 +323,53 @@ vtkTypeBool vtkNeuralMesh::ProcessRequest(
   this->Growth->Show(
     vtkNeuralMeshGrowth::StepOf(request, this->NumberOfSnapshots, outputVector), outputVector);
   return 1;
+}
+
+/// Executes with the input, or with the points of the file in its place.
+int vtkNeuralMesh::ExecuteOnCloud(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const bool hasInput = inputVector[0]->GetNumberOfInformationObjects() > 0;
+  const bool hasFile = !this->PointFileName.empty();
+  this->DrawingTime = 0.0;
+  if (hasInput == hasFile)
+  {
+    vtkErrorMacro(<< (hasInput ? "There are both an input and a PointFileName."
+                               : "There is neither an input nor a PointFileName."));
+    return 0;
+  }
+  if (hasInput)
+  {
+    return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+  }
+  const double begin = neuralmesh::cpuSeconds();
+  vtkSmartPointer<vtkPolyData> points;
+  try
+  {
+    const neuralmesh::PointFile file(this->PointFileName);
+    vtkNeuralMeshProgress progress(this);
+    points = vtkFilePoints::Draw(file, static_cast<std::uint64_t>(this->GetUsedMaximumPoints()),
+      static_cast<std::uint64_t>(this->Seed), [&progress](double) { return progress.Report(0.0); });
+  }
+  catch (const std::runtime_error& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+  this->DrawingTime = neuralmesh::cpuSeconds() - begin;
+  if (!points)
+  {
+    this->StopReason = neuralmesh::name(neuralmesh::StopReason::Cancelled).data();
+    this->AbortExecute = 0;
+    return 1;
+  }
+  vtkNew<vtkInformation> information;
+  information->Set(vtkDataObject::DATA_OBJECT(), points);
+  vtkNew<vtkInformationVector> cloud;
+  cloud->Append(information);
+  std::array<vtkInformationVector*, 2> inputs{ cloud,
+    this->GetNumberOfInputPorts() > 1 ? inputVector[1] : nullptr };
+  return this->Superclass::ProcessRequest(request, inputs.data(), outputVector);
 }
 
 /// Snapshots are kept if they are wanted as time steps, and shown to whoever observes them.
@@ -532,6 +602,8 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << #property ": " << this->property << "\n";
   NEURAL_MESH_FOR_EACH_PARAMETER(PRINT_PROPERTY)
 #undef PRINT_PROPERTY
+  os << indent << "PointFileName: " << this->PointFileName << "\n";
+  os << indent << "MaximumPoints: " << this->MaximumPoints << "\n";
   os << indent << "CarryPointData: " << this->CarryPointData << "\n";
   os << indent << "WeightArrayName: " << this->GetWeightArrayName() << "\n";
   os << indent << "GrowthAsTime: " << this->GrowthAsTime << "\n";
@@ -543,6 +615,7 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ResumedIterations: " << this->ResumedIterations << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "StopReason: " << this->StopReason << "\n";
+  os << indent << "DrawingTime: " << this->DrawingTime << "\n";
   os << indent << "CloudTime: " << this->CloudTime << "\n";
   os << indent << "StartTime: " << this->StartTime << "\n";
   os << indent << "LearningTime: " << this->LearningTime << "\n";

@@ -20,7 +20,7 @@
  * the cloud's bulk from it, are dropped and counted. Duplicates do no harm. Coordinates may be
  * large against the extent (UTM, say): the filter computes in coordinates of its own.
  * An input without points gives an empty output. An input whose points all coincide, or of which
- * none is finite, is an error.
+ * none is finite, is an error. Instead of an input, PointFileName may name a file.
  *
  * Input port 1, optional: a vtkPolyData with triangles to start from instead,
  * see SetFirstMeshConnection().
@@ -90,7 +90,7 @@
  * Jeong, S. Lee, Y. Lee, H.-P. Seidel, Neural meshes: surface reconstruction with a learning
  * algorithm, 2004.
  *
- * @sa vtkPNeuralMesh vtkSurfaceReconstructionFilter vtkExtractSurface
+ * @sa vtkPNeuralMesh vtkNeuralMeshFileSampler vtkSurfaceReconstructionFilter vtkExtractSurface
  * vtkHausdorffDistancePointSetFilter
  */
 
@@ -149,6 +149,33 @@ public:
   void SetFirstMeshData(vtkPolyData* mesh);
   vtkPolyData* GetFirstMesh();
   ///@}
+
+  ///@{
+  /**
+   * A file from which points are drawn where they lie, in place of the input: for clouds larger than
+   * the memory. MaximumPoints of them are drawn, or all if there are no more, as by
+   * vtkNeuralMeshFileSampler, which tells what files there may be: binary .ply, .vtp appended raw.
+   * (For raw coordinates, give the output of that class to the input.) It is an error to have both
+   * the file and an input, or neither, or if the file cannot be used; and, in vtkPNeuralMesh and
+   * vtkPNeuralMeshEnsemble, to have it with more than one process. Default none.
+   */
+  void SetPointFileName(VTK_FILEPATH const char* name);
+  VTK_FILEPATH const char* GetPointFileName() const { return this->PointFileName.c_str(); }
+  ///@}
+
+  ///@{
+  /**
+   * From how many points the mesh is made, about, where the cloud is the file PointFileName, and in
+   * vtkPNeuralMesh and vtkPNeuralMeshEnsemble whatever it is; from all if there are no more. More
+   * than 50 per vertex hardly change it, as no more samples are drawn. 0, the default, stands for
+   * 50 per vertex, but at least 1000000. At least 0.
+   */
+  vtkNeuralMeshSetClampMacro(MaximumPoints, vtkIdType, 0, VTK_UNSIGNED_INT_MAX);
+  vtkGetMacro(MaximumPoints, vtkIdType);
+  ///@}
+
+  /** MaximumPoints, or what 0 stands for. */
+  vtkIdType GetUsedMaximumPoints() const;
 
   ///@{
   /**
@@ -374,9 +401,11 @@ public:
 
   ///@{
   /**
-   * CPU seconds of the process that the last run spent on making the cloud ready, finding what to
-   * start from, learning, and the finish. They stand nowhere in the output.
+   * CPU seconds of the process that the last run spent on drawing points from PointFileName, making
+   * the cloud ready, finding what to start from, learning, and the finish. They stand nowhere in the
+   * output.
    */
+  double GetDrawingTime() const { return this->DrawingTime; }
   double GetCloudTime() const { return this->CloudTime; }
   double GetStartTime() const { return this->StartTime; }
   double GetLearningTime() const { return this->LearningTime; }
@@ -415,6 +444,8 @@ protected:
   const char* StopReason = "none"; ///< of the core: it is never freed
 
 private:
+  int ExecuteOnCloud(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
   vtkInformation* GetWeightArrayInformation();
   neuralmesh::GrowthWatch WatchGrowth(int precision);
   neuralmesh::CheckpointPlan PlanCheckpoint();
@@ -422,6 +453,8 @@ private:
   vtkNeuralMesh(const vtkNeuralMesh&) = delete;
   void operator=(const vtkNeuralMesh&) = delete;
 
+  std::string PointFileName;
+  vtkIdType MaximumPoints = 0;
   vtkTypeBool CarryPointData = 1;
   vtkIdType NumberOfVertices = 20000;
   int Seed = 1;
@@ -441,6 +474,7 @@ private:
   vtkTypeBool KeepCheckpoint = 0;
   vtkIdType ResumedIterations = 0;
   int OutputPointsPrecision = DEFAULT_PRECISION;
+  double DrawingTime = 0.0;
   double CloudTime = 0.0;
   double StartTime = 0.0;
   double LearningTime = 0.0;

@@ -21,7 +21,7 @@ vtkPNeuralMesh::~vtkPNeuralMesh() { this->SetController(nullptr); }
 int vtkPNeuralMesh::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkDistributedRun run(this, this->Controller, this->MaximumPoints);
+  vtkDistributedRun run(this, this->Controller);
   const int result = run.Execute(
     inputVector,
     [this](const vtkPointCloudCollector& collector, std::vector<double>& weights)
@@ -41,6 +41,5 @@ void vtkPNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Controller: " << this->Controller << "\n";
-  os << indent << "MaximumPoints: " << this->MaximumPoints << "\n";
   os << indent << "MovedBytes: " << this->MovedBytes << "\n";
 }

@@ -58,16 +58,6 @@ public:
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
   ///@}
 
-  ///@{
-  /**
-   * From how many points of the cloud the mesh is made, about; from all if there are no more. More
-   * than 50 per vertex hardly change it, as no more samples are drawn. 0, the default, stands for
-   * 50 per vertex, but at least 1000000. At least 0.
-   */
-  vtkNeuralMeshSetClampMacro(MaximumPoints, vtkIdType, 0, VTK_UNSIGNED_INT_MAX);
-  vtkGetMacro(MaximumPoints, vtkIdType);
-  ///@}
-
   /**
    * How many bytes of points and point data the other processes sent to process 0 in the last run;
    * known there, 0 elsewhere.
@@ -86,7 +76,6 @@ private:
   void operator=(const vtkPNeuralMesh&) = delete;
 
   vtkMultiProcessController* Controller = nullptr;
-  vtkIdType MaximumPoints = 0;
   vtkIdType MovedBytes = 0;
 };
 

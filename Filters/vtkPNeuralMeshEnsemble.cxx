@@ -36,8 +36,7 @@ void vtkPNeuralMeshEnsemble::PrepareRun(
 int vtkPNeuralMeshEnsemble::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkDistributedRun run(
-    this, this->Controller, this->MaximumPoints, vtkDistributedRun::Others::Help);
+  vtkDistributedRun run(this, this->Controller, vtkDistributedRun::Others::Help);
   this->Run = &run;
   const int result = run.Execute(
     inputVector,
@@ -67,6 +66,5 @@ void vtkPNeuralMeshEnsemble::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Controller: " << this->Controller << "\n";
-  os << indent << "MaximumPoints: " << this->MaximumPoints << "\n";
   os << indent << "MovedBytes: " << this->MovedBytes << "\n";
 }

@@ -20,7 +20,7 @@ forbid 'vtkPV|vtkSM([^P]|P[^T])|vtkSI|pq|CLI/|ErrorCollector|LearningParameters|
   Filters/*.h Filters/*.cxx
 # The header of a public class is installed; the core is not.
 for header in Filters/vtkNeuralMesh.h Filters/vtkNeuralMeshAlgorithm.h \
-  Filters/vtkNeuralMeshEnsemble.h Filters/vtkNeuralMeshComparison.h Filters/vtkNeuralMeshScan.h \
+  Filters/vtkNeuralMeshEnsemble.h Filters/vtkNeuralMeshComparison.h Filters/vtkNeuralMeshScan.h Filters/vtkNeuralMeshFileSampler.h Filters/vtkNeuralMeshStream.h \
   Filters/vtkPNeuralMesh.h Filters/vtkPNeuralMeshEnsemble.h; do
   if grep -nE '^ *# *include +"[^v]' "$header"; then
     failed=1

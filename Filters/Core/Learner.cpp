@@ -139,7 +139,7 @@ void Learner::learn(std::uint64_t sampleCount, const std::function<void()>& afte
 void Learner::learnBatch(std::size_t size)
 {
   const bool isGrowing = !this->hasAllVertices();
-  if (!isGrowing)
+  if (!isGrowing && !this->wanders_)
   {
     size = std::size_t(std::min<std::uint64_t>(size, this->samplesAfterGrowth_));
     this->samplesAfterGrowth_ -= size;
@@ -166,11 +166,33 @@ void Learner::learnBatch(std::size_t size)
         break;
       }
     }
+    else if (!isGrowing && this->wanders_ && this->isAdditionDue())
+    {
+      this->wander();
+    }
   }
   if (this->mesh_.vertexCount() >= this->nextRenumbering_)
   {
     this->renumber();
   }
+}
+
+void Learner::changeCloud(
+  const PointCloud& from, const PointCloud& to, const Parameters& parameters)
+{
+  for (VertexIndex v = 0; v < this->mesh_.indexEnd(); ++v)
+  {
+    if (this->mesh_.isAlive(v))
+    {
+      this->mesh_.setPosition(v, to.fromInput(from.toInput(this->mesh_.position(v))));
+    }
+  }
+  this->parameters_.numberOfVertices = parameters.numberOfVertices;
+  this->samples_ = SampleStream(to.points(), parameters.seed, to.weights());
+  this->boxMin_ = to.bulkMin();
+  this->boxMax_ = to.bulkMax();
+  this->mesh_.releaseErased();
+  this->renumber();
 }
 
 std::size_t Learner::batchSize() const

@@ -93,7 +93,17 @@ public:
   /// that feature strength takes.
   std::uint64_t samplesAfterGrowth() const { return this->samplesAfterGrowth_; }
   /// Whether there is nothing left to learn.
-  bool isComplete() const { return this->hasAllVertices() && this->samplesAfterGrowth_ == 0; }
+  bool isComplete() const
+  {
+    return this->hasAllVertices() && this->samplesAfterGrowth_ == 0 && !this->wanders_;
+  }
+
+  /// Has it go on once the mesh has all its vertices: then the laziest ones go where the mesh is
+  /// busiest, for as long as anybody likes. In the noise-filtering variant with exact counters.
+  void letWander() { this->wanders_ = true; }
+  /// Goes on with another cloud than `from`, in the coordinates of that, and with its number of
+  /// vertices and seed; it must outlive the learner. No topology is learnt then.
+  void changeCloud(const PointCloud& from, const PointCloud& to, const Parameters& parameters);
 
   /// Vertices in Morton order without gaps, in all structures.
   void renumber();
@@ -128,6 +138,7 @@ private:
   double patience() const; ///< by which C_vs is multiplied now
   bool isAdditionDue() const { return this->counts_.iterations >= this->nextAddition_; }
   void nodeAddition();
+  void wander();
   bool isRemovalDue() const
   {
     return (this->parameters_.filtersNoise() ? this->counts_.additions
@@ -176,6 +187,7 @@ private:
   float filterThreshold_ = 0.f; ///< epsilon_t of (9.2)
   float observationLimit_ = 0.f;
   float squaredRejectionLimit_ = 0.f;
+  bool wanders_ = false;
   bool isListDue_ = false; ///< as soon as the mesh is large enough
   std::size_t observationStride_ = 1;
   std::size_t untilObservation_ = 0;

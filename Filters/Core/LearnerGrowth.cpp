@@ -19,6 +19,9 @@ namespace
 constexpr int SplitAttempts = 8;
 /// Bounds of the share of activity that a vertex keeps in a split.
 constexpr double LeastShare = 0.05;
+/// A vertex is busy if it is so many times as active as all would be if they won equally often: then
+/// chance has the most active of a million at about twice that.
+constexpr double BusyFactor = 3.;
 }
 
 double Learner::patience() const
@@ -88,6 +91,34 @@ void Learner::nodeAddition()
     this->updateDecay();
     this->enterListIfDue();
     return;
+  }
+}
+
+void Learner::wander()
+{
+  const double usual = this->parameters_.counterHalfLife / std::log(2.);
+  if (this->order_->activity(this->order_->top()) < BusyFactor * usual)
+  {
+    this->nextAddition_ += std::uint64_t(this->parameters_.samplesPerAddition);
+    return;
+  }
+  bool isRemoved = false;
+  for (int attempt = 0; attempt < SplitAttempts && !isRemoved; ++attempt)
+  {
+    isRemoved = this->removeVertex(this->order_->bottom());
+    if (!isRemoved)
+    {
+      ++this->counts_.illegalOperations;
+      this->order_->promoteBottom();
+    }
+  }
+  if (isRemoved)
+  {
+    this->nodeAddition();
+  }
+  else
+  {
+    this->nextAddition_ += std::uint64_t(this->parameters_.samplesPerAddition);
   }
 }
 

@@ -37,6 +37,12 @@ public:
     return std::uint32_t(((this->next() >> 32) * bound) >> 32);
   }
 
+  std::uint64_t below64(std::uint64_t bound)
+  {
+    __extension__ using Wide = unsigned __int128;
+    return std::uint64_t(Wide(this->next()) * bound >> 64);
+  }
+
   /// Uniform in [0, 1).
   double uniform() { return double(this->next() >> 11) * 0x1p-53; }
 

@@ -58,17 +58,6 @@ StopReason learn(LearningState state, Checkpoint& checkpoint, const PointCloud& 
   }
 }
 
-/// A mesh that is finished learns no more vertices than there is something to learn for.
-Parameters learnable(Parameters parameters, const PointCloud& cloud)
-{
-  if (parameters.fitRounds > 0)
-  {
-    parameters.numberOfVertices = std::min<std::uint64_t>(
-      parameters.numberOfVertices, std::max(LeastLearnt, cloud.differentCount() / PointsPerVertex));
-  }
-  return parameters;
-}
-
 /// What is known before learning.
 struct Beginning
 {
@@ -104,6 +93,21 @@ Beginning beginFromSpace(const PointCloud& cloud, const Parameters& parameters,
   }
   return result;
 }
+}
+
+Parameters learnable(Parameters parameters, const PointCloud& cloud)
+{
+  if (parameters.fitRounds > 0)
+  {
+    parameters.numberOfVertices = std::min<std::uint64_t>(
+      parameters.numberOfVertices, std::max(LeastLearnt, cloud.differentCount() / PointsPerVertex));
+  }
+  return parameters;
+}
+
+std::size_t firstVertices(std::uint64_t vertices)
+{
+  return std::size_t(std::max(vertices / 8, std::min<std::uint64_t>(vertices / 2, 1500)));
 }
 
 double cpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }

@@ -44,6 +44,11 @@ struct Reconstruction
   double finishSeconds = 0.;
 };
 
+/// A mesh that is finished learns no more vertices than there is something to learn for.
+Parameters learnable(Parameters parameters, const PointCloud& cloud);
+/// Vertices of the first surface: a part of all, but enough for a shape, if all are twice as many.
+std::size_t firstVertices(std::uint64_t vertices);
+
 /// CPU seconds that the process has used so far.
 double cpuSeconds();
 

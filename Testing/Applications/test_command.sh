@@ -271,6 +271,47 @@ test_point_data()
   [ ! -e other.ply ] || fail "a mesh was written"
 }
 
+# Promise: a file is sampled in place, the same points by the same seed; where all points are drawn,
+# the mesh has the bytes of one from the file read whole. Raw coordinates are taken, too.
+test_in_place()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz cloud.ply --vertices 3000 --set FitRounds=0
+  expect 0 "$neuralmesh" reconstruct cloud.ply whole.ply --vertices 300
+  expect 0 "$neuralmesh" reconstruct cloud.ply all.ply --vertices 300 --in-place
+  grep -q '^points     3000 (3000 drawn, 0 of them dropped)$' out || { cat out; fail "not all"; }
+  grep -Eq '^phases .*[(]drawing [0-9.]+, cloud ' out || { cat out; fail "no time of drawing"; }
+  cmp whole.ply all.ply || fail "the file in place gave other bytes"
+  expect 0 "$neuralmesh" reconstruct cloud.ply a.ply --vertices 300 --in-place \
+    --set MaximumPoints=1500
+  grep -q '^points     3000 (1500 drawn' out || { cat out; fail "not as many as wanted"; }
+  expect 0 "$neuralmesh" reconstruct cloud.ply b.ply --vertices 300 --in-place \
+    --set MaximumPoints=1500
+  cmp a.ply b.ply || fail "the same seed drew other points"
+  expect 0 "$neuralmesh" reconstruct cloud.ply c.ply --vertices 300 --in-place --dry-run
+  [ ! -e c.ply ] || fail "a dry run wrote a mesh"
+
+  # 3000 points of 12 bytes stand behind the header.
+  local header
+  header=$(LC_ALL=C awk '{ bytes += length($0) + 1 } /^end_header/ { print bytes; exit }' cloud.ply)
+  tail -c +$((header + 1)) cloud.ply > behind_header
+  head -c 36000 behind_header > cloud.raw
+  expect 0 "$neuralmesh" reconstruct cloud.raw raw.ply --vertices 300 --raw float
+  grep -q '^points     3000 ' out || { cat out; fail "not all raw points"; }
+  { printf head; cat cloud.raw; } > behind.raw
+  expect 0 "$neuralmesh" reconstruct behind.raw d.ply --vertices 300 --raw float --skip 4
+  cmp raw.ply d.ply || fail "points behind other bytes gave another mesh"
+
+  expect 2 "$neuralmesh" reconstruct cloud.ply e.ply --skip 4
+  expect 1 "$neuralmesh" reconstruct cloud.xyz e.ply --in-place
+  grep -q '^neuralmesh: cloud.xyz: only .ply' err || { cat err; fail "another message"; }
+  head -c 20000 cloud.ply > short.ply
+  expect 1 "$neuralmesh" reconstruct short.ply e.ply --in-place
+  grep -q '^neuralmesh: short.ply: damaged: it ends' err || { cat err; fail "another message"; }
+  expect 1 "$neuralmesh" reconstruct cloud.raw e.ply --raw double --skip 1
+  [ "$(wc -l < err)" -eq 1 ] || { cat err; fail "the message is not one line"; }
+  [ ! -e e.ply ] || fail "a mesh was written"
+}
+
 # Promise: a dry run says what it will take, and writes nothing.
 test_dry_run()
 {

@@ -65,7 +65,7 @@ int TestNeuralMeshProperties(int, char*[])
       "EdgeFlips", "BatchSize", "MaximumIterations", "TargetSampleDistance", "TargetCloudDistance",
       "TimeLimit", "StallPatience", "NumberOfThreads", "OutputPointsPrecision", "GrowthAsTime",
       "NumberOfSnapshots", "CheckpointFileName", "CheckpointInterval", "KeepCheckpoint",
-      "ResumedIterations", "StopReason" })
+      "ResumedIterations", "PointFileName", "MaximumPoints", "StopReason" })
   {
     CHECK(text.str().find(std::string(property) + ": ") != std::string::npos);
   }

@@ -17,7 +17,7 @@ def arrays(fields):
 
 class Filters(unittest.TestCase):
     # Promise: after LoadPlugin the filters are functions in the namespace of the script that loaded
-    # it, and no other than the four.
+    # it, and no other than the five.
     def test_names(self):
         namespace = {}
         exec(
@@ -29,7 +29,8 @@ class Filters(unittest.TestCase):
         )
         self.assertEqual(support.information_of(namespace["mesh"]).GetNumberOfPoints(), 100)
         ours = {name for name in namespace if name.startswith("NeuralMesh")}
-        names = {"NeuralMesh", "NeuralMeshComparison", "NeuralMeshEnsemble", "NeuralMeshScan"}
+        names = {"NeuralMesh", "NeuralMeshComparison", "NeuralMeshEnsemble", "NeuralMeshFileSampler",
+                 "NeuralMeshScan"}
         self.assertEqual(ours, names)
 
     # Promise: a scan gives the points that are asked for, visible in any representation; the view

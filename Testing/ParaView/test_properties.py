@@ -14,11 +14,14 @@ CLASSES = {
     "NeuralMesh": neuralmesh.vtkPNeuralMesh,
     "NeuralMeshComparison": neuralmesh.vtkNeuralMeshComparison,
     "NeuralMeshEnsemble": neuralmesh.vtkPNeuralMeshEnsemble,
+    "NeuralMeshFileSampler": neuralmesh.vtkNeuralMeshFileSampler,
     "NeuralMeshScan": neuralmesh.vtkNeuralMeshScan,
 }
+SOURCES = {"NeuralMeshFileSampler"}
 # Setters without a property of their own name, and why.
 OTHERWISE = {
     "Controller": "that of ParaView",
+    "PointFileName": "the source Neural Mesh File Sampler, whose output any filter takes",
     "Preset": "sets other properties at once, which the panel would go on to show as they were",
     "FirstMeshConnection": "the input FirstMesh",
     "FirstMeshData": "the input FirstMesh",
@@ -41,6 +44,7 @@ FIRST = {
     "NeuralMesh": "NumberOfVertices",
     "NeuralMeshComparison": "NumberOfSamples",
     "NeuralMeshEnsemble": "NumberOfVertices",
+    "NeuralMeshFileSampler": "NumberOfPoints",
     "NeuralMeshScan": "NumberOfPoints",
 }
 GROUPS = ["Learning", "Growth", "Topology", "Noise", "Finish", "Output"]
@@ -50,8 +54,12 @@ def setUpModule():
     support.load_plugin()
 
 
+def group_of(name):
+    return "sources" if name in SOURCES else "filters"
+
+
 def prototype(name):
-    return servermanager.ProxyManager().GetPrototypeProxy("filters", name)
+    return servermanager.ProxyManager().GetPrototypeProxy(group_of(name), name)
 
 
 def everything_of(proxy):
@@ -211,7 +219,7 @@ class Properties(unittest.TestCase):
     # Promise: what is set in ParaView arrives in the object, and before that it has its defaults.
     def test_values_arrive(self):
         for name, cls in CLASSES.items():
-            proxy = servermanager.ProxyManager().NewProxy("filters", name)
+            proxy = servermanager.ProxyManager().NewProxy(group_of(name), name)
             proxy.UpdateVTKObjects()
             made = proxy.GetClientSideObject()
             self.assertIsInstance(made, cls)
@@ -325,7 +333,7 @@ class Panel(unittest.TestCase):
         self.assertEqual(views["NeuralMeshEnsemble", "1"], "XYChartView")
         self.assertEqual(views["NeuralMeshComparison", "2"], "SpreadSheetView")
         for name, cls in CLASSES.items():
-            proxy = servermanager.ProxyManager().NewProxy("filters", name)
+            proxy = servermanager.ProxyManager().NewProxy(group_of(name), name)
             ports = cls().GetNumberOfOutputPorts()
             self.assertEqual(proxy.GetNumberOfOutputPorts(), ports)
             self.assertNotIn("Output-0", [proxy.GetOutputPortName(i) for i in range(ports)])

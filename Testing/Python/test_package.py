@@ -67,7 +67,9 @@ class Functions(unittest.TestCase):
     # Promise: every function says what each parameter is, what comes out and what is raised, and
     # its types can be read.
     def test_documentation(self):
-        self.assertEqual(FUNCTIONS, [neuralmesh.compare, neuralmesh.reconstruct])
+        self.assertEqual(FUNCTIONS, [
+            neuralmesh.compare, neuralmesh.reconstruct, neuralmesh.stream
+        ])
         for function in FUNCTIONS:
             with self.subTest(function.__name__):
                 documentation = inspect.getdoc(function)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """reconstruct(): whatever holds the points, the mesh is that of the filter."""
 
+import pathlib
+import tempfile
 import unittest
 
 import neuralmesh
@@ -274,6 +276,43 @@ class PointData(unittest.TestCase):
         self.assertLess(values["Residual"], 0.05)
         self.assertGreater(values["Noise"], 0)
         self.assertEqual((values["OutlierShare"], values["Components"], values["Genus"]), (0, 1, 0))
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name) / "cloud.ply"
+
+    def write(self, cloud):
+        header = "ply\nformat binary_little_endian 1.0\nelement vertex %d\n" % len(cloud)
+        header += "".join(f"property float {axis}\n" for axis in "xyz") + "end_header\n"
+        self.path.write_bytes(header.encode() + cloud.astype("<f4").tobytes())
+
+    # Promise: points are drawn from a file where they lie: all of few, with the same bytes as from
+    # the array, else as many as are asked for.
+    def test_in_place(self):
+        cloud = support.sphere(5000, np.float32)
+        self.write(cloud)
+        wanted = support.arrays_of(neuralmesh.reconstruct(cloud, 300))
+        for path in (self.path, str(self.path)):
+            self.assertEqual(support.arrays_of(neuralmesh.reconstruct(path, 300)), wanted)
+        some = neuralmesh.reconstruct(self.path, 300, maximum_points=2000)
+        self.assertEqual(some.GetNumberOfPoints(), 300)
+        self.assertNotEqual(support.arrays_of(some), wanted)
+
+    # Promise: what is wrong with a file is a ValueError that names it.
+    def test_bad_files(self):
+        self.path.write_bytes(b"no ply")
+        with self.assertRaisesRegex(ValueError, "cloud.ply: this is no .ply"):
+            neuralmesh.reconstruct(self.path, 300)
+        with self.assertRaisesRegex(ValueError, "missing.ply: there is no such file"):
+            neuralmesh.reconstruct("missing.ply", 300)
+        with self.assertRaisesRegex(ValueError, "weights"):
+            neuralmesh.reconstruct(self.path, 300, weights="Trust")
+        self.write(np.empty((0, 3)))
+        with self.assertRaisesRegex(ValueError, "there are none"):
+            neuralmesh.reconstruct(self.path, 300)
 
 
 class BadPoints(unittest.TestCase):

@@ -4,10 +4,10 @@
 >>> import neuralmesh
 >>> mesh = neuralmesh.reconstruct(points, vertices=20000)
 
-reconstruct() does it in one call, compare() tells how far a mesh is from a reference. The VTK
-classes, vtkNeuralMesh and its sisters, are here for pipelines. The methods of a mesh and of all VTK
-objects are those of the package vtkmodules, which must be of the very VTK that this package was
-built with: VTK_VERSION.
+reconstruct() does it in one call, stream() while points arrive, compare() tells how far a mesh is
+from a reference. The VTK classes, vtkNeuralMesh and its sisters, are here for pipelines. The methods
+of a mesh and of all VTK objects are those of the package vtkmodules, which must be of the very VTK
+that this package was built with: VTK_VERSION.
 """
 
 from . import _vtk
@@ -17,4 +17,5 @@ _vtk.require_vtk(VTK_VERSION)
 
 from ._compare import compare
 from ._reconstruct import reconstruct
+from ._stream import stream
 from .vtkFiltersNeuralMesh import *

@@ -30,6 +30,17 @@ def execute(algorithm: vtkAlgorithm, progress: Progress | None = None) -> None:
     execution.report()
 
 
+def observed_call(
+    algorithm: vtkAlgorithm, progress: Progress | None, function: Callable, *arguments: object
+) -> object:
+    """Call a method of one of our filters that reports as an update does; its result."""
+    execution = _Execution(algorithm, progress)
+    with execution.observed(), _guarded_interrupts(execution.call):
+        result = function(*arguments)
+    execution.report()
+    return result
+
+
 def check_parameters(algorithm: vtkAlgorithm) -> None:
     """Raise ValueError if the properties of one of our filters do not go together."""
     execution = _Execution(algorithm, None)

@@ -9,13 +9,15 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkPolyData
 
 
-def as_dataset(points: object) -> vtkPointSet | vtkCompositeDataSet:
+def as_dataset(points: object, blocks: bool = True) -> vtkPointSet | vtkCompositeDataSet:
     """The dataset itself, or a vtkPolyData that refers to the coordinates of the array.
+
+    Without blocks, composite datasets are not taken.
 
     Arrays of 4-byte floats stay so; all other numbers become 8-byte floats. ValueError for
     anything but numbers of shape (N, 3).
     """
-    if isinstance(points, (vtkPointSet, vtkCompositeDataSet)):
+    if isinstance(points, (vtkPointSet, vtkCompositeDataSet) if blocks else vtkPointSet):
         return points
     array = _as_array(points)
     vtk_points = vtkPoints()

@@ -31,7 +31,7 @@ ENSEMBLE_PARAMETERS = {
 
 
 def reconstruct(
-    points: ArrayLike | vtkPointSet | vtkCompositeDataSet,
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | str | os.PathLike,
     vertices: int = 20000,
     seed: int = 1,
     *,
@@ -51,7 +51,9 @@ def reconstruct(
         points: The cloud: an array of shape (N, 3) of floats or integers of any kind and layout, a
             row for a point, in any unit of length; or a vtkPointSet, of which points and point
             data count; or a vtkCompositeDataSet, of which all point sets are taken as one cloud. No
-            normals are needed. Points with NaN or infinity are dropped.
+            normals are needed. Points with NaN or infinity are dropped. Or the path of a binary .ply,
+            or of a .vtp appended raw, from which maximum_points are drawn where they lie: it may be
+            larger than the memory.
         vertices: The number of vertices of the mesh, from 4 to 1000000000.
         seed: Seed of the random numbers, from 0 to 2147483647. The same points and seed give the
             same bytes; another seed gives another mesh of the same quality.
@@ -174,10 +176,15 @@ def require_one_start(ensemble: object, first_mesh: object) -> None:
 
 def set_input(
     mesh: vtkNeuralMesh,
-    points: ArrayLike | vtkPointSet | vtkCompositeDataSet,
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | str | os.PathLike,
     weights: ArrayLike | str | None,
 ) -> None:
     """Give the filter its points and their weights, as reconstruct() takes them."""
+    if isinstance(points, (str, os.PathLike)):
+        if weights is not None:
+            raise ValueError("weights cannot be given for points in a file")
+        mesh.SetPointFileName(os.fspath(points))
+        return
     dataset = as_dataset(points)
     if weights is not None:
         dataset, name = with_weights(dataset, weights)

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StreamingReconstruction.h"
+
+#include "FirstSurface.h"
+#include "MeshBuilder.h"
+#include "OccupiedVoxels.h"
+#include "Orientation.h"
+#include "OutlierClusters.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+/// With fewer there is nothing to see yet.
+constexpr std::size_t LeastPoints = 100;
+constexpr std::uint64_t SamplesPerCheck = 4096;
+
+/// The mesh is begun anew if so much more of the occupied space is away from it than when it was
+/// begun ...
+constexpr double MostUncovered = 0.02;
+/// ... or if there are so many times the points that it was begun with.
+constexpr std::size_t MorePoints = 2;
+
+/// Voxels to see that by are about an edge wide, but wide enough that so many points are in one, and
+/// within these resolutions.
+constexpr double PointsPerVoxel = 36.;
+constexpr double CoarsestCover = 4., FinestCover = 32.;
+
+/// The part of the space occupied by a cloud that is farther than a voxel from all vertices of a
+/// mesh, in the coordinates of another cloud.
+double uncoveredPart(const PointCloud& cloud, const Mesh& mesh, const PointCloud& ofMesh)
+{
+  const double edge = mesh.meanEdge() * ofMesh.unit() / cloud.unit();
+  const double wanted =
+    std::min(1. / edge, std::sqrt(double(cloud.points().size()) / PointsPerVoxel));
+  const OccupiedVoxels voxels =
+    occupiedVoxels(cloud, unsigned(std::clamp(wanted, CoarsestCover, FinestCover)));
+  const VoxelGrid& grid = voxels.grid;
+  std::vector<std::uint8_t> isCovered(grid.size() + 1, 0); // the last one for all places outside
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    if (!mesh.isAlive(v))
+    {
+      continue;
+    }
+    const Eigen::Vector3d place = cloud.fromInput(ofMesh.toInput(mesh.position(v))).toDouble();
+    for (int x = -1; x <= 1; ++x)
+    {
+      for (int y = -1; y <= 1; ++y)
+      {
+        for (int z = -1; z <= 1; ++z)
+        {
+          isCovered[grid.voxelAt(place + grid.width * Eigen::Vector3d(x, y, z))] = 1;
+        }
+      }
+    }
+  }
+  double occupied = 0., uncovered = 0.;
+  for (std::size_t voxel = 0; voxel < grid.size(); ++voxel)
+  {
+    occupied += voxels.isOccupied[voxel] ? 1. : 0.;
+    uncovered += voxels.isOccupied[voxel] && !isCovered[voxel] ? 1. : 0.;
+  }
+  return occupied > 0. ? uncovered / occupied : 0.;
+}
+}
+
+StreamingReconstruction::StreamingReconstruction(
+  const Parameters& parameters, std::size_t reservoirSize)
+  : parameters_(parameters)
+  , reservoir_(reservoirSize, parameters.seed)
+{
+}
+
+void StreamingReconstruction::addPoints(std::span<const Eigen::Vector3d> points)
+{
+  for (const Eigen::Vector3d& point : points)
+  {
+    if (point.allFinite())
+    {
+      this->reservoir_.add(point);
+    }
+    else
+    {
+      ++this->droppedCount_;
+    }
+  }
+}
+
+std::uint64_t StreamingReconstruction::sampleCount() const
+{
+  return this->earlierSamples_ + (this->learner_ ? this->learner_->counts().iterations : 0);
+}
+
+std::size_t StreamingReconstruction::vertexCount() const
+{
+  return this->learner_ ? this->learner_->mesh().vertexCount() : 0;
+}
+
+std::uint64_t StreamingReconstruction::learn(std::uint64_t samples, const Progress& progress)
+{
+  if (!this->takeInPoints(progress))
+  {
+    return 0;
+  }
+  Learner& learner = *this->learner_;
+  const std::uint64_t begin = learner.counts().iterations;
+  for (std::uint64_t learnt = 0; learnt < samples && progress(double(learnt) / double(samples));
+       learnt = learner.counts().iterations - begin)
+  {
+    learner.learn(std::min<std::uint64_t>(
+      samples - learnt, std::max<std::uint64_t>(SamplesPerCheck, learner.batchSize())));
+  }
+  return learner.counts().iterations - begin;
+}
+
+/// Has the mesh learn from the points that have come. False if there is no mesh then.
+bool StreamingReconstruction::takeInPoints(const Progress& progress)
+{
+  if (this->takenIn_ == this->reservoir_.seen() || this->reservoir_.points().size() < LeastPoints)
+  {
+    return this->hasMesh();
+  }
+  auto cloud = std::make_unique<PointCloud>(this->reservoir_.points());
+  if (!cloud->hasExtent())
+  {
+    return this->hasMesh();
+  }
+  if (auto cleaned = withoutClusters(*cloud))
+  {
+    *cloud = std::move(*cleaned);
+  }
+  Parameters parameters = learnable(this->parameters_, *cloud);
+  parameters.seed += this->clouds_++;
+  if (this->mustBegin(*cloud))
+  {
+    if (!this->begin(*cloud, parameters, progress))
+    {
+      return false;
+    }
+  }
+  else
+  {
+    this->learner_->changeCloud(*this->cloud_, *cloud, parameters);
+    if (this->bridgeWidth_)
+    {
+      *this->bridgeWidth_ *= this->cloud_->unit() / cloud->unit();
+    }
+  }
+  this->cloud_ = std::move(cloud);
+  this->takenIn_ = this->reservoir_.seen();
+  return true;
+}
+
+bool StreamingReconstruction::mustBegin(const PointCloud& cloud) const
+{
+  return !this->learner_ || cloud.points().size() >= MorePoints * this->pointsAtBeginning_ ||
+    uncoveredPart(cloud, this->learner_->mesh(), *this->cloud_) >
+    this->uncoveredAtBeginning_ + MostUncovered;
+}
+
+/// False if that was ended; then all is as before.
+bool StreamingReconstruction::begin(
+  const PointCloud& cloud, const Parameters& parameters, const Progress& progress)
+{
+  bool isEnded = false;
+  std::optional<FirstSurface> surface;
+  if (parameters.start == Start::OccupiedSpace)
+  {
+    surface = firstSurface(cloud, firstVertices(parameters.numberOfVertices), parameters.boundaries,
+      [&](double) { return !isEnded && !(isEnded = !progress(0.)); });
+  }
+  if (isEnded)
+  {
+    return false;
+  }
+  this->earlierSamples_ = this->sampleCount();
+  this->bridgeWidth_.reset();
+  if (surface)
+  {
+    this->learner_.emplace(cloud, parameters, surface->mesh);
+    if (parameters.boundaries == Boundaries::Keep)
+    {
+      this->bridgeWidth_ = surface->bridgeWidth;
+    }
+  }
+  else
+  {
+    this->learner_.emplace(cloud, parameters);
+  }
+  this->learner_->letWander();
+  this->pointsAtBeginning_ = cloud.points().size();
+  this->uncoveredAtBeginning_ = uncoveredPart(cloud, this->learner_->mesh(), cloud);
+  ++this->beginnings_;
+  return true;
+}
+
+Reconstruction StreamingReconstruction::mesh(bool isFinished, const Progress& progress) const
+{
+  Reconstruction result;
+  const Learner& learner = *this->learner_;
+  Mesh mesh = learner.mesh();
+  const std::vector<VertexIndex> learnt = mesh.dropErased();
+  result.counts = learner.counts();
+  result.counts.iterations = this->sampleCount();
+  Finish finish(*this->cloud_, mesh, this->parameters_, this->bridgeWidth_,
+    learner.hasAllVertices() ? std::size_t(this->parameters_.numberOfVertices) : learnt.size());
+  if (isFinished && this->parameters_.fitRounds > 0)
+  {
+    if (finish.run(progress))
+    {
+      result.finish = finish.report();
+    }
+    else
+    {
+      result.stopReason = StopReason::Cancelled;
+    }
+  }
+  orientOutwards(mesh);
+  result.mesh = trianglesOf(mesh, *this->cloud_);
+  result.normals = pointNormals(result.mesh);
+  for (const VertexIndex origin : finish.origins())
+  {
+    result.activities.push_back(learner.order().activity(learnt[origin]));
+  }
+  if (result.finish)
+  {
+    result.quality = measureQuality(*this->cloud_, mesh, result.mesh);
+  }
+  result.surface = std::move(mesh);
+  return result;
+}
+}

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNeuralMeshStream.h"
+
+#include "Parameters.h"
+#include "StreamingReconstruction.h"
+#include "vtkMeshArrays.h"
+#include "vtkNeuralMeshRun.h"
+#include "vtkPointCloudCollector.h"
+#include "vtkTriangleMeshCollector.h"
+
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <chrono>
+
+vtkStandardNewMacro(vtkNeuralMeshStream);
+
+namespace
+{
+/// Learnt between two looks at the clock.
+constexpr std::uint64_t SamplesPerLook = 20000;
+
+void Fill(const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output)
+{
+  output->SetPoints(
+    vtkTriangleMeshCollector::MakePoints(result.mesh, vtkAlgorithm::DOUBLE_PRECISION));
+  output->SetPolys(vtkTriangleMeshCollector::MakeCells(result.mesh));
+  output->GetPointData()->SetNormals(vtkMeshArrays::MakeNormals(result.normals));
+  output->GetPointData()->AddArray(vtkMeshArrays::MakeNumbers("Activity", result.activities));
+  if (!result.quality || !result.finish)
+  {
+    return;
+  }
+  const auto addNumber = [output](const char* name, double value)
+  { vtkMeshArrays::AddFieldValue<vtkDoubleArray>(output, name, value); };
+  const auto addCount = [output](const char* name, auto count)
+  { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count)); };
+  addNumber("Residual", result.quality->residual);
+  addNumber("Noise", result.finish->noise * unit);
+  addNumber("OutlierShare", result.quality->outlierShare);
+  addCount("Components", result.quality->surface.components);
+  addCount("Genus", result.quality->surface.genus.value_or(-1));
+  addCount("BoundaryLoops", result.quality->surface.boundaryLoops);
+}
+}
+
+vtkNeuralMeshStream::vtkNeuralMeshStream() { this->SetNumberOfInputPorts(0); }
+
+vtkNeuralMeshStream::~vtkNeuralMeshStream() = default;
+
+bool vtkNeuralMeshStream::Prepare()
+{
+  if (this->Stream)
+  {
+    return true;
+  }
+  if (!this->CheckParameters())
+  {
+    return false;
+  }
+  if (this->GetVariant() != NOISE_FILTERING || this->GetOrder() != EXACT ||
+    this->GetTopologyLearning() || this->GetComputeFeatureStrength())
+  {
+    vtkErrorMacro(<< "A stream is learnt in the noise-filtering variant with exact order only, and "
+                     "neither topology nor feature strength are.");
+    return false;
+  }
+  neuralmesh::Parameters parameters;
+  this->FillParameters(parameters);
+  parameters.numberOfVertices = static_cast<std::uint64_t>(this->NumberOfVertices);
+  parameters.seed = static_cast<std::uint64_t>(this->Seed);
+  this->Stream = std::make_unique<neuralmesh::StreamingReconstruction>(
+    parameters, static_cast<std::size_t>(this->ReservoirSize));
+  return true;
+}
+
+void vtkNeuralMeshStream::AddPoints(vtkPoints* points)
+{
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  this->AddPoints(data);
+}
+
+void vtkNeuralMeshStream::AddPoints(vtkPointSet* points)
+{
+  if (!this->Prepare())
+  {
+    return;
+  }
+  vtkPointCloudCollector collector;
+  collector.Collect(points);
+  this->Stream->addPoints(collector.GetPoints());
+}
+
+vtkIdType vtkNeuralMeshStream::Learn(vtkIdType samples)
+{
+  if (!this->Prepare())
+  {
+    return 0;
+  }
+  vtkNeuralMeshProgress progress(this);
+  const std::uint64_t learnt =
+    this->Stream->learn(static_cast<std::uint64_t>(std::max<vtkIdType>(0, samples)),
+      [&progress](double fraction) { return progress.Report(fraction); });
+  this->AbortExecute = 0;
+  this->Modified();
+  return static_cast<vtkIdType>(learnt);
+}
+
+vtkIdType vtkNeuralMeshStream::LearnForSeconds(double seconds)
+{
+  if (!this->Prepare())
+  {
+    return 0;
+  }
+  vtkNeuralMeshProgress progress(this);
+  bool goesOn = true;
+  std::uint64_t all = 0, learnt = 0;
+  do
+  {
+    learnt = this->Stream->learn(SamplesPerLook,
+      [&](double)
+      {
+        return goesOn = progress.Report(
+                 seconds > 0.0 ? std::min(1.0, progress.GetSeconds() / seconds) : 1.0);
+      });
+    all += learnt;
+  } while (goesOn && learnt > 0 && progress.GetSeconds() < seconds);
+  this->AbortExecute = 0;
+  this->Modified();
+  return static_cast<vtkIdType>(all);
+}
+
+void vtkNeuralMeshStream::Reset()
+{
+  this->Stream.reset();
+  this->Modified();
+}
+
+vtkIdType vtkNeuralMeshStream::GetNumberOfAddedPoints() const
+{
+  return this->Stream ? static_cast<vtkIdType>(this->Stream->pointCount()) : 0;
+}
+
+vtkIdType vtkNeuralMeshStream::GetNumberOfDroppedPoints() const
+{
+  return this->Stream ? static_cast<vtkIdType>(this->Stream->droppedCount()) : 0;
+}
+
+vtkIdType vtkNeuralMeshStream::GetNumberOfLearntSamples() const
+{
+  return this->Stream ? static_cast<vtkIdType>(this->Stream->sampleCount()) : 0;
+}
+
+vtkIdType vtkNeuralMeshStream::GetNumberOfLearntVertices() const
+{
+  return this->Stream ? static_cast<vtkIdType>(this->Stream->vertexCount()) : 0;
+}
+
+vtkIdType vtkNeuralMeshStream::GetNumberOfBeginnings() const
+{
+  return this->Stream ? static_cast<vtkIdType>(this->Stream->beginnings()) : 0;
+}
+
+int vtkNeuralMeshStream::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  if (!this->Stream || !this->Stream->hasMesh())
+  {
+    return 1;
+  }
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  vtkNeuralMeshProgress progress(this);
+  const neuralmesh::Reconstruction result = this->Stream->mesh(
+    this->FinishOutput, [&progress](double fraction) { return progress.Report(fraction); });
+  this->AbortExecute = 0;
+  Fill(result, this->Stream->unit(), output);
+  const auto add = [output](const char* name, vtkIdType value)
+  { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, value); };
+  add("NumberOfVertices", output->GetNumberOfPoints());
+  add("Iterations", this->GetNumberOfLearntSamples());
+  add("Points", this->GetNumberOfAddedPoints());
+  add("DroppedPoints", this->GetNumberOfDroppedPoints());
+  add("Beginnings", this->GetNumberOfBeginnings());
+  return 1;
+}
+
+void vtkNeuralMeshStream::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfVertices: " << this->NumberOfVertices << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "ReservoirSize: " << this->ReservoirSize << "\n";
+  os << indent << "FinishOutput: " << this->FinishOutput << "\n";
+  os << indent << "NumberOfAddedPoints: " << this->GetNumberOfAddedPoints() << "\n";
+  os << indent << "NumberOfDroppedPoints: " << this->GetNumberOfDroppedPoints() << "\n";
+  os << indent << "NumberOfLearntSamples: " << this->GetNumberOfLearntSamples() << "\n";
+  os << indent << "NumberOfLearntVertices: " << this->GetNumberOfLearntVertices() << "\n";
+  os << indent << "NumberOfBeginnings: " << this->GetNumberOfBeginnings() << "\n";
+}

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The function stream()."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+from vtkmodules.vtkCommonDataModel import vtkPointSet, vtkPolyData
+
+from ._execution import Progress, execute, observed_call
+from ._parameters import assign, parameters_of, refuse_unknown, table
+from ._points import as_dataset
+from .vtkFiltersNeuralMesh import vtkNeuralMeshStream
+
+_NAMED = ("number_of_vertices", "seed", "reservoir_size", "finish_output")
+# A stream is learnt in one variant, with one order; so these can have no other value.
+_FIXED = ("variant", "order", "preset", "topology_learning", "compute_feature_strength")
+PARAMETERS = {
+    name: parameter
+    for name, parameter in parameters_of(vtkNeuralMeshStream).items()
+    if name not in _NAMED + _FIXED
+}
+
+
+class Stream:
+    """A mesh that is learnt while points arrive; made by stream()."""
+
+    def __init__(self, algorithm: vtkNeuralMeshStream):
+        self._algorithm = algorithm
+
+    def add_points(self, points: ArrayLike | vtkPointSet) -> None:
+        """Add points, which count from the next learn() on.
+
+        Args:
+            points: An array of shape (N, 3) of numbers, or a vtkPointSet. Points with NaN or infinity
+                are dropped. Add them in large pieces: each learn() after that takes time in
+                proportion to the reservoir.
+
+        Raises:
+            ValueError: points are something else.
+        """
+        self._call(self._algorithm.AddPoints, as_dataset(points, blocks=False))
+
+    def learn(
+        self,
+        samples: int | None = None,
+        *,
+        seconds: float | None = None,
+        progress: Progress | None = None,
+    ) -> int:
+        """Learn, and return the number of samples that were learnt.
+
+        Args:
+            samples: How many to learn; the default, 60 for each vertex and 150000 more, lets a mesh
+                grow to all its vertices.
+            seconds: How long to learn instead, about; the mesh then depends on the machine.
+            progress: As in reconstruct(); if it returns False, learning ends.
+
+        Raises:
+            ValueError: samples or seconds are not above 0, or both are given.
+        """
+        if samples is not None and seconds is not None:
+            raise ValueError("samples and seconds exclude each other")
+        wanted = seconds if seconds is not None else samples
+        if wanted is not None and not wanted > 0:
+            raise ValueError(f"samples or seconds must be above 0, not {wanted!r}")
+        if seconds is not None:
+            return self._call(self._algorithm.LearnForSeconds, float(seconds), progress=progress)
+        if samples is None:
+            samples = 60 * self._algorithm.GetNumberOfVertices() + 150000
+        return self._call(self._algorithm.Learn, int(samples), progress=progress)
+
+    def mesh(self, finish: bool = True, *, progress: Progress | None = None) -> vtkPolyData:
+        """The mesh learnt so far; the stream goes on afterwards.
+
+        Args:
+            finish: Whether it is fitted to the points, as reconstruct() does in the end. False is for
+                looking on: that takes no time.
+            progress: As in reconstruct(); if it returns False, the mesh is fitted in part only.
+
+        Returns:
+            vtkPolyData as from reconstruct(), in 8-byte floats, without point data but `Normals` and
+            `Activity`; without points as long as there are too few for a mesh. Field data as in
+            vtkNeuralMeshStream.
+        """
+        self._algorithm.SetFinishOutput(bool(finish))
+        execute(self._algorithm, progress)
+        result = vtkPolyData()
+        result.ShallowCopy(self._algorithm.GetOutput())
+        return result
+
+    @property
+    def points(self) -> int:
+        """How many points came and are finite."""
+        return self._algorithm.GetNumberOfAddedPoints()
+
+    @property
+    def samples(self) -> int:
+        """How many samples were learnt."""
+        return self._algorithm.GetNumberOfLearntSamples()
+
+    @property
+    def vertices(self) -> int:
+        """How many vertices the mesh has now."""
+        return self._algorithm.GetNumberOfLearntVertices()
+
+    @property
+    def beginnings(self) -> int:
+        """How often the mesh was begun: anew where points came that it did not reach."""
+        return self._algorithm.GetNumberOfBeginnings()
+
+    def _call(self, function, *arguments, progress: Progress | None = None):
+        return observed_call(self._algorithm, progress, function, *arguments)
+
+
+def stream(
+    vertices: int = 20000,
+    seed: int = 1,
+    reservoir: int = 500000,
+    **parameters: float | bool | str,
+) -> Stream:
+    """Begin a mesh that is learnt while points arrive, from a scanner, say.
+
+    The same calls give the same bytes. See Documentation/Streaming.md.
+
+    Args:
+        vertices: The number of vertices of the mesh, from 4 to 1000000000.
+        seed: Seed of the random numbers, from 0 to 2147483647.
+        reservoir: How many points are kept to learn from, from 100 to 4294967295, of any number that
+            come, each with the same chance. About 130 bytes each.
+        **parameters: Any other property of vtkNeuralMeshStream, in snake case. Names, defaults and
+            ranges:
+
+{table}
+
+    Returns:
+        A Stream, with the methods add_points(), learn() and mesh().
+
+    Raises:
+        ValueError: A parameter is out of its range, which the message names.
+        TypeError: There is no such parameter.
+
+    Example:
+        >>> stream = neuralmesh.stream(vertices=5000)
+        >>> for points in scanner:
+        ...     stream.add_points(points)
+        ...     stream.learn()
+        >>> mesh = stream.mesh()
+    """
+    refuse_unknown("stream", parameters, PARAMETERS)
+    algorithm = vtkNeuralMeshStream()
+    assign(algorithm, "number_of_vertices", vertices, shown_name="vertices")
+    assign(algorithm, "seed", seed)
+    assign(algorithm, "reservoir_size", reservoir, shown_name="reservoir")
+    for name, value in parameters.items():
+        assign(algorithm, name, value)
+    return Stream(algorithm)
+
+
+if stream.__doc__:
+    stream.__doc__ = stream.__doc__.replace("{table}\n", table(PARAMETERS))
