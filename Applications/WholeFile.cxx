@@ -3,6 +3,9 @@
 
 #include "FileExtension.h"
 
+#include <array>
+#include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -14,6 +17,40 @@ namespace
 std::filesystem::path FolderOf(const std::filesystem::path& path)
 {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+/** What the names of all temporary files for a target begin with, on this machine. */
+std::string TemporaryPrefix(const std::filesystem::path& target)
+{
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  return "." + target.stem().string() + "." + host.data() + ".";
+}
+
+bool IsRunning(pid_t process) { return kill(process, 0) == 0 || errno != ESRCH; }
+
+/** Removes the temporary files of processes that were killed while they wrote this target. */
+void RemoveLeftovers(const std::filesystem::path& target)
+{
+  const std::string prefix = TemporaryPrefix(target);
+  const std::string extension = FileExtension(target.string());
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(FolderOf(target), ignored))
+  {
+    const std::string name = entry.path().filename().string();
+    if (name.size() <= prefix.size() + extension.size() || !name.starts_with(prefix) ||
+      !name.ends_with(extension))
+    {
+      continue;
+    }
+    const std::string process =
+      name.substr(prefix.size(), name.size() - prefix.size() - extension.size());
+    const bool isNumber = process.find_first_not_of("0123456789") == std::string::npos;
+    if (isNumber && process.size() < 10 && !IsRunning(std::stoi(process)))
+    {
+      std::filesystem::remove(entry.path(), ignored);
+    }
+  }
 }
 }
 
@@ -39,9 +76,9 @@ void WriteWholeFile(const std::string& path, const std::function<void(const std:
 {
   RequireWritablePlace(path);
   const std::filesystem::path target(path);
-  std::string name = ".";
-  name += target.stem().string() + "." + std::to_string(getpid()) + FileExtension(path);
-  const std::filesystem::path temporary = FolderOf(target) / name;
+  RemoveLeftovers(target);
+  const std::filesystem::path temporary =
+    FolderOf(target) / (TemporaryPrefix(target) + std::to_string(getpid()) + FileExtension(path));
   try
   {
     write(temporary.string());

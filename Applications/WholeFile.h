@@ -15,6 +15,9 @@ void RequireWritablePlace(const std::string& path);
 /**
  * Has `write` write a file under another name beside `path`, with the extension in small letters,
  * and renames it: nobody ever sees half of it, and if writing fails, what was there before stays.
+ * The other name is hidden, and made of that of the file, of the machine and of the process. A
+ * process that is killed while it writes leaves it behind; the next one that writes the same file on
+ * the same machine removes it.
  * Throws std::runtime_error, with a message that names the file, where `write` throws or the
  * renaming fails.
  */
