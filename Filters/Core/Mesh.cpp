@@ -236,9 +236,13 @@ bool Mesh::canFlip(VertexIndex a, VertexIndex b) const
 {
   const Ring& ring = this->ring(a);
   const unsigned slot = ring.find(b);
+  if (slot == ring.size())
+  {
+    return false;
+  }
   const VertexIndex c = ring.next(slot);
   const VertexIndex d = ring.previous(slot);
-  if (slot == ring.size() || c == NoVertex || d == NoVertex)
+  if (c == NoVertex || d == NoVertex)
   {
     return false;
   }

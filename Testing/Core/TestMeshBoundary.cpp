@@ -210,7 +210,7 @@ TEST(MeshBoundary, JoinRefusesWhatAreNoLoops)
 
   auto part = loops.first;
   part.pop_back();
-  EXPECT_FALSE(mesh.canJoin(part, loops.second, evenStrip(4, 5)));
+  EXPECT_FALSE(mesh.canJoin(part, loops.second, Strip(strip.begin() + 1, strip.end())));
   auto twice = loops.first;
   twice.insert(twice.end(), loops.first.begin(), loops.first.end());
   EXPECT_FALSE(mesh.canJoin(twice, loops.second, evenStrip(10, 5)));
@@ -219,9 +219,11 @@ TEST(MeshBoundary, JoinRefusesWhatAreNoLoops)
   EXPECT_FALSE(mesh.canJoin(against, loops.second, strip));
   EXPECT_FALSE(mesh.canJoin(loops.first, against, strip));
   EXPECT_FALSE(mesh.canJoin(tube.rings[0], loops.second, strip));
-  EXPECT_FALSE(mesh.canJoin({}, loops.second, evenStrip(0, 5)));
-  EXPECT_FALSE(mesh.canJoin(loops.first, loops.second, evenStrip(5, 4)));
-  EXPECT_FALSE(mesh.canJoin(loops.first, loops.second, evenStrip(6, 4)));
+  EXPECT_FALSE(mesh.canJoin({}, loops.second, Strip(5, false)));
+  EXPECT_FALSE(mesh.canJoin(loops.first, loops.second, Strip(strip.begin(), strip.end() - 1)));
+  Strip other = strip;
+  other.back() = true;
+  EXPECT_FALSE(mesh.canJoin(loops.first, loops.second, other));
 }
 
 // An edge that is there already is no edge of a strip.
