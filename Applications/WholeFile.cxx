@@ -24,7 +24,9 @@ std::string TemporaryPrefix(const std::filesystem::path& target)
 {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
-  return "." + target.stem().string() + "." + host.data() + ".";
+  std::string prefix = ".";
+  prefix.append(target.stem().string()).append(".").append(host.data()).append(".");
+  return prefix;
 }
 
 bool IsRunning(pid_t process) { return kill(process, 0) == 0 || errno != ESRCH; }
