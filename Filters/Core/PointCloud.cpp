@@ -92,6 +92,10 @@ PointCloud::PointCloud(
     }
   }
   this->droppedCount_ += finite.size() - scaled.size();
+  if (scaled.empty())
+  {
+    return; // the extent of all of them is beyond all numbers
+  }
   this->diagonal_ = box.diagonal().norm();
 
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.25);
