@@ -49,6 +49,13 @@ configure()
   rm -f "$folder.log"
 }
 
+# Configures if there is need, by a preset: configure_preset NAME.
+configure_preset()
+{
+  local log
+  log=$(cmake --preset "$1" 2>&1) || { echo "$log"; return 1; }
+}
+
 # Configures if there is need, and builds: build FOLDER TARGET [CMAKE-OPTION...].
 build()
 {

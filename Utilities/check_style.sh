@@ -1,13 +1,19 @@
 #!/usr/bin/env bash
-# Whether all C++ is formatted as .clang-format says, and clang-tidy finds nothing in the core, the
-# filters and the command.
+# Whether all C++ is formatted as .clang-format says, and cppcheck and clang-tidy find nothing in the
+# core, the filters and the command.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source Utilities/build.sh
 
-install_packages "${build_packages[@]}" clang-format clang-tidy
+install_packages "${build_packages[@]}" clang-format clang-tidy cppcheck
 git ls-files '*.h' '*.cpp' '*.cxx' | xargs clang-format --dry-run --Werror
 echo "clang-format: all well"
+
+# Of style there is clang-tidy to judge.
+git ls-files 'Filters/*.cpp' 'Filters/*.cxx' 'Applications/*.cxx' |
+  cppcheck --enable=warning,performance,portability --std=c++20 --language=c++ --quiet \
+    -I Filters/Core -I Filters -I Applications --error-exitcode=1 -j "$(nproc)" --file-list=-
+echo "cppcheck: all well"
 
 # A dozen sources at a time: a fifth of the time, as most of it goes into the headers they include.
 # They are copied into one, as the analyzer leaves included ones out.

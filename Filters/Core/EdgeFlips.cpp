@@ -67,6 +67,10 @@ bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims)
 {
   const Ring& ring = mesh.ring(a);
   const unsigned slot = ring.find(b);
+  if (slot == ring.size())
+  {
+    return false;
+  }
   const VertexIndex c = ring.next(slot);
   const VertexIndex d = ring.previous(slot);
   if (c == NoVertex || d == NoVertex)

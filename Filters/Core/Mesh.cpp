@@ -89,7 +89,7 @@ bool Mesh::canSplit(VertexIndex v, unsigned first, unsigned steps) const
 {
   const Ring& ring = this->ring(v);
   const unsigned size = ring.size();
-  if (steps < 1 || steps >= size)
+  if (steps < 1 || steps >= size || first >= size)
   {
     return false;
   }
@@ -168,6 +168,10 @@ bool Mesh::canCollapse(VertexIndex removed, VertexIndex kept) const
   const Ring& ring = this->ring(removed);
   const Ring& keptRing = this->ring(kept);
   const unsigned slot = ring.find(kept);
+  if (slot == ring.size())
+  {
+    return false;
+  }
   const VertexIndex left = ring.next(slot);
   const VertexIndex right = ring.previous(slot);
   const bool boundaryEdge = left == NoVertex || right == NoVertex;
@@ -232,6 +236,10 @@ bool Mesh::canFlip(VertexIndex a, VertexIndex b) const
 {
   const Ring& ring = this->ring(a);
   const unsigned slot = ring.find(b);
+  if (slot == ring.size())
+  {
+    return false;
+  }
   const VertexIndex c = ring.next(slot);
   const VertexIndex d = ring.previous(slot);
   if (c == NoVertex || d == NoVertex)

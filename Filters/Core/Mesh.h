@@ -20,8 +20,8 @@ using Triangle = std::array<VertexIndex, 3>;
 /// its vertices. 80 bytes a vertex: a ring of 64 and a position of 16. Triangles are implied: each
 /// is found in the rings of its three corners.
 ///
-/// Every operation keeps the manifold; what would break it is refused by the `can` functions,
-/// which must be asked first. So is what would lift a valence above Ring::Capacity.
+/// Every operation keeps the manifold; what would break it, or lift a valence above Ring::Capacity,
+/// is refused by the `can` functions. They must be asked first; any index below indexEnd() will do.
 ///
 /// Indices stay valid until renumber(); those of erased vertices are used again for new ones, but
 /// only after releaseErased(), so that nobody takes the one for the other in between.

@@ -12,6 +12,25 @@ namespace neuralmesh
 {
 namespace
 {
+/// Whether these are the vertices of a boundary loop, each once: in its direction, or against it.
+bool isLoop(const Mesh& mesh, std::span<const VertexIndex> vertices, bool against)
+{
+  const auto follows = [&](std::size_t i)
+  {
+    const Ring& ring = mesh.ring(vertices[i]);
+    const VertexIndex next = vertices[(i + 1) % vertices.size()];
+    return ring.isOpen() && (against ? ring.front() : ring.back()) == next;
+  };
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    if (!follows(i) || (i > 0 && vertices[i] == vertices[0]))
+    {
+      return false;
+    }
+  }
+  return !vertices.empty();
+}
+
 /// The edges across a strip, as it is walked once around; the first edge is the last.
 std::vector<std::pair<VertexIndex, VertexIndex>> stripEdges(std::span<const VertexIndex> first,
   std::span<const VertexIndex> second, const std::vector<bool>& alongFirst)
@@ -126,6 +145,14 @@ Mesh::Removal Mesh::removeTriangles(std::span<const Triangle> triangles)
 bool Mesh::canJoin(std::span<const VertexIndex> first, std::span<const VertexIndex> second,
   const std::vector<bool>& alongFirst) const
 {
+  const auto stepsAlongFirst = std::count(alongFirst.begin(), alongFirst.end(), true);
+  if (!isLoop(*this, first, false) || !isLoop(*this, second, true) ||
+    std::find(second.begin(), second.end(), first[0]) != second.end() ||
+    std::size_t(stepsAlongFirst) != first.size() ||
+    alongFirst.size() != first.size() + second.size())
+  {
+    return false;
+  }
   std::vector<std::pair<VertexIndex, VertexIndex>> edges = stripEdges(first, second, alongFirst);
   const auto fits = [&](VertexIndex v, auto end)
   {
@@ -176,6 +203,10 @@ void Mesh::join(std::span<const VertexIndex> first, std::span<const VertexIndex>
 bool Mesh::canFill(VertexIndex v) const
 {
   const Ring& ring = this->ring(v);
+  if (!ring.isOpen())
+  {
+    return false;
+  }
   const VertexIndex before = ring.front();
   const VertexIndex after = ring.back();
   if (this->ring(after).back() == before)
@@ -188,7 +219,7 @@ bool Mesh::canFill(VertexIndex v) const
 
 void Mesh::fill(VertexIndex v)
 {
-  assert(this->isBoundary(v) && this->canFill(v));
+  assert(this->canFill(v));
   Ring& ring = this->rings_[v];
   Ring& before = this->rings_[ring.front()];
   Ring& after = this->rings_[ring.back()];

@@ -93,7 +93,7 @@ void splitFan(TriangleMesh& mesh, std::uint32_t point, const Fan& fan)
   const std::size_t count = fan.corners.size();
   const std::size_t parts =
     std::max<std::size_t>(3, (count + TrianglesOfPart - 1) / TrianglesOfPart);
-  const auto begin = [&](std::size_t part) { return part * count / parts; };
+  const auto firstOf = [&](std::size_t part) { return part * count / parts; };
   // The fan without a seam.
   std::vector<VertexIndex> neighbors = fan.neighbors;
   if (!fan.isOpen)
@@ -104,14 +104,14 @@ void splitFan(TriangleMesh& mesh, std::uint32_t point, const Fan& fan)
   for (std::size_t part = 0; part < parts; ++part)
   {
     const auto added = std::uint32_t(firstAdded + part);
-    mesh.points.push_back(centerOfPart(
-      mesh, point, std::span(neighbors).subspan(begin(part), begin(part + 1) - begin(part) + 1)));
-    for (std::size_t i = begin(part); i < begin(part + 1); ++i)
+    mesh.points.push_back(centerOfPart(mesh, point,
+      std::span(neighbors).subspan(firstOf(part), firstOf(part + 1) - firstOf(part) + 1)));
+    for (std::size_t i = firstOf(part); i < firstOf(part + 1); ++i)
     {
       mesh.triangles[fan.corners[i] / 3][fan.corners[i] % 3] = added;
     }
     // Where this part meets the one before it.
-    const std::uint32_t shared = neighbors[begin(part)];
+    const std::uint32_t shared = neighbors[firstOf(part)];
     if (part > 0 || !fan.isOpen)
     {
       const auto before = std::uint32_t(part > 0 ? added - 1 : firstAdded + parts - 1);

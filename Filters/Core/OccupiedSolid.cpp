@@ -48,8 +48,9 @@ void dropStrayPieces(const VoxelGrid& grid, Voxels& inside)
   for (const auto& piece : pieces)
   {
     const bool isSmall = double(piece.size()) < LeastPartOfPiece * double(largest->size());
-    const bool isCluster = double(piece.size()) < MostPartOfCluster * double(all) &&
-      fullness(grid, inside, piece) > ClusterFullness * usual + ClusterFullnessOffset;
+    const bool isMinor = double(piece.size()) < MostPartOfCluster * double(all);
+    const bool isCluster =
+      isMinor && fullness(grid, inside, piece) > ClusterFullness * usual + ClusterFullnessOffset;
     if (isSmall || isCluster)
     {
       for (const std::size_t voxel : piece)

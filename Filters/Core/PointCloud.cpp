@@ -94,6 +94,10 @@ PointCloud::PointCloud(std::span<const Eigen::Vector3d> points, std::span<const 
     }
   }
   this->droppedCount_ += finite.size() - scaled.size();
+  if (scaled.empty())
+  {
+    return; // the extent of all of them is beyond all numbers
+  }
   this->diagonal_ = box.diagonal().norm();
 
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.25);

@@ -2,8 +2,10 @@
 #include "WholeFile.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -22,11 +24,14 @@ fs::path folderOf(const fs::path& path)
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Names of temporary files are a beginning, the number of the process, and an end.
+/// Names of temporary files are a beginning, which tells the machine, the number of the process, and
+/// an end.
 std::string beginOfTemporary(const fs::path& path)
 {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
   std::string result(".");
-  return result += path.stem().string() += ".";
+  return result.append(path.stem().string()).append(".").append(host.data()).append(".");
 }
 
 std::string endOfTemporary(const fs::path& path)
@@ -37,14 +42,28 @@ std::string endOfTemporary(const fs::path& path)
   return extension;
 }
 
-bool isTemporaryOf(const fs::path& path, const std::string& name)
+bool isRunning(pid_t process) { return kill(process, 0) == 0 || errno != ESRCH; }
+
+/// Removes the temporary files of processes that were killed while they wrote this file.
+void removeLeftovers(const fs::path& path)
 {
   const std::string begin = beginOfTemporary(path), end = endOfTemporary(path);
-  return name.size() > begin.size() + end.size() && name.starts_with(begin) &&
-    name.ends_with(end) &&
-    std::all_of(name.begin() + std::ptrdiff_t(begin.size()),
-      name.end() - std::ptrdiff_t(end.size()),
-      [](unsigned char c) { return std::isdigit(c) != 0; });
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folderOf(path), ignored))
+  {
+    const std::string name = entry.path().filename().string();
+    if (name.size() <= begin.size() + end.size() || !name.starts_with(begin) ||
+      !name.ends_with(end))
+    {
+      continue;
+    }
+    const std::string process = name.substr(begin.size(), name.size() - begin.size() - end.size());
+    const bool isNumber = process.find_first_not_of("0123456789") == std::string::npos;
+    if (isNumber && process.size() < 10 && !isRunning(std::stoi(process)))
+    {
+      fs::remove(entry.path(), ignored);
+    }
+  }
 }
 
 /// Waits until a file, or the names in a folder, are on the disk. Some file systems cannot tell.
@@ -82,6 +101,7 @@ void writeWholeFile(const std::string& path, const std::function<void(const std:
 {
   requireWritablePlace(path);
   const fs::path target(path);
+  removeLeftovers(target);
   const fs::path temporary = folderOf(target) /
     (beginOfTemporary(target) + std::to_string(getpid()) + endOfTemporary(target));
   try
@@ -120,16 +140,9 @@ void writeText(const std::string& text, const std::string& path)
 void removeWholeFile(const std::string& path)
 {
   std::error_code ignored;
-  if (!fs::remove(path, ignored))
+  if (fs::remove(path, ignored))
   {
-    return;
-  }
-  for (const fs::directory_entry& entry : fs::directory_iterator(folderOf(path), ignored))
-  {
-    if (isTemporaryOf(path, entry.path().filename().string()))
-    {
-      fs::remove(entry.path(), ignored);
-    }
+    removeLeftovers(path);
   }
 }
 }

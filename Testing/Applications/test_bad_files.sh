@@ -185,5 +185,99 @@ test_disk_full()
   done
 }
 
+# on_small_disk COMMAND...: in a folder `small` with room for 64 KiB. Where users may mount nothing,
+# there is no room for larger files instead.
+on_small_disk()
+{
+  if unshare --map-root-user --mount true 2> /dev/null; then
+    unshare --map-root-user --mount bash -c \
+      'mkdir -p small && mount -t tmpfs -o size=64k none small && "$@"' bash "$@"
+  else
+    (ulimit -f 16; trap '' XFSZ; mkdir -p small; "$@")
+  fi
+}
+
+# Promise: on a disk that is full it is the same.
+test_full_disk()
+{
+  local extension
+  for extension in "${writable[@]}"; do
+    echo "what was there" > old
+    export output="small/mesh.$extension" neuralmesh
+    expect 1 on_small_disk bash -c 'cp old "$output"
+      "$neuralmesh" reconstruct cloud.xyz "$output" --vertices 2000; status=$?
+      cmp -s old "$output" || exit 3
+      [ -z "$(find small -name ".*mesh*")" ] || exit 4
+      exit $status'
+    is_one_line_about "$output"
+  done
+}
+
+# Promise: nothing can be written into a folder that is read-only, for root neither, and that is said
+# before anything is learnt.
+test_read_only_folder()
+{
+  local extension
+  mkdir locked
+  for extension in "${writable[@]}"; do
+    echo "what was there" > "locked/mesh.$extension"
+    if unshare --map-root-user --mount true 2> /dev/null; then
+      export output="locked/mesh.$extension" neuralmesh
+      expect 1 timeout 10 unshare --map-root-user --mount bash -c \
+        'mount --bind locked locked && mount -o remount,bind,ro locked &&
+          "$neuralmesh" reconstruct cloud.xyz "$output" --vertices 100000000'
+    elif [ "$(id -u)" -ne 0 ]; then
+      chmod 555 locked
+      expect 1 timeout 10 "$neuralmesh" reconstruct cloud.xyz "locked/mesh.$extension" \
+        --vertices 100000000
+      chmod 755 locked
+    else
+      # /proc is a folder into which root cannot write.
+      expect 1 reconstruct cloud.xyz "/proc/mesh.$extension"
+      continue
+    fi
+    is_one_line_about "locked/mesh.$extension"
+    [ "$(cat "locked/mesh.$extension")" = "what was there" ] || fail "what was there is gone"
+  done
+}
+
+# Promise: a run that is killed, whenever that is, leaves what was there or a whole new mesh; of the
+# files that it may leave beside it, the next run removes those of this name.
+test_killed()
+{
+  local i process begin duration new=0
+  reconstruct_large() { "$neuralmesh" reconstruct cloud.xyz "$1" --vertices 3000; }
+  begin=$(date +%s%N)
+  expect 0 reconstruct_large whole.ply
+  duration=$(($(date +%s%N) - begin))
+  RANDOM=1
+  for i in $(seq 50); do
+    echo "what was there" > mesh.ply
+    "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 3000 > /dev/null 2>&1 &
+    process=$!
+    # Half of the times within the run, half of them around its end, when it writes.
+    awk -v all="$duration" -v part="$RANDOM" -v late="$((i % 2))" 'BEGIN { part /= 32768;
+      printf "%.4f\n", all / 1e9 * (late ? 0.9 + 0.2 * part : part) }' | xargs sleep
+    kill -KILL "$process" 2> /dev/null || true
+    wait "$process" 2> /dev/null || true
+    if cmp -s mesh.ply whole.ply; then
+      new=$((new + 1))
+    else
+      [ "$(cat mesh.ply)" = "what was there" ] || fail "half a mesh is left"
+    fi
+  done
+  echo "$new of 50 runs had written their mesh before they were killed"
+  # A process that no longer is has left this.
+  ( : ) &
+  wait $!
+  echo "half a mesh" > ".mesh.$(uname -n).$!.ply"
+  echo "of another mesh" > ".other.$(uname -n).$!.ply"
+  echo "of a running process" > ".mesh.$(uname -n).$$.ply"
+  expect 0 reconstruct_large mesh.ply
+  [ "$(find . -name '.*mesh.*.ply')" = "./.mesh.$(uname -n).$$.ply" ] ||
+    { find .; fail "other temporary files are left than that of a running process"; }
+  [ -e ".other.$(uname -n).$!.ply" ] || fail "the file of another mesh is gone"
+}
+
 make_cloud
 "test_$2"

@@ -66,20 +66,26 @@ inline std::string defectOf(const Mesh& mesh)
   }
   // Every triangle must be in the rings of its three corners, and nothing else in any ring.
   std::vector<Triangle> seen;
+  seen.reserve(3 * triangles.size());
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
     const Ring& ring = mesh.ring(v);
+    if (!ring.isEmpty() && ring.size() < (ring.isOpen() ? 2u : 3u))
+    {
+      return "vertex " + std::to_string(v) + " has too few neighbours";
+    }
     for (unsigned slot = 0; slot + (ring.isOpen() ? 1 : 0) < ring.size(); ++slot)
     {
       seen.push_back({ v, ring[slot], ring[(slot + 1) % ring.size()] });
     }
   }
   std::vector<Triangle> thrice;
+  thrice.reserve(3 * triangles.size());
   for (const Triangle& triangle : triangles)
   {
     thrice.insert(thrice.end(), 3, triangle);
   }
-  if (canonical(seen) != canonical(thrice))
+  if (canonical(std::move(seen)) != canonical(std::move(thrice)))
   {
     return "the rings are not those of the triangles";
   }

@@ -471,4 +471,30 @@ TEST(Mesh, BoundaryEdgesAreThoseOfOneTriangle)
     }
   }
 }
+
+// What is no edge, or at an erased vertex, is refused.
+TEST(Mesh, RefusesWhatIsNoEdge)
+{
+  Mesh mesh = makeBipyramid(6);
+  const VertexIndex top = 0, bottom = 4;
+  ASSERT_FALSE(mesh.ring(top).contains(bottom));
+  const auto refusesAll = [&mesh](VertexIndex a, VertexIndex b)
+  {
+    return !mesh.canCollapse(a, b) && !mesh.canCollapse(b, a) && !mesh.canFlip(a, b) &&
+      !mesh.canFlip(b, a);
+  };
+  EXPECT_TRUE(refusesAll(top, bottom));
+  EXPECT_TRUE(refusesAll(top, top));
+  EXPECT_FALSE(mesh.canSplit(top, mesh.valence(top), 2));
+  EXPECT_FALSE(mesh.canFill(top));
+
+  const VertexIndex removed = mesh.ring(top).front();
+  const VertexIndex kept = mesh.ring(top).back();
+  ASSERT_TRUE(mesh.canCollapse(removed, kept));
+  mesh.collapse(removed, kept);
+  EXPECT_TRUE(refusesAll(removed, kept));
+  EXPECT_TRUE(refusesAll(removed, removed));
+  EXPECT_FALSE(mesh.canSplit(removed, 0, 1));
+  EXPECT_FALSE(mesh.canFill(removed));
+}
 }

@@ -196,6 +196,36 @@ TEST(MeshBoundary, JoinRefusesTheSameEdgeTwice)
   EXPECT_TRUE(tube.mesh.canJoin(loops.first, loops.second, evenStrip(5, 5)));
 }
 
+// What is no whole loop, runs the wrong way or is the other loop is refused, and a strip that does not
+// go once around both.
+TEST(MeshBoundary, JoinRefusesWhatAreNoLoops)
+{
+  Tube tube = makeTube(5, 6);
+  tube.cutBelow(2);
+  const Mesh& mesh = tube.mesh;
+  const LoopPair loops =
+    joinable(loopFrom(mesh, tube.rings[2].front()), loopFrom(mesh, tube.rings[3].front()));
+  const Strip strip = evenStrip(5, 5);
+  ASSERT_TRUE(mesh.canJoin(loops.first, loops.second, strip));
+
+  auto part = loops.first;
+  part.pop_back();
+  EXPECT_FALSE(mesh.canJoin(part, loops.second, Strip(strip.begin() + 1, strip.end())));
+  auto twice = loops.first;
+  twice.insert(twice.end(), loops.first.begin(), loops.first.end());
+  EXPECT_FALSE(mesh.canJoin(twice, loops.second, evenStrip(10, 5)));
+  auto against = loops.first;
+  std::reverse(against.begin(), against.end());
+  EXPECT_FALSE(mesh.canJoin(against, loops.second, strip));
+  EXPECT_FALSE(mesh.canJoin(loops.first, against, strip));
+  EXPECT_FALSE(mesh.canJoin(tube.rings[0], loops.second, strip));
+  EXPECT_FALSE(mesh.canJoin({}, loops.second, Strip(5, false)));
+  EXPECT_FALSE(mesh.canJoin(loops.first, loops.second, Strip(strip.begin(), strip.end() - 1)));
+  Strip other = strip;
+  other.back() = true;
+  EXPECT_FALSE(mesh.canJoin(loops.first, loops.second, other));
+}
+
 // An edge that is there already is no edge of a strip.
 TEST(MeshBoundary, JoinRefusesExistingEdges)
 {

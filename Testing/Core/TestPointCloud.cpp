@@ -94,6 +94,18 @@ TEST(PointCloud, EmptyHasNoExtent)
   EXPECT_EQ(nothing.droppedCount(), 3u);
 }
 
+// Finite points whose extent is no number are dropped, all of them: there is nothing to learn from.
+TEST(PointCloud, ExtentBeyondAllNumbersIsNone)
+{
+  const double most = std::numeric_limits<double>::max();
+  const std::vector<Eigen::Vector3d> points{ { most, 1., 0. }, { -most, 0., 1. },
+    { 0.7 * most, 3., 0. } };
+  const PointCloud cloud(points);
+  EXPECT_FALSE(cloud.hasExtent());
+  EXPECT_TRUE(cloud.points().empty());
+  EXPECT_EQ(cloud.droppedCount(), 3u);
+}
+
 // Points on one spot have no extent, wherever it is; two spots have.
 TEST(PointCloud, CoincidingPointsHaveNoExtent)
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ManifoldCheck.h"
 
+#include <algorithm>
+#include <compare>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -34,6 +36,15 @@ private:
   std::vector<std::size_t> parent_;
 };
 
+/// An edge in the direction in which a triangle runs along it.
+struct HalfEdge
+{
+  std::pair<Index, Index> ends;
+  std::size_t triangle;
+
+  auto operator<=>(const HalfEdge&) const = default;
+};
+
 std::string edgeText(Index a, Index b) { return std::to_string(a) + "-" + std::to_string(b); }
 }
 
@@ -41,7 +52,8 @@ ManifoldReport checkManifold(
   std::size_t pointCount, std::span<const std::array<std::uint32_t, 3>> triangles)
 {
   ManifoldReport report;
-  std::map<std::pair<Index, Index>, std::size_t> triangleOfHalfEdge;
+  std::vector<HalfEdge> halfEdges;
+  halfEdges.reserve(3 * triangles.size());
   std::vector<std::size_t> cornersAt(pointCount, 0);
   for (std::size_t t = 0; t < triangles.size(); ++t)
   {
@@ -60,12 +72,17 @@ ManifoldReport checkManifold(
         return report;
       }
       ++cornersAt[a];
-      if (!triangleOfHalfEdge.try_emplace({ a, b }, t).second)
-      {
-        report.defect = "edge " + edgeText(a, b) + " is run along twice in one direction";
-        return report;
-      }
+      halfEdges.push_back({ { a, b }, t });
     }
+  }
+  std::sort(halfEdges.begin(), halfEdges.end());
+  const auto twice = std::adjacent_find(halfEdges.begin(), halfEdges.end(),
+    [](const HalfEdge& left, const HalfEdge& right) { return left.ends == right.ends; });
+  if (twice != halfEdges.end())
+  {
+    const auto [a, b] = twice->ends;
+    report.defect = "edge " + edgeText(a, b) + " is run along twice in one direction";
+    return report;
   }
 
   // Corners that share an edge belong to the same fan; so do, by their triangles, components.
@@ -78,11 +95,12 @@ ManifoldReport checkManifold(
   };
   std::map<Index, Index> nextOnBoundary;
   std::size_t fullEdges = 0;
-  for (const auto& [edge, t] : triangleOfHalfEdge)
+  for (const auto& [ends, t] : halfEdges)
   {
-    const auto [a, b] = edge;
-    const auto opposite = triangleOfHalfEdge.find({ b, a });
-    if (opposite == triangleOfHalfEdge.end())
+    const auto [a, b] = ends;
+    const HalfEdge wanted{ { b, a }, 0 };
+    const auto opposite = std::lower_bound(halfEdges.begin(), halfEdges.end(), wanted);
+    if (opposite == halfEdges.end() || opposite->ends != wanted.ends)
     {
       ++report.boundaryEdges;
       if (!nextOnBoundary.try_emplace(b, a).second)
@@ -93,9 +111,9 @@ ManifoldReport checkManifold(
       continue;
     }
     ++fullEdges;
-    components.join(t, opposite->second);
-    corners.join(cornerAt(t, a), cornerAt(opposite->second, a));
-    corners.join(cornerAt(t, b), cornerAt(opposite->second, b));
+    components.join(t, opposite->triangle);
+    corners.join(cornerAt(t, a), cornerAt(opposite->triangle, a));
+    corners.join(cornerAt(t, b), cornerAt(opposite->triangle, b));
   }
   std::vector<std::size_t> fansAt(pointCount, 0);
   for (std::size_t corner = 0; corner < 3 * triangles.size(); ++corner)

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files as the command reads them; the first byte says of which kind. Text is read here. VTK's
+// readers may end the process, as they may end the command: each file of theirs is read in a process
+// of its own, which must end with status 0 or, after one line on stderr, 1.
+#include "FuzzTarget.h"
+#include "MeshReader.h"
+#include "PointReader.h"
+
+#include "vtkCell.h"
+#include "vtkNew.h"
+#include "vtkOBJWriter.h"
+#include "vtkPLYWriter.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataWriter.h"
+#include "vtkSphereSource.h"
+#include "vtkSTLWriter.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkUnstructuredGridWriter.h"
+#include "vtkXMLPolyDataWriter.h"
+#include "vtkXMLUnstructuredGridWriter.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace
+{
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::array Extensions{ ".xyz", ".ply", ".vtp", ".vtk", ".vtu", ".obj", ".stl" };
+constexpr std::size_t Text = 0;
+
+/** What a process of our own has said counts as covered for libFuzzer, which does not see into it. */
+__attribute__((section("__libfuzzer_extra_counters"))) std::array<std::uint8_t, 4096> Outcomes;
+
+void Require(bool holds, const std::string& promise)
+{
+  if (!holds)
+  {
+    std::fprintf(stderr, "broken promise: %s\n", promise.c_str());
+    std::abort();
+  }
+}
+
+/** A folder for the files of this process, gone at its end. */
+struct OwnFolder
+{
+  OwnFolder()
+    : Path(
+        std::filesystem::temp_directory_path() / ("neuralmesh-fuzzing-" + std::to_string(getpid())))
+  {
+    std::filesystem::create_directories(this->Path);
+  }
+  ~OwnFolder()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(this->Path, ignored);
+  }
+  OwnFolder(const OwnFolder&) = delete;
+  OwnFolder& operator=(const OwnFolder&) = delete;
+
+  const std::filesystem::path Path;
+};
+
+const std::filesystem::path& Folder()
+{
+  static const OwnFolder folder;
+  return folder.Path;
+}
+
+void RequireSoundCells(vtkPointSet* points)
+{
+  for (vtkIdType i = 0; i < points->GetNumberOfCells(); ++i)
+  {
+    vtkNew<vtkIdList> ids;
+    points->GetCellPoints(i, ids);
+    for (const vtkIdType id : *ids)
+    {
+      Require(id >= 0 && id < points->GetNumberOfPoints(), "cells have points that exist");
+    }
+  }
+}
+
+/** Reads a file of points and, if it can be one, of a mesh; true if there was no error. In a process
+ * apart, tells the error as the command does. */
+bool Read(const std::string& path, bool isApart)
+{
+  try
+  {
+    RequireSoundCells(ReadPoints(path));
+    if (path.find(".vtu") == std::string::npos && path.find(".xyz") == std::string::npos)
+    {
+      RequireSoundCells(ReadMesh(path));
+    }
+    return true;
+  }
+  catch (const std::runtime_error& error)
+  {
+    const std::string message = error.what();
+    Require(message.starts_with(path), "a message names its file");
+    Require(message.find('\n') == std::string::npos, "a message is one line");
+    if (isApart)
+    {
+      std::cerr << "neuralmesh: " << message << std::endl;
+    }
+    return false;
+  }
+}
+
+/** Has a process read a file; what it writes to stderr, and its status as by waitpid(). */
+std::pair<std::string, int> ReadApart(const std::string& path)
+{
+  std::array<int, 2> ends{};
+  Require(pipe(ends.data()) == 0, "there are pipes");
+  const pid_t child = fork();
+  Require(child >= 0, "there are processes");
+  if (child == 0)
+  {
+    dup2(ends[1], STDERR_FILENO);
+    _exit(Read(path, true) ? 0 : 1);
+  }
+  close(ends[1]);
+  std::string said;
+  std::array<char, 4096> part{};
+  for (ssize_t count = 0; (count = read(ends[0], part.data(), part.size())) > 0;)
+  {
+    said.append(part.data(), std::size_t(count));
+  }
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return { said, status };
+}
+
+void RequireCommandsManners(const std::string& path)
+{
+  const auto [said, status] = ReadApart(path);
+  std::size_t errors = 0;
+  std::istringstream lines(said);
+  for (std::string line; std::getline(lines, line);)
+  {
+    const bool isWarning = line.starts_with("neuralmesh: warning: ");
+    Require(isWarning || line.starts_with("neuralmesh: " + path),
+      "every line is a warning or names the file: " + line);
+    errors += isWarning ? 0 : 1;
+  }
+  Require(WIFEXITED(status) && WEXITSTATUS(status) <= 1, "reading ends with status 0 or 1");
+  Require(errors == std::size_t(WEXITSTATUS(status)), "there is one line for an error: " + said);
+  std::string kind = path;
+  std::copy_if(
+    said.begin(), said.end(), std::back_inserter(kind), [](char c) { return c < '0' || c > '9'; });
+  Outcomes[std::hash<std::string>()(kind) % Outcomes.size()] = 1;
+}
+
+template <typename WriterT, typename PrepareT>
+Bytes WriteWith(const std::string& extension, vtkDataObject* data, PrepareT prepare)
+{
+  const std::filesystem::path path = Folder() / ("seed" + extension);
+  vtkNew<WriterT> writer;
+  prepare(writer.Get());
+  writer->SetFileName(path.c_str());
+  writer->SetInputDataObject(data);
+  writer->Write();
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  const std::string content = bytes.str();
+  const auto kind = std::find(Extensions.begin(), Extensions.end(), extension);
+  Bytes seed{ static_cast<std::uint8_t>(kind - Extensions.begin()) };
+  seed.insert(seed.end(), content.begin(), content.end());
+  return seed;
+}
+}
+
+std::vector<Bytes> neuralmesh::testing::fuzzSeeds()
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetThetaResolution(4);
+  sphere->SetPhiResolution(3);
+  sphere->Update();
+  vtkPolyData* mesh = sphere->GetOutput();
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(mesh->GetPoints());
+  grid->SetCells(VTK_TRIANGLE, mesh->GetPolys());
+  grid->GetPointData()->SetNormals(mesh->GetPointData()->GetNormals());
+  const auto asItIs = [](auto*) {};
+  const auto asText = [](auto* writer) { writer->SetDataModeToAscii(); };
+  const auto asBinary = [](auto* writer) { writer->SetFileTypeToBinary(); };
+  std::vector<Bytes> seeds{ WriteWith<vtkPLYWriter>(".ply", mesh, asItIs),
+    WriteWith<vtkPLYWriter>(".ply", mesh, [](auto* writer) { writer->SetFileTypeToASCII(); }),
+    WriteWith<vtkXMLPolyDataWriter>(".vtp", mesh, asItIs),
+    WriteWith<vtkXMLPolyDataWriter>(".vtp", mesh, asText),
+    WriteWith<vtkPolyDataWriter>(".vtk", mesh, asItIs),
+    WriteWith<vtkPolyDataWriter>(".vtk", mesh, asBinary),
+    WriteWith<vtkUnstructuredGridWriter>(".vtk", grid, asBinary),
+    WriteWith<vtkXMLUnstructuredGridWriter>(".vtu", grid, asItIs),
+    WriteWith<vtkXMLUnstructuredGridWriter>(".vtu", grid, asText),
+    WriteWith<vtkOBJWriter>(".obj", mesh, asItIs), WriteWith<vtkSTLWriter>(".stl", mesh, asItIs),
+    WriteWith<vtkSTLWriter>(".stl", mesh, asBinary) };
+  for (const std::string text : { "0 0 0\n1 0 0\n0 1 0\n", "3\n# a comment\n1e3,+2;-3\t4\r\n\n",
+         "x y z\nnan inf -inf\n1e-400 1e400 0x10\n", "1 2 3 // 4\n//\n.5 5. 1e+1" })
+  {
+    Bytes seed{ Text };
+    seed.insert(seed.end(), text.begin(), text.end());
+    seeds.push_back(seed);
+  }
+  return seeds;
+}
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  const std::size_t kind = size == 0 ? Text : data[0] % Extensions.size();
+  const std::string path = Folder() / (std::string("input") + Extensions[kind]);
+  std::ofstream file(path, std::ios::binary);
+  if (size > 1)
+  {
+    file.write(reinterpret_cast<const char*>(data + 1), static_cast<std::streamsize>(size - 1));
+  }
+  file.close();
+  Require(static_cast<bool>(file), "there is room for a file");
+  if (kind == Text)
+  {
+    Read(path, false);
+  }
+  else
+  {
+    RequireCommandsManners(path);
+  }
+  return 0;
+}
