@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace neuralmesh
@@ -76,7 +77,10 @@ std::vector<std::uint32_t> mortonOrder(
 {
   const Vector4 extent = boxMax - boxMin;
   const float longest = std::max({ extent[0], extent[1], extent[2] });
-  const float scale = longest > 0.f ? float((1 << BitsPerAxis) - 1) / longest : 0.f;
+  // Of the smallest boxes there is no inverse.
+  const float scale = longest > 0.f
+    ? std::min(float((1 << BitsPerAxis) - 1) / longest, std::numeric_limits<float>::max())
+    : 0.f;
 
   std::vector<MortonEntry> entries(points.size()), sorted(points.size());
   executor.forEachRange(points.size(), SortedPerRange,

@@ -29,6 +29,10 @@ inline void requireSound(const Mesh& mesh)
 {
   const std::string defect = defectOf(mesh);
   require(defect.empty(), defect.c_str());
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    require(!mesh.isAlive(v) || mesh.position(v).toDouble().allFinite(), "positions are finite");
+  }
 }
 
 inline void requireSound(const TriangleMesh& mesh)

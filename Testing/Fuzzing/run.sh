@@ -16,7 +16,6 @@ source Utilities/build.sh
 install_packages "${build_packages[@]}" libgtest-dev clang libclang-rt-dev
 folder=build-fuzzing
 configure_preset fuzzing
-export ASAN_OPTIONS=abort_on_error=1
 
 for target in "${targets[@]}"; do
   cmake --build --preset fuzzing --target "NeuralMeshFuzz${target}Long" "NeuralMeshFuzz${target}Shortly"
