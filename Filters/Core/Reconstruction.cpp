@@ -22,12 +22,6 @@ constexpr std::uint64_t SamplesPerCheck = 4096;
 constexpr std::size_t PointsPerVertex = 2;
 constexpr std::size_t LeastLearnt = 100;
 
-/// Vertices of the first surface: a part of all, but enough for a shape, if all are twice as many.
-std::size_t firstVertices(std::uint64_t vertices)
-{
-  return std::size_t(std::max(vertices / 8, std::min<std::uint64_t>(vertices / 2, 1500)));
-}
-
 /// Learns until a stopping rule is met; returns which.
 StopReason learn(LearningState state, Checkpoint& checkpoint, const PointCloud& cloud,
   const Parameters& parameters, const GrowthWatch& watch, const Progress& progress)

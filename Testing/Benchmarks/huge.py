@@ -101,9 +101,9 @@ def main():
 
     print(f"{MODEL}, noise 0.1 % of the diagonal, one point of {BAD} not finite; medians of {ROUNDS} "
           "interleaved runs; RMS in % of the diagonal, both ways\n")
-    print("| vertices | points in the file | bytes | drawn | dropped | CPU s | of these drawing | wall s "
+    print("| vertices | points in the file | drawn | dropped | CPU s | of these drawing | wall s "
           "| peak anonymous MB | RMS |")
-    print("|--:|--:|--:|--:|--:|--:|--:|--:|--:|---|")
+    print("|--:|--:|--:|--:|--:|--:|--:|--:|---|")
     for vertices in VERTICES:
         runs = {name: [] for name in files}
         quality = {}
@@ -117,7 +117,7 @@ def main():
         for name, path in files.items():
             found = median[name]
             size = count if name == "whole" else count // 100
-            print(f"| {vertices} | {size} | {os.path.getsize(path)} | {found['drawn']} | {found['dropped']} "
+            print(f"| {vertices} | {size} | {found['drawn']} | {found['dropped']} "
                   f"| {found['cpu']:.2f} | {found['drawing']:.2f} | {found['wall']:.2f} "
                   f"| {found['peak'] / 1e6:.0f} | {quality[name][0]:.4f}, {quality[name][1]:.4f} |",
                   flush=True)
