@@ -10,9 +10,10 @@ import support
 from neuralmesh._parameters import Choice, Number, parameters_of
 from neuralmesh import vtkNeuralMesh
 
-# On which the mesh does not depend; the others are refused before they would count.
+# On which the mesh does not depend, or only by the points; the others are refused before they would
+# count.
 FREE = {"time_limit", "carry_point_data", "output_points_precision", "checkpoint_interval",
-        "keep_checkpoint"}
+        "keep_checkpoint", "number_of_threads", "maximum_points"}
 REFUSED_BEFORE = {"growth_as_time", "number_of_snapshots", "preset", "jump"}
 
 

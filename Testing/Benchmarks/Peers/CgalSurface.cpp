@@ -5,7 +5,7 @@
 #include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/OFF.h>
-#include <CGAL/IO/PLY.h>
+#include <CGAL/IO/read_points.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/compute_average_spacing.h>
 #include <CGAL/grid_simplify_point_set.h>
@@ -17,6 +17,7 @@
 
 #include <array>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,7 +68,7 @@ int main(int argc, char* argv[])
     return 2;
   }
   std::vector<Point> points;
-  if (!CGAL::IO::read_PLY(argv[2], points))
+  if (!CGAL::IO::read_points(argv[2], std::back_inserter(points)))
   {
     std::fprintf(stderr, "%s cannot be read\n", argv[2]);
     return 1;
