@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -27,29 +27,57 @@ struct LargePageAllocator
 
   T* allocate(std::size_t count)
   {
-    const std::size_t bytes = count * sizeof(T);
-    if (bytes < PageSize)
+    if (!isLarge(count))
     {
-      return static_cast<T*>(::operator new(bytes, std::align_val_t(alignof(T))));
+      return static_cast<T*>(::operator new(count * sizeof(T), std::align_val_t(alignof(T))));
     }
-    const std::size_t rounded = (bytes + PageSize - 1) / PageSize * PageSize;
-    void* memory = ::operator new(rounded, std::align_val_t(PageSize));
 #ifdef __linux__
-    madvise(memory, rounded, MADV_HUGEPAGE);
+    // From the system, and back to it: as arrays grow, holes would be left in the heap.
+    const std::size_t bytes = roundedBytes(count);
+    void* const memory =
+      mmap(nullptr, bytes + PageSize, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED)
+    {
+      throw std::bad_alloc();
+    }
+    auto* const begin = static_cast<std::byte*>(memory);
+    const std::size_t before = (PageSize - std::uintptr_t(begin) % PageSize) % PageSize;
+    if (before > 0)
+    {
+      munmap(begin, before);
+    }
+    munmap(begin + before + bytes, PageSize - before);
+    madvise(begin + before, bytes, MADV_HUGEPAGE);
+    return reinterpret_cast<T*>(begin + before);
+#else
+    return static_cast<T*>(::operator new(roundedBytes(count), std::align_val_t(PageSize)));
 #endif
-    return static_cast<T*>(memory);
   }
 
   void deallocate(T* memory, std::size_t count)
   {
-    const bool large = count * sizeof(T) >= PageSize;
-    ::operator delete(memory, std::align_val_t(large ? PageSize : alignof(T)));
+    if (!isLarge(count))
+    {
+      ::operator delete(memory, std::align_val_t(alignof(T)));
+      return;
+    }
+#ifdef __linux__
+    munmap(memory, roundedBytes(count));
+#else
+    ::operator delete(memory, std::align_val_t(PageSize));
+#endif
   }
 
   friend bool operator==(LargePageAllocator, LargePageAllocator) { return true; }
 
 private:
   static constexpr std::size_t PageSize = std::size_t(1) << 21;
+
+  static bool isLarge(std::size_t count) { return count * sizeof(T) >= PageSize; }
+  static std::size_t roundedBytes(std::size_t count)
+  {
+    return (count * sizeof(T) + PageSize - 1) / PageSize * PageSize;
+  }
 };
 
 /// The arrays of the learning loop.

@@ -37,6 +37,11 @@ constexpr std::size_t MostFirstSamples = 1 << 16;
 constexpr float EdgesPerCell = 2.f;
 /// Vertices are renumbered and the grid is made anew whenever there are so many times more.
 constexpr double GrowthUntilRenumbering = 1.4;
+/// Beyond this part of all vertices only the grid is made anew: the copies that renumbering takes
+/// would be the most memory of the run.
+constexpr double LastRenumbering = 0.7;
+/// More than all vertices: those that a batch adds before the ones it removes are used again.
+constexpr double RoomBeyondAll = 1.03;
 
 /// Radius of the first tetrahedron; the bulk of the cloud has a diagonal of 1.
 constexpr float FirstRadius = 0.1f;
@@ -173,8 +178,20 @@ void Learner::learnBatch(std::size_t size)
   }
   if (this->mesh_.vertexCount() >= this->nextRenumbering_)
   {
-    this->renumber();
+    this->tidy();
   }
+}
+
+void Learner::tidy()
+{
+  const auto count = double(this->mesh_.vertexCount());
+  if (count <= LastRenumbering * double(this->parameters_.numberOfVertices))
+  {
+    this->renumber();
+    return;
+  }
+  this->nextRenumbering_ = 1 + std::size_t(GrowthUntilRenumbering * count);
+  this->makeGrid();
 }
 
 void Learner::changeCloud(
@@ -397,7 +414,10 @@ std::vector<VertexIndex> Learner::vertices() const
 /// Memory up to the next renumbering, and for what a batch may add beyond.
 void Learner::reserve()
 {
-  this->capacity_ = 64 + std::size_t(1.1 * double(this->nextRenumbering_));
+  const double all = RoomBeyondAll * double(this->parameters_.numberOfVertices);
+  const double next = 1.1 * double(this->nextRenumbering_);
+  const double most = std::max(all, double(this->mesh_.indexEnd()));
+  this->capacity_ = 64 + std::size_t(std::min(next, most));
   this->mesh_.reserve(this->capacity_);
   this->order_->reserve(this->capacity_);
   this->hasWon_.reserve(this->capacity_);

@@ -114,6 +114,8 @@ public:
 
 private:
   void learnBatch(std::size_t size);
+  /// After growth: what lies side by side in space is to lie side by side in memory.
+  void tidy();
   void findWinners(std::span<const Vector4> samples);
   void prefetchAhead(std::size_t sample) const;
   void prepareNoiseFilter(std::size_t batchSize);

@@ -119,7 +119,7 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, cons
   const double begin = cpuSeconds();
   const Parameters parameters = first ? wanted : learnable(wanted, all);
   const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
-  const Beginning beginning = startsFromSpace
+  Beginning beginning = startsFromSpace
     ? beginFromSpace(all, parameters, partOf(progress, 0., StartOfLearning), executor)
     : Beginning{ {}, first, {}, {} };
   const PointCloud& cloud = beginning.cloud ? *beginning.cloud : all;
@@ -127,6 +127,9 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, cons
   Learner learner = beginning.mesh
     ? Learner(cloud, parameters, *beginning.mesh, beginning.weights, executor)
     : Learner(cloud, parameters, executor);
+  // The learner has made of them what it needs.
+  beginning.mesh.reset();
+  std::vector<float>().swap(beginning.weights);
   const double startOfLearning = startsFromSpace ? StartOfLearning : 0.;
   const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
   StoppingRules rules(cloud, parameters, learner.mesh().vertexCount());
