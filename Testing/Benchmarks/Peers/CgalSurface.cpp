@@ -3,16 +3,16 @@
 // interpolates the points; where they are noisy, outliers are removed and the rest is smoothed
 // before, as CGAL's own tutorial does it. Poisson estimates normals and orients them.
 #include <CGAL/Advancing_front_surface_reconstruction.h>
+#include <CGAL/compute_average_spacing.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/grid_simplify_point_set.h>
 #include <CGAL/IO/OFF.h>
 #include <CGAL/IO/read_points.h>
-#include <CGAL/Polyhedron_3.h>
-#include <CGAL/compute_average_spacing.h>
-#include <CGAL/grid_simplify_point_set.h>
 #include <CGAL/jet_estimate_normals.h>
 #include <CGAL/jet_smooth_point_set.h>
 #include <CGAL/mst_orient_normals.h>
 #include <CGAL/poisson_surface_reconstruction.h>
+#include <CGAL/Polyhedron_3.h>
 #include <CGAL/remove_outliers.h>
 
 #include <array>
@@ -75,8 +75,8 @@ int main(int argc, char* argv[])
   }
   if (std::string(argv[4]) == "noisy")
   {
-    points.erase(CGAL::remove_outliers<CGAL::Sequential_tag>(points, Neighbors,
-                   CGAL::parameters::threshold_percent(OutlierPercentage)),
+    points.erase(CGAL::remove_outliers<CGAL::Sequential_tag>(
+                   points, Neighbors, CGAL::parameters::threshold_percent(OutlierPercentage)),
       points.end());
     const double spacing = CGAL::compute_average_spacing<CGAL::Sequential_tag>(points, 6);
     points.erase(CGAL::grid_simplify_point_set(points, 2. * spacing), points.end());
