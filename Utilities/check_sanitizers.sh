@@ -14,6 +14,9 @@ case ${1:-} in
 esac
 install_packages "${build_packages[@]}" libgtest-dev
 
+# Of a sanitizer's own memory there is nothing to learn.
+measuring='^Filters\.TestNeuralMeshManyRuns$'
+
 # check PRESET TARGETS TESTS [CTEST-OPTION...]
 check()
 {
@@ -22,7 +25,8 @@ check()
   configure_preset "$preset"
   # Some names.
   cmake --build --preset "$preset" --target $targets
-  ctest --preset "$preset" -R "$tests" -j "$(nproc)" --timeout 600 --no-tests=error "$@"
+  ctest --preset "$preset" -R "$tests" -E "$measuring" -j "$(nproc)" --timeout 600 --no-tests=error \
+    "$@"
 }
 
 for kind in "${kinds[@]}"; do

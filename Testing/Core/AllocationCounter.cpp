@@ -9,12 +9,17 @@ namespace
 {
 std::atomic<std::size_t> count{ 0 };
 
-void* allocate(std::size_t size, std::size_t alignment)
+void* allocateOrNull(std::size_t size, std::size_t alignment) noexcept
 {
   count.fetch_add(1, std::memory_order_relaxed);
   // The size must be a multiple of the alignment.
   const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-  void* const memory = std::aligned_alloc(alignment, rounded > 0 ? rounded : alignment);
+  return std::aligned_alloc(alignment, rounded > 0 ? rounded : alignment);
+}
+
+void* allocate(std::size_t size, std::size_t alignment)
+{
+  void* const memory = allocateOrNull(size, alignment);
   if (memory == nullptr)
   {
     throw std::bad_alloc();
@@ -23,8 +28,13 @@ void* allocate(std::size_t size, std::size_t alignment)
 }
 }
 
-// The forms for arrays and those that do not throw call these.
+// The forms for arrays call these. Those that do not throw would, but for the address sanitizer's,
+// whose memory these must not free.
 void* operator new(std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept
+{
+  return allocateOrNull(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
 void* operator new(std::size_t size, std::align_val_t alignment)
 {
   return allocate(size, std::size_t(alignment));

@@ -11,12 +11,14 @@ import argparse
 import importlib.util
 import json
 import os
+import platform
 import resource
 import subprocess
 import sys
 import time
 
 import numpy as np
+from vtkmodules.vtkCommonCore import vtkVersion
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "..", "Support"))
 import clouds
@@ -53,6 +55,18 @@ def own_clouds(folder):
         path = f"{folder}/{name}.ply"
         clouds.write_ply(path, cloud)
         yield path, reference, kind
+
+
+def machine():
+    """The processor, its cores, the system and the versions of those who compete."""
+    with open("/proc/cpuinfo") as file:
+        model = next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "?")
+    versions = [("VTK", vtkVersion.GetVTKVersion())]
+    for name, package in (("Open3D", "python3-open3d"), ("CGAL", "libcgal-dev")):
+        asked = subprocess.run(("dpkg-query", "-W", "-f", "${Version}", package), capture_output=True, text=True)
+        versions += [(name, asked.stdout)] if asked.stdout else []
+    return (f"{model}, {os.cpu_count()} cores, {platform.freedesktop_os_release()['PRETTY_NAME']}; "
+            + ", ".join(" ".join(version) for version in versions))
 
 
 def is_there(need, tools):
@@ -171,6 +185,7 @@ def main():
     parser.add_argument("clouds", nargs="*")
     arguments = parser.parse_args()
     results = []
+    print(machine() + "\n")
     print(f"{VERTICES} vertices; distances in % of the diagonal of the reference, mean and RMS of both ways;"
           f" the least of {arguments.rounds} rounds.\n")
     for cloud, reference, kind in [run.split(",") for run in arguments.clouds] or own_clouds(arguments.folder):
