@@ -5,7 +5,7 @@
  *
  * vtkNeuralMeshAlgorithm is the abstract superclass of vtkNeuralMesh. It holds which
  * variant of the method is run and the parameters of learning and growth, with their presets. What
- * they mean is told there and in Documentation/Method.md; equation numbers are those of W. Saleem,
+ * they mean is told there and in Documentation/Theory.md; equation numbers are those of W. Saleem,
  * A flexible framework for learning-based surface reconstruction, 2004.
  *
  * A property out of its range is clamped, with a warning; NaN leaves it as it is.

@@ -71,10 +71,11 @@ def make_files(folder, root, build, page):
     (folder / "scan.raw").write_bytes(bytes(512) + torus(POINTS).astype("<f4").tobytes())
     for name in ("coarse", "reference"):
         write(vtkPLYWriter(), folder / f"{name}.ply", coarse)
-    recipe = {"scans": ["scan.ply"], "matrix": {"vertices": 500}, "gallery": False}
-    (folder / "jobs.json").write_text(json.dumps(recipe), encoding="utf-8")
     if page == "Documentation/Batch.md":
         take_kitten(folder / "demo")
+    else:
+        recipe = {"scans": ["scan.ply"], "matrix": {"vertices": 500}, "gallery": False}
+        (folder / "jobs.json").write_text(json.dumps(recipe), encoding="utf-8")
 
 
 def take_kitten(folder):

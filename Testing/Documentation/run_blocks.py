@@ -55,6 +55,13 @@ def check_output(wanted, printed):
         raise Failure(f"printed was\n{printed}")
 
 
+def save(path, text):
+    """Writes a file that is not there yet: never through a link into the repository."""
+    path.parent.mkdir(exist_ok=True)
+    with open(path, "x", encoding="utf-8") as file:
+        file.write(text)
+
+
 def play(page, folder, build):
     environment = shell_environment(build)
     variables = givens.variables()
@@ -63,7 +70,7 @@ def play(page, folder, build):
         print(f"{page.name}:{block.line}: {block.language} {' '.join(block.words)}", flush=True)
         try:
             if block.is_saved:
-                (folder / block.value("file")).write_text(block.text, encoding="utf-8")
+                save(folder / block.value("file"), block.text)
             elif block.words == ["output"]:
                 check_output(block.text, printed)
             elif block.language == "sh" and block.is_run:
