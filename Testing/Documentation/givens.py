@@ -19,7 +19,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 import neuralmesh
 
-POINTS = 6000
+POINTS = 3000
 RADIUS, TUBE = 1.0, 0.4
 
 
@@ -88,8 +88,8 @@ def take_kitten(folder):
 
 def variables():
     """Names that blocks of Python use without saying where they come from."""
-    # A tenth of the samples will do.
-    neuralmesh.compare = functools.partial(neuralmesh.compare, samples=30000)
+    # A few samples will do.
+    neuralmesh.compare = functools.partial(neuralmesh.compare, samples=5000)
     points = torus(POINTS)
     dataset = dataset_of(points)
     coarse = coarse_mesh()

@@ -21,7 +21,7 @@ import re
 import sys
 
 REASONS = {
-    "root": "installs packages, or is for root alone",
+    "root": "installs something, or is for root alone",
     "build": "builds or tests the whole repository",
     "long": "measures or tests for minutes",
     "window": "opens a window, or waits for somebody",
