@@ -78,7 +78,7 @@ def wrong_blocks(page, all_pages, root):
             yield f"{place}: a block of {block.language or 'no language'}: one of {sorted(LANGUAGES)}"
         if reason is not None and reason not in REASONS:
             yield f"{place}: no reason: {reason}: one of {sorted(REASONS)}"
-        unknown = [word for word in block.words if not re.match(r"norun=|file=|output$", word)]
+        unknown = [word for word in block.words if not re.match("norun=|file=|output$", word)]
         if unknown:
             yield f"{place}: what is {unknown}?"
         if not block.is_run:
@@ -96,7 +96,9 @@ def wrong_blocks(page, all_pages, root):
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     all_pages = pages(root)
-    wrong = [text for page in all_pages for text in (*indented_code(page), *wrong_blocks(page, all_pages, root))]
+    wrong = []
+    for page in all_pages:
+        wrong += [*indented_code(page), *wrong_blocks(page, all_pages, root)]
     left_out, kinds = collections.defaultdict(list), collections.Counter()
     for page in all_pages:
         for block in page.blocks:

@@ -44,8 +44,8 @@ def main():
         names = [*(pathlib.Path(path).name for path in changed), *DEPENDENT, *files]
         # In one go: most of the time goes into the headers.
         (core / "All.cpp").write_text("".join(f'#include "{name}"\n' for name in names), encoding="utf-8")
-        run([*compile_command, "Filters/Core/All.cpp", str(library), "-lgtest", "-lgtest_main", "-lpthread", "-o", "test"],
-            cwd=folder)
+        libraries = [str(library), "-lgtest", "-lgtest_main", "-lpthread"]
+        run([*compile_command, "Filters/Core/All.cpp", *libraries, "-o", "test"], cwd=folder)
         run([f"{folder}/test"])
 
 
