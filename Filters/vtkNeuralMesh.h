@@ -378,6 +378,7 @@ public:
    */
   vtkIdType GetResumedIterations() const { return this->ResumedIterations; }
 
+  /** Events beside those of VTK. */
   enum EventIds
   {
     /**

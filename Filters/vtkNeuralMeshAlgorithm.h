@@ -5,7 +5,7 @@
  *
  * vtkNeuralMeshAlgorithm is the abstract superclass of vtkNeuralMesh. It holds which
  * variant of the method is run and the parameters of learning and growth, with their presets. What
- * they mean is told there and in Documentation/Method.md; equation numbers are those of W. Saleem,
+ * they mean is told there and in Documentation/Theory.md; equation numbers are those of W. Saleem,
  * A flexible framework for learning-based surface reconstruction, 2004.
  *
  * A property out of its range is clamped, with a warning; NaN leaves it as it is.
@@ -31,6 +31,7 @@ public:
   vtkAbstractTypeMacro(vtkNeuralMeshAlgorithm, vtkPolyDataAlgorithm) void PrintSelf(
     ostream& os, vtkIndent indent) override;
 
+  /** The variants, for SetVariant(). */
   enum VariantType
   {
     BASIC,
@@ -54,6 +55,7 @@ public:
   void SetVariantToNormalBased() { this->SetVariant(NORMAL_BASED); }
   ///@}
 
+  /** The orders, for SetOrder(). */
   enum OrderType
   {
     EXACT,
@@ -86,6 +88,7 @@ public:
   vtkBooleanMacro(TopologyLearning, vtkTypeBool);
   ///@}
 
+  /** What learning may start from, for SetStart(). */
   enum StartType
   {
     OCCUPIED_SPACE,
@@ -106,6 +109,7 @@ public:
   void SetStartToTetrahedron() { this->SetStart(TETRAHEDRON); }
   ///@}
 
+  /** What may become of gaps, for SetBoundaries(). */
   enum BoundariesType
   {
     KEEP,
@@ -133,6 +137,7 @@ public:
   vtkGetMacro(CurvatureDensity, double);
   ///@}
 
+  /** The jump distances, for SetJump(). */
   enum JumpType
   {
     CONSTANT,
@@ -160,6 +165,7 @@ public:
   void SetJumpToWeighted() { this->SetJump(WEIGHTED); }
   ///@}
 
+  /** The operations of Node Addition, for SetAdditionOperation(). */
   enum AdditionOperationType
   {
     VERTEX_SPLIT,
@@ -178,6 +184,7 @@ public:
   void SetAdditionOperationToEdgeSplit() { this->SetAdditionOperation(EDGE_SPLIT); }
   ///@}
 
+  /** The operations of Node Removal, for SetRemovalOperation(). */
   enum RemovalOperationType
   {
     HALF_EDGE_COLLAPSE,
@@ -225,6 +232,7 @@ public:
   vtkGetMacro(FitSamples, double);
   ///@}
 
+  /** The presets, for SetPreset(). */
   enum PresetType
   {
     DEFAULT,
@@ -438,6 +446,7 @@ public:
   vtkBooleanMacro(EdgeFlips, vtkTypeBool);
   ///@}
 
+  /** The rules of topology learning, for SetTopologyRules(). */
   enum TopologyRulesType
   {
     MENDED_RULES,

@@ -84,6 +84,7 @@ public:
   vtkGetMacro(Seed, int);
   ///@}
 
+  /** The two ways in which distances are measured. */
   enum DirectionType
   {
     REFERENCE_TO_RESULT,

@@ -69,6 +69,7 @@ public:
   VTK_FILEPATH const char* GetFileName() const { return this->FileName.c_str(); }
   ///@}
 
+  /** How points may lie in the file, for SetFormat(). */
   enum FormatType
   {
     BY_EXTENSION,

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the pictures of the documentation: draw.py FOLDER [NAME...]"""
+"""Draws the pictures of the documentation: draw.py FOLDER NAME...
+
+A picture is drawn by the function of its name, which gives scenes that stand side by side.
+"""
 
 import sys
 
@@ -170,6 +173,22 @@ def normals():
             scene(strength, "z", 30, 25, "FeatureStrength", zoom=1)]
 
 
+def with_irregularities(mesh):
+    """The mesh with `Irregularity`: by how much the number of neighbours of a vertex is not 6."""
+    triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray())
+    irregularity = numpy_to_vtk(np.abs(np.bincount(triangles) - 6.0), deep=True)
+    irregularity.SetName("Irregularity")
+    mesh.GetPointData().AddArray(irregularity)
+    return mesh
+
+
+def orders():
+    points = clouds.sample(*bunny(), 200000)
+    return [scene(with_irregularities(neuralmesh.reconstruct(points, 3000, preset="thesis", **order)),
+                  "y", 30, 10, "Irregularity", values=(0, 3), edges=1)
+            for order in ({}, {"order": "list"}, {"order": "list", "jump_fraction": 0.1})]
+
+
 def ensemble():
     points = clouds.sample(*clouds.cgal_mesh("eight"), 200000)
     algorithm = neuralmesh.vtkNeuralMeshEnsemble()
@@ -279,15 +298,10 @@ def direction(towards):
     return np.degrees(np.arctan2(x, z)), np.degrees(np.arcsin(y))
 
 
-PICTURES = {"leap": leap, "errors": errors, "hard_scans": hard_scans, "details": details,
-            "growth": growth, "noise": noise, "topology": topology, "normals": normals,
-            "ensemble": ensemble, "first_mesh": first_mesh, "openings": openings}
-
-
 def main():
     folder, *names = sys.argv[1:]
-    for name in names or PICTURES:
-        draw(f"{folder}/{name}.png", PICTURES[name]())
+    for name in names:
+        draw(f"{folder}/{name}.png", globals()[name]())
 
 
 if __name__ == "__main__":

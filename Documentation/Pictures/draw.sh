@@ -1,10 +1,43 @@
 #!/usr/bin/env bash
 # Draws the pictures of the documentation anew, or those that are named: draw.sh [NAME...].
+# draw.sh --list says which there are, and what draws each.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-source Utilities/build.sh
 
-install_packages "${build_packages[@]}" glmark2-data libcgal-demo "${screen_packages[@]}"
+declare -A pictures=(
+  [draw.py]="leap errors hard_scans details growth noise topology normals ensemble first_mesh openings
+    orders"
+  [draw_charts.py]="steps sweep_moves sweep_growth sweep_noise sweep_fit"
+  [draw_tutorial.sh]="tutorial_scan tutorial_mesh tutorial_window tutorial_colours
+    tutorial_distances tutorial_step12 tutorial_step17 tutorial_step23"
+)
+if [ "${1:-}" = --list ]; then
+  for maker in "${!pictures[@]}"; do
+    printf "$maker %s\n" ${pictures[$maker]}
+  done
+  exit
+fi
+
+source Utilities/build.sh
+install_packages "${build_packages[@]}" glmark2-data libcgal-demo python3-matplotlib \
+  "${screen_packages[@]}"
 build build all
-PYTHONPATH=build/lib/python3/dist-packages:Testing/Support xvfb-run -a \
-  /usr/bin/python3 Documentation/Pictures/draw.py Documentation/Pictures "$@"
+folder=Documentation/Pictures
+export PYTHONPATH=build/lib/python3/dist-packages:Testing/Support
+
+# Those of a maker that are asked for.
+wanted_of()
+{
+  local name
+  for name in ${pictures[$1]}; do
+    [[ -z "$wanted" || " $wanted " == *" $name "* ]] && echo "$name" || true
+  done
+}
+
+wanted=$*
+for maker in draw.py draw_charts.py; do
+  names=$(wanted_of "$maker")
+  [ -z "$names" ] || xvfb-run -a /usr/bin/python3 "$folder/$maker" "$folder" $names
+done
+# They are steps of one tutorial, and drawn together.
+[ -z "$(wanted_of draw_tutorial.sh)" ] || bash "$folder/draw_tutorial.sh"

@@ -2,7 +2,7 @@
 """Plays Documentation/Tutorial.md in pvpython: tutorial.py FOLDER
 
 Runs its blocks of Python one after the other, and saves each picture that a block leads to as it is
-on the screen then. A block that begins with the name of a file is written to that file.
+on the screen then. A block with file=NAME behind its fence is written to that file.
 """
 
 import os
@@ -17,19 +17,19 @@ SIZE = [640, 480]
 
 
 def steps():
-    """Blocks of code as (language, text), and pictures as ("picture", name), as they come."""
+    """Blocks of code as (language or file, text), and pictures as ("picture", name), as they come."""
     text = PAGE.read_text(encoding="utf-8")
-    for match in re.finditer(r"```(\w+)\n(.*?)```|!\[[^]]*\]\(Pictures/(\w+\.png)\)", text, re.DOTALL):
-        language, code, picture = match.groups()
-        yield (language, code) if language else ("picture", picture)
+    blocks = r"```(\w+)(?: file=(\S+))?\n(.*?)```|!\[[^]]*\]\(Pictures/(\w+\.png)\)"
+    for match in re.finditer(blocks, text, re.DOTALL):
+        language, file, code, picture = match.groups()
+        yield (file or language, code) if language else ("picture", picture)
 
 
 def play(folder):
     namespace = {}
     for kind, text in steps():
-        name = re.match(r"# (\w+\.py)\n", text)
-        if kind == "python" and name:
-            (folder / name[1]).write_text(text, encoding="utf-8")
+        if "." in kind:
+            (folder / kind).write_text(text, encoding="utf-8")
         elif kind == "python":
             exec(compile(text, PAGE.name, "exec"), namespace)
         # The window of ParaView itself is for window.py.
