@@ -4,13 +4,15 @@
 #include "CompareCommand.h"
 #include "InfoCommand.h"
 #include "ReconstructCommand.h"
+#include "TuneCommand.h"
 
 CommandLine::CommandLine()
   : Application("Triangle meshes from point clouds, by learning", "neuralmesh")
 {
   this->Application.set_version_flag("--version", NEURALMESH_VERSION);
   this->Application.require_subcommand(1);
-  for (const auto& add : { AddReconstructCommand, AddCompareCommand, AddInfoCommand })
+  for (const auto& add :
+    { AddReconstructCommand, AddTuneCommand, AddCompareCommand, AddInfoCommand })
   {
     // The newest subcommand is the last one.
     const auto run = add(this->Application);

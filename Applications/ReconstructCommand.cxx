@@ -19,10 +19,12 @@
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+#include "vtkLogger.h"
 #include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <CLI/CLI.hpp>
@@ -62,6 +64,7 @@ struct ReconstructOptions
   std::string Jump;
   std::string Weights;
   bool Features = false;
+  bool Automatic = false;
   int Preset = vtkNeuralMesh::DEFAULT;
   std::vector<std::string> Assignments;
   double TimeLimit = 0.0;
@@ -167,6 +170,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
   filter->SetBoundaries(options.Boundaries);
   filter->SetComputeFeatureStrength(options.Features);
   filter->SetPreset(options.Preset);
+  filter->SetAutomatic(options.Automatic);
   filter->SetTimeLimit(options.TimeLimit);
   filter->SetNumberOfThreads(options.Threads);
   filter->SetWeightArrayName(options.Weights.c_str());
@@ -236,6 +240,8 @@ void Learn(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions&
   vtkNew<ErrorCollector> errors;
   errors->Observe(filter);
   vtkNew<ProgressBar> bar;
+  // What the filter tells in the log is printed in the end.
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_WARNING);
   if (!options.Quiet)
   {
     bar->SetNumberOfVertices(options.Vertices);
@@ -266,12 +272,17 @@ void PrintCheckpoint(vtkNeuralMesh* filter)
 void PrintPhases(vtkNeuralMesh* filter, vtkNeuralMeshFileSampler* sampler)
 {
   const double drawing = sampler ? sampler->GetDrawingTime() : 0.0;
-  const double cloud = filter->GetCloudTime(), start = filter->GetStartTime();
+  const double cloud = filter->GetCloudTime(), choice = filter->GetChoiceTime();
+  const double start = filter->GetStartTime();
   const double learning = filter->GetLearningTime(), finish = filter->GetFinishTime();
-  std::printf("phases     %.2f CPU s (", drawing + cloud + start + learning + finish);
+  std::printf("phases     %.2f CPU s (", drawing + cloud + choice + start + learning + finish);
   if (sampler)
   {
     std::printf("drawing %.2f, ", drawing);
+  }
+  if (filter->GetAutomatic())
+  {
+    std::printf("choice %.2f, ", choice);
   }
   std::printf(
     "cloud %.2f, start %.2f, learning %.2f, finish %.2f)\n", cloud, start, learning, finish);
@@ -308,6 +319,29 @@ void PrintReport(vtkPolyData* mesh)
     "quality    %.3f of the triangles on average (1: equilateral), %.0f %% of the vertices "
     "regular\n",
     FieldNumber(mesh, "TriangleQuality"), 100.0 * FieldNumber(mesh, "RegularRatio"));
+}
+
+/** Which parameters were chosen for the cloud, if any were to be. */
+void PrintChoices(vtkPolyData* mesh)
+{
+  auto* chosen =
+    vtkStringArray::SafeDownCast(mesh->GetFieldData()->GetAbstractArray("ChosenParameters"));
+  if (!chosen)
+  {
+    return;
+  }
+  std::string assignments;
+  for (vtkIdType i = 0; i < chosen->GetNumberOfValues(); ++i)
+  {
+    assignments += (i == 0 ? "" : ", ") + chosen->GetValue(i);
+  }
+  std::printf("chosen     %s\n", assignments.empty() ? "the defaults" : assignments.c_str());
+  auto* reasons =
+    vtkStringArray::SafeDownCast(mesh->GetFieldData()->GetAbstractArray("ReasonsOfChoice"));
+  for (vtkIdType i = 0; reasons && i < reasons->GetNumberOfValues(); ++i)
+  {
+    std::printf("           %s\n", reasons->GetValue(i).c_str());
+  }
 }
 
 /** A sampler of the file in which it lies, if that is wanted. */
@@ -427,6 +461,7 @@ int Reconstruct(const ReconstructOptions& options)
     std::printf("time       %.2f s (reading %.2f, learning %.2f, writing %.2f)\n",
       reading + learning + writing, reading, learning, writing);
     PrintReport(mesh);
+    PrintChoices(mesh);
   }
   return isCancelled ? InterruptedStatus : 0;
 }
@@ -496,6 +531,8 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     ->type_name("NAME=VALUE")
     ->take_all()
     ->allow_extra_args(false);
+  command->add_flag("--automatic", options->Automatic,
+    "Choose FitRounds, FitSmoothness and CurvatureDensity for INPUT by some seconds of short runs");
   command->add_flag("--features", options->Features,
     "Give each vertex its FeatureStrength, high at edges and corners; OUTPUT must be .vtp");
   command

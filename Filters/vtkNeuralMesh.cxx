@@ -4,9 +4,11 @@
 #include "MeshBuilder.h"
 #include "Reconstruction.h"
 #include "ThreadPool.h"
+#include "Tuning.h"
 #include "vtkFilePoints.h"
 #include "vtkMeshArrays.h"
 #include "vtkNeuralMeshGrowth.h"
+#include "vtkNeuralMeshReport.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkPointCloudCollector.h"
 #include "vtkPointDataCarrier.h"
@@ -55,6 +57,8 @@ namespace
 {
 /// Where point data begins to be carried over, as a fraction of the run.
 constexpr double EndOfMesh = 0.95;
+/// Where parameters are chosen, if they are.
+constexpr double EndOfChoice = 0.3;
 
 /// What NumberOfThreads stands for.
 unsigned ThreadsOf(int wanted)
@@ -73,78 +77,6 @@ unsigned ThreadsOf(int wanted)
 /// shape.
 constexpr vtkIdType PointsPerVertex = 50;
 constexpr vtkIdType FewestPoints = 1000000;
-
-/// What the mesh is worth, in units of the input, where a unit of the cloud is so long.
-void AddQuality(const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output)
-{
-  const auto addNumber = [output](const char* name, double value)
-  { vtkMeshArrays::AddFieldValue<vtkDoubleArray>(output, name, value); };
-  const auto addCount = [output](const char* name, auto count)
-  { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count)); };
-  const neuralmesh::SurfaceReport& surface = result.quality->surface;
-  addNumber("Residual", result.quality->residual);
-  addNumber("Noise",
-    result.finish ? result.finish->noise * unit : std::numeric_limits<double>::quiet_NaN());
-  addNumber("OutlierShare", result.quality->outlierShare);
-  addNumber("RegularRatio", surface.regularRatio);
-  addNumber("TriangleQuality", surface.meanQuality);
-  addCount("Components", surface.components);
-  addCount("Genus", surface.genus.value_or(-1));
-  addCount("BoundaryLoops", surface.boundaryLoops);
-  addCount("FoldedEdges", surface.foldedEdges);
-  constexpr vtkIdType NotLookedFor = -1;
-  addCount("IntersectingTriangles",
-    result.finish ? static_cast<vtkIdType>(result.finish->left.intersectingTriangles)
-                  : NotLookedFor);
-}
-
-/// The input may bring the report on an earlier mesh along.
-void RemoveQuality(vtkPolyData* output)
-{
-  for (const char* name : { "Residual", "Noise", "OutlierShare", "RegularRatio", "TriangleQuality",
-         "Components", "Genus", "BoundaryLoops", "FoldedEdges", "IntersectingTriangles" })
-  {
-    output->GetFieldData()->RemoveArray(name);
-  }
-}
-
-/// A column of the table, with a value of each row.
-template <typename ArrayT, typename Value>
-void AddColumn(vtkTable* table, const char* name,
-  const std::vector<neuralmesh::LearningCurve::Row>& rows, const Value& valueOf)
-{
-  vtkNew<ArrayT> column;
-  column->SetName(name);
-  for (const auto& row : rows)
-  {
-    column->InsertNextValue(static_cast<typename ArrayT::ValueType>(valueOf(row)));
-  }
-  table->AddColumn(column);
-}
-
-void FillLearningCurve(const std::vector<neuralmesh::LearningCurve::Row>& rows, vtkTable* table)
-{
-  using Row = neuralmesh::LearningCurve::Row;
-  const auto addCount = [&](const char* name, const auto& countOf)
-  { AddColumn<vtkIdTypeArray>(table, name, rows, countOf); };
-  const auto addNumber = [&](const char* name, const auto& numberOf)
-  { AddColumn<vtkDoubleArray>(table, name, rows, numberOf); };
-  addCount("Iteration", [](const Row& row) { return row.counts.iterations; });
-  addCount("Vertices", [](const Row& row) { return row.vertices; });
-  addNumber("Seconds", [](const Row& row) { return row.seconds; });
-  addNumber("SampleDistanceMean", [](const Row& row) { return row.sampleDistanceMean; });
-  addNumber("SampleDistanceDeviation", [](const Row& row) { return row.sampleDistanceDeviation; });
-  addNumber("NormalChangeMean", [](const Row& row) { return row.normalChangeMean; });
-  addNumber("RegularRatio", [](const Row& row) { return row.regularRatio; });
-  addCount("Additions", [](const Row& row) { return row.counts.additions; });
-  addCount("Removals", [](const Row& row) { return row.counts.removals; });
-  addCount("Flips", [](const Row& row) { return row.counts.flips; });
-  addCount("RejectedSamples", [](const Row& row) { return row.counts.rejectedSamples; });
-  addCount("IllegalOperations", [](const Row& row) { return row.counts.illegalOperations; });
-  addCount("RemovedTriangles", [](const Row& row) { return row.counts.removedTriangles; });
-  addCount("MergedBoundaries", [](const Row& row) { return row.counts.mergedBoundaries; });
-  addCount("FilledBoundaries", [](const Row& row) { return row.counts.filledBoundaries; });
-}
 }
 
 vtkNeuralMesh::vtkNeuralMesh()
@@ -444,7 +376,7 @@ int vtkNeuralMesh::RequestData(
   }
   if (collector.GetPoints().empty())
   {
-    FillLearningCurve({}, learningCurve);
+    vtkNeuralMeshReport::FillLearningCurve({}, learningCurve);
     return 1;
   }
   std::vector<double> weights;
@@ -518,12 +450,25 @@ int vtkNeuralMesh::RequestData(
   const neuralmesh::Progress progress = [&run](double fraction)
   { return run.Progress.Report(fraction); };
   const double endOfMesh = carries ? EndOfMesh : 1.0;
+  neuralmesh::Tuning tuning;
+  this->ChoiceTime = 0.0;
+  if (this->Automatic)
+  {
+    const double choiceBegin = neuralmesh::cpuSeconds();
+    // Whoever aborts while parameters are chosen ends the run with them as they were.
+    tuning = neuralmesh::tune(
+      cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, EndOfChoice), executor)
+               .value_or(neuralmesh::Tuning{ run.Parameters, {}, {}, {} });
+    run.Parameters = tuning.parameters;
+    this->ChoiceTime = neuralmesh::cpuSeconds() - choiceBegin;
+    vtkNeuralMeshReport::Log(tuning, this);
+  }
   neuralmesh::Reconstruction result;
   try
   {
-    result =
-      neuralmesh::reconstruct(cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, endOfMesh),
-        run.FirstMesh, this->WatchGrowth(precision), this->PlanCheckpoint(), executor);
+    result = neuralmesh::reconstruct(cloud, run.Parameters,
+      neuralmesh::partOf(progress, this->Automatic ? EndOfChoice : 0.0, endOfMesh), run.FirstMesh,
+      this->WatchGrowth(precision), this->PlanCheckpoint(), executor);
   }
   catch (const std::runtime_error& error)
   {
@@ -542,7 +487,7 @@ int vtkNeuralMesh::RequestData(
                     << " vertices: as many are removed as are added. More RemovalPatience or less "
                        "SamplesPerAddition may help.");
   }
-  FillLearningCurve(result.curve.rows(), learningCurve);
+  vtkNeuralMeshReport::FillLearningCurve(result.curve.rows(), learningCurve);
 
   output->SetPoints(vtkTriangleMeshCollector::MakePoints(result.mesh, precision));
   output->SetPolys(vtkTriangleMeshCollector::MakeCells(result.mesh));
@@ -574,10 +519,14 @@ int vtkNeuralMesh::RequestData(
   vtkMeshArrays::AddFieldValue<vtkStringArray>(output, "StopReason", this->StopReason);
   vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(
     output, "DroppedPoints", static_cast<vtkIdType>(cloud.droppedCount()));
-  RemoveQuality(output);
+  vtkNeuralMeshReport::RemoveFrom(output);
+  if (this->Automatic)
+  {
+    vtkNeuralMeshReport::AddTuning(tuning, output);
+  }
   if (result.quality)
   {
-    AddQuality(result, cloud.unit(), output);
+    vtkNeuralMeshReport::AddQuality(result, cloud.unit(), output);
   }
   if (!this->KeepCheckpoint && isComplete)
   {
@@ -608,6 +557,7 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "WeightArrayName: " << this->GetWeightArrayName() << "\n";
   os << indent << "GrowthAsTime: " << this->GrowthAsTime << "\n";
   os << indent << "NumberOfSnapshots: " << this->NumberOfSnapshots << "\n";
+  os << indent << "Automatic: " << this->Automatic << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "CheckpointFileName: " << this->CheckpointFileName << "\n";
   os << indent << "CheckpointInterval: " << this->CheckpointInterval << "\n";
@@ -617,6 +567,7 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "StopReason: " << this->StopReason << "\n";
   os << indent << "DrawingTime: " << this->DrawingTime << "\n";
   os << indent << "CloudTime: " << this->CloudTime << "\n";
+  os << indent << "ChoiceTime: " << this->ChoiceTime << "\n";
   os << indent << "StartTime: " << this->StartTime << "\n";
   os << indent << "LearningTime: " << this->LearningTime << "\n";
   os << indent << "FinishTime: " << this->FinishTime << "\n";

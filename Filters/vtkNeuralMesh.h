@@ -339,6 +339,19 @@ public:
 
   ///@{
   /**
+   * Whether FitRounds, FitSmoothness and CurvatureDensity are chosen for the cloud, before learning, by
+   * short runs on parts of it, some of whose points are held out; what they are set to is then where
+   * the search begins, and stays. Takes some seconds, however large cloud and mesh are. Field data
+   * `ChosenParameters` (strings NAME=VALUE) and `ReasonsOfChoice` say what was chosen and why, as VTK's
+   * log does. FitSmoothness is chosen only if it is 0. Default: off. See Documentation/Automatic.md.
+   */
+  vtkSetMacro(Automatic, vtkTypeBool);
+  vtkGetMacro(Automatic, vtkTypeBool);
+  vtkBooleanMacro(Automatic, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * The file in which the run leaves its state, every CheckpointInterval seconds (default 60, range
    * 0 to 1000000), once learning is over, and when it is aborted: so that another execution, in
    * another process, say, goes on from there, to the same mesh to the byte as without a break. Where
@@ -403,11 +416,12 @@ public:
   ///@{
   /**
    * CPU seconds of the process that the last run spent on drawing points from PointFileName, making
-   * the cloud ready, finding what to start from, learning, and the finish. They stand nowhere in the
+   * the cloud ready, choosing parameters, finding what to start from, learning, and the finish. They stand nowhere in the
    * output.
    */
   double GetDrawingTime() const { return this->DrawingTime; }
   double GetCloudTime() const { return this->CloudTime; }
+  double GetChoiceTime() const { return this->ChoiceTime; }
   double GetStartTime() const { return this->StartTime; }
   double GetLearningTime() const { return this->LearningTime; }
   double GetFinishTime() const { return this->FinishTime; }
@@ -467,6 +481,7 @@ private:
   double StallPatience;
   int NumberOfThreads = 0;
 
+  vtkTypeBool Automatic = 0;
   vtkTypeBool GrowthAsTime = 0;
   int NumberOfSnapshots = 24;
   std::unique_ptr<vtkNeuralMeshGrowth> Growth;
@@ -477,6 +492,7 @@ private:
   int OutputPointsPrecision = DEFAULT_PRECISION;
   double DrawingTime = 0.0;
   double CloudTime = 0.0;
+  double ChoiceTime = 0.0;
   double StartTime = 0.0;
   double LearningTime = 0.0;
   double FinishTime = 0.0;

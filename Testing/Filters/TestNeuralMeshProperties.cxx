@@ -63,9 +63,9 @@ int TestNeuralMeshProperties(int, char*[])
       "NoiseTolerance", "NoiseWindow", "OutlierLimit", "OutlierLimitVertices", "SamplesPerAddition",
       "EarlyPatience", "EarlyVertices", "AdditionsPerRemoval", "RemovalPatience", "RemovalLimit",
       "EdgeFlips", "BatchSize", "MaximumIterations", "TargetSampleDistance", "TargetCloudDistance",
-      "TimeLimit", "StallPatience", "NumberOfThreads", "OutputPointsPrecision", "GrowthAsTime",
-      "NumberOfSnapshots", "CheckpointFileName", "CheckpointInterval", "KeepCheckpoint",
-      "ResumedIterations", "PointFileName", "MaximumPoints", "StopReason" })
+      "TimeLimit", "StallPatience", "Automatic", "NumberOfThreads", "OutputPointsPrecision",
+      "GrowthAsTime", "NumberOfSnapshots", "CheckpointFileName", "CheckpointInterval",
+      "KeepCheckpoint", "ResumedIterations", "PointFileName", "MaximumPoints", "StopReason" })
   {
     CHECK(text.str().find(std::string(property) + ": ") != std::string::npos);
   }

@@ -285,7 +285,7 @@ class Panel(unittest.TestCase):
     # Promise: few properties are shown at first, and those are the ones that most people need.
     def test_advanced(self):
         most = {"NumberOfVertices", "Variant", "Seed", "TimeLimit", "Boundaries",
-                "TopologyLearning", "CarryPointData", "GrowthAsTime"}
+                "TopologyLearning", "CarryPointData", "GrowthAsTime", "Automatic"}
         for name, wanted in (
             ("NeuralMesh", most),
             ("NeuralMeshEnsemble", most | {"NumberOfMembers"}),

@@ -65,7 +65,7 @@ class BatchTest(unittest.TestCase):
     def write_example(cls, **changes):
         """The recipe of the documentation, with two scans that are sound and one that is not."""
         text = (DOCUMENTATION / "Batch.md").read_text(encoding="utf-8")
-        example = json.loads(re.search(r"```json\n(.*?)```", text, re.DOTALL).group(1))
+        example = json.loads(re.search(r"```json[^\n]*\n(.*?)```", text, re.DOTALL).group(1))
         cls.write_recipe(**{**example, **changes})
         write_scan(cls.folder / "scans" / "ball.xyz")
         write_scan(cls.folder / "scans" / "egg.xyz", size=1.5)

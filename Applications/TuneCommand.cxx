@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TuneCommand.h"
+
+#include "PointReader.h"
+
+#include "PointCloud.h"
+#include "ThreadPool.h"
+#include "Tuning.h"
+#include "vtkPointCloudCollector.h"
+
+#include "vtkPointSet.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace
+{
+struct TuneOptions
+{
+  std::string Input;
+  long long Vertices = 20000;
+  int Seed = 1;
+  int Threads = 0;
+  bool Close = false;
+  bool JSON = false;
+};
+
+void PrintJSON(const TuneOptions& options, const neuralmesh::Tuning& tuning)
+{
+  nlohmann::ordered_json chosen = nlohmann::ordered_json::object();
+  for (const auto& choice : tuning.choices)
+  {
+    chosen[std::string(choice.parameter)] = choice.value;
+  }
+  nlohmann::ordered_json trials = nlohmann::ordered_json::array();
+  for (const auto& trial : tuning.trials)
+  {
+    trials.push_back({ { "parameter", trial.parameter }, { "before", trial.before },
+      { "value", trial.value }, { "error", trial.error }, { "gain", trial.gain },
+      { "standard_error", trial.doubt }, { "taken", trial.isTaken } });
+  }
+  const nlohmann::ordered_json report{ { "file", options.Input }, { "vertices", options.Vertices },
+    { "chosen", chosen }, { "trials", trials }, { "reasons", tuning.reasons() } };
+  std::printf("%s\n", report.dump(2).c_str());
+}
+
+void Print(const TuneOptions& options, const neuralmesh::Tuning& tuning)
+{
+  std::string assignments;
+  for (const auto& choice : tuning.choices)
+  {
+    std::printf("%-17s %.3g instead of %.3g\n", std::string(choice.parameter).c_str(), choice.value,
+      choice.before);
+    char value[32];
+    std::snprintf(value, sizeof(value), "%.3g", choice.value);
+    assignments += " --set " + std::string(choice.parameter) + "=" + value;
+  }
+  if (tuning.choices.empty())
+  {
+    std::printf("nothing better than the defaults was found\n");
+  }
+  for (const std::string& reason : tuning.reasons())
+  {
+    std::printf("  %s\n", reason.c_str());
+  }
+  std::printf("neuralmesh reconstruct %s OUTPUT --vertices %lld%s%s\n", options.Input.c_str(),
+    options.Vertices, options.Close ? " --boundaries close" : "", assignments.c_str());
+}
+
+int Tune(const TuneOptions& options)
+{
+  vtkPointCloudCollector collector;
+  const auto points = ReadPoints(options.Input);
+  collector.Collect(points);
+  const unsigned threads = options.Threads > 0 ? static_cast<unsigned>(options.Threads)
+                                               : std::thread::hardware_concurrency();
+  const neuralmesh::ThreadPool executor(std::max(1u, threads));
+  const neuralmesh::PointCloud cloud(collector.GetPoints(), {}, false, executor);
+  if (!cloud.hasExtent())
+  {
+    throw std::runtime_error(options.Input + ": there are no two points apart from each other");
+  }
+  neuralmesh::Parameters parameters;
+  parameters.numberOfVertices = static_cast<std::uint64_t>(options.Vertices);
+  parameters.seed = static_cast<std::uint64_t>(options.Seed);
+  parameters.boundaries =
+    options.Close ? neuralmesh::Boundaries::Close : neuralmesh::Boundaries::Keep;
+  const auto tuning = neuralmesh::tune(
+    cloud, parameters, [](double) { return true; }, executor);
+  if (options.JSON)
+  {
+    PrintJSON(options, *tuning);
+  }
+  else
+  {
+    Print(options, *tuning);
+  }
+  return 0;
+}
+}
+
+std::function<int()> AddTuneCommand(CLI::App& application)
+{
+  auto options = std::make_shared<TuneOptions>();
+  CLI::App* command =
+    application.add_subcommand("tune", "Choose the parameters for a point cloud, and say why");
+  command->add_option("INPUT", options->Input, "Points, as for reconstruct")
+    ->required()
+    ->type_name("");
+  command
+    ->add_option("--vertices", options->Vertices,
+      "Vertices that the mesh is to have, 4 to 1000000000 (default 20000)")
+    ->check(CLI::Range(4LL, 1000000000LL).description(""))
+    ->type_name("N");
+  command->add_option("--seed", options->Seed, "Seed of the random numbers (default 1)")
+    ->check(CLI::Range(0, std::numeric_limits<int>::max()).description(""))
+    ->type_name("N");
+  command->add_flag("--close", options->Close, "The mesh is to be closed where the scan has gaps");
+  command
+    ->add_option("--threads", options->Threads,
+      "Work on so many threads at most; 0 (default): on as many as the machine runs at once")
+    ->check(CLI::Range(0, 1024).description(""))
+    ->type_name("N");
+  command->add_flag("--json", options->JSON, "Print JSON");
+  command->footer("Takes seconds, however large the cloud is; writes nothing.\n"
+                  "reconstruct --automatic does the same before it learns.\n"
+                  "For example: neuralmesh tune scan.ply --vertices 20000\n"
+                  "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use.");
+  return [options] { return Tune(*options); };
+}

@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Tuning.h"
+
+#include "Reconstruction.h"
+#include "TuningPatch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <span>
+#include <sstream>
+#include <thread>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr std::size_t LeastProbes = 1000;
+constexpr double LeastGain = 0.01;
+constexpr double LeastGainInDoubts = 3.;
+// Noise, in mean edge lengths.
+/// With more, bends cannot be told from it.
+constexpr double NoiseThatHidesBends = 0.25;
+/// With less there is nothing to smooth but edges.
+constexpr double NoiseToSmooth = 0.05;
+/// Lambda by the data, of patches.
+constexpr double MostSmoothnessOverLeast = 3.;
+/// With less, triangles would fold.
+constexpr double LeastSmoothness = 0.03;
+
+std::string text(double value)
+{
+  std::ostringstream stream;
+  stream.precision(2);
+  stream << value;
+  return stream.str();
+}
+
+/// To two digits: what is told is what is used.
+double rounded(double value)
+{
+  const double unit = std::pow(10., std::floor(std::log10(value)) - 1.);
+  return unit * std::round(value / unit);
+}
+
+double meanOf(std::span<const double> values)
+{
+  double sum = 0.;
+  for (const double value : values)
+  {
+    sum += value;
+  }
+  return sum / double(values.size());
+}
+
+double medianOf(std::vector<double> values)
+{
+  const auto median = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), median, values.end());
+  return *median;
+}
+
+/// By how much squared distances are less than those before.
+struct Comparison
+{
+  double before = 0.;
+  double gain = 0.;
+  double doubt = 0.; ///< standard error of the gain
+};
+
+/// Points side by side have their distances in common, and where one of the meshes has a gap or a
+/// fold the other one is no better: so what is compared are the means of blocks of points, without
+/// the fifth of them that gain most and the fifth that lose most (a trimmed mean).
+Comparison compare(std::span<const double> before, std::span<const double> after)
+{
+  constexpr std::size_t Blocks = 100;
+  constexpr double FarthestMedians = 6.;
+  const double limit =
+    FarthestMedians * FarthestMedians * medianOf(std::vector<double>(before.begin(), before.end()));
+  std::vector<double> befores, gains;
+  for (std::size_t block = 0; block < Blocks; ++block)
+  {
+    double sum = 0., gain = 0., count = 0.;
+    for (std::size_t i = block * before.size() / Blocks; i < (block + 1) * before.size() / Blocks;
+         ++i)
+    {
+      if (before[i] <= limit && after[i] <= limit)
+      {
+        sum += before[i];
+        gain += before[i] - after[i];
+        ++count;
+      }
+    }
+    if (count > 0.)
+    {
+      befores.push_back(sum / count);
+      gains.push_back(gain / count);
+    }
+  }
+  if (gains.empty())
+  {
+    return {};
+  }
+  std::sort(gains.begin(), gains.end());
+  const std::size_t trimmed = gains.size() / 5;
+  const std::span<const double> middle(gains.data() + trimmed, gains.size() - 2 * trimmed);
+  const double mean = meanOf(middle);
+  double variance = 0.;
+  for (const double gain : gains)
+  {
+    const double apart = std::clamp(gain, middle.front(), middle.back()) - mean;
+    variance += apart * apart / double(gains.size());
+  }
+  const double kept = double(middle.size()) / double(gains.size());
+  return { meanOf(befores), mean, std::sqrt(variance / double(gains.size())) / kept };
+}
+
+/// Tries values one after the other.
+class Tuner
+{
+public:
+  Tuner(const PointCloud& cloud, const Parameters& wanted, const Progress& progress,
+    const Executor& executor)
+    : cloud_(cloud)
+    , progress_(progress)
+    , executor_(executor)
+    , patches_(TuningPatch::patchesOf(cloud, wanted))
+    , smoothness_(patches_.size())
+  {
+    this->result_.parameters = wanted;
+  }
+
+  std::optional<Tuning> run()
+  {
+    if (this->begin())
+    {
+      this->chooseDensity();
+      this->chooseRounds();
+      this->chooseSmoothness();
+    }
+    return this->isCancelled_ ? std::nullopt : std::optional(std::move(this->result_));
+  }
+
+private:
+  /// Runs with the parameters as they are. Returns whether there is enough to measure by.
+  bool begin()
+  {
+    const std::vector<Reconstruction> runs = this->runAll(this->result_.parameters, 1.);
+    std::size_t probes = 0;
+    double noise = 0.;
+    for (std::size_t i = 0; i < runs.size() && !this->isCancelled_; ++i)
+    {
+      if (runs[i].finish)
+      {
+        this->smoothness_[i] = runs[i].finish->smoothness;
+        noise += runs[i].finish->noise / runs[i].surface.meanEdge() / double(runs.size());
+        this->patches_[i].aim(runs[i].surface);
+        probes += this->patches_[i].probeCount();
+      }
+    }
+    if (this->isCancelled_)
+    {
+      return false;
+    }
+    if (probes < LeastProbes)
+    {
+      this->result_.remarks.emplace_back("there are too few points to tell by them what is better");
+      return false;
+    }
+    this->noise_ = noise;
+    this->best_ = this->measure(runs);
+    return true;
+  }
+
+  void chooseDensity()
+  {
+    if (this->noise_ > NoiseThatHidesBends && this->result_.parameters.curvatureDensity > 0.)
+    {
+      this->result_.choices.push_back(
+        { "CurvatureDensity", this->result_.parameters.curvatureDensity, 0. });
+      this->result_.parameters.curvatureDensity = 0.;
+      this->result_.remarks.emplace_back(
+        "CurvatureDensity is 0, as bends cannot be told from noise of " + text(this->noise_) +
+        " edge lengths");
+    }
+  }
+
+  void chooseRounds()
+  {
+    const int wanted = this->result_.parameters.fitRounds;
+    if (this->hasGaps())
+    {
+      this->result_.remarks.emplace_back(
+        "no more FitRounds were tried, as the scan has gaps, whose rims they would draw back");
+      return;
+    }
+    for (const int rounds : { 6, 10 })
+    {
+      Parameters tried = this->result_.parameters;
+      tried.fitRounds = rounds;
+      const int before = this->result_.parameters.fitRounds;
+      if (rounds <= before)
+      {
+        continue;
+      }
+      if (!this->isBetter(tried, 1., { "FitRounds", double(before), double(rounds) }))
+      {
+        break;
+      }
+      this->result_.parameters = tried;
+    }
+    if (this->result_.parameters.fitRounds != wanted)
+    {
+      this->result_.choices.push_back(
+        { "FitRounds", double(wanted), double(this->result_.parameters.fitRounds) });
+    }
+  }
+
+  /// Whether a coarse mesh of the whole cloud ends anywhere.
+  bool hasGaps()
+  {
+    constexpr std::size_t PointsPerVertex = 20;
+    Parameters own = this->forTrial(this->result_.parameters);
+    if (own.boundaries == Boundaries::Close || own.start == Start::Tetrahedron)
+    {
+      return false;
+    }
+    own.numberOfVertices =
+      std::min<std::uint64_t>(own.numberOfVertices, TuningPatch::PatchVertices);
+    const std::size_t stride = std::max<std::size_t>(
+      1, this->cloud_.points().size() / (PointsPerVertex * std::size_t(own.numberOfVertices)));
+    std::size_t index = 0;
+    const PointCloud thinned = this->cloud_.without([&](Vector4) { return index++ % stride != 0; });
+    const Reconstruction run = reconstruct(thinned, own,
+      [this](double) { return !(this->isCancelled_ = !this->progress_(this->done())); });
+    return run.quality && run.quality->surface.boundaryLoops > 0;
+  }
+
+  /// Less than lambda by the data, or more.
+  void chooseSmoothness()
+  {
+    if (this->result_.parameters.fitSmoothness > 0.)
+    {
+      return;
+    }
+    const auto [least, most] =
+      std::minmax_element(this->smoothness_.begin(), this->smoothness_.end());
+    if (*most > MostSmoothnessOverLeast * *least)
+    {
+      this->result_.remarks.emplace_back("no FitSmoothness was tried, as by the data it is " +
+        text(*least) + " at one place and " + text(*most) +
+        " at another: what is best for them is not for the whole");
+      return;
+    }
+    const double byData = medianOf(this->smoothness_);
+    double best = 1.;
+    const auto tryFactors = [&](double first, double second)
+    {
+      for (const double factor : { first, second })
+      {
+        if (factor * byData < LeastSmoothness ||
+          !this->isBetter(
+            this->result_.parameters, factor, { "FitSmoothness", best * byData, factor * byData }))
+        {
+          return;
+        }
+        best = factor;
+      }
+    };
+    tryFactors(0.5, 0.25);
+    if (best == 1. && this->noise_ > NoiseToSmooth)
+    {
+      tryFactors(2., 4.);
+    }
+    if (best != 1.)
+    {
+      const double chosen = rounded(best * byData);
+      this->result_.parameters.fitSmoothness = chosen;
+      this->result_.choices.push_back({ "FitSmoothness", 0., chosen });
+    }
+  }
+
+  /// The vertices alone end a trial.
+  static Parameters forTrial(Parameters parameters)
+  {
+    parameters.maximumIterations = 0;
+    parameters.targetSampleDistance = 0.;
+    parameters.targetCloudDistance = 0.;
+    parameters.targetNormalChange = 0.;
+    parameters.timeLimit = 0.;
+    return parameters;
+  }
+
+  /// Runs on all patches, with the lambda of each by the data times a factor.
+  std::vector<Reconstruction> runAll(const Parameters& parameters, double factor)
+  {
+    std::vector<Reconstruction> runs(this->patches_.size());
+    const std::thread::id asking = std::this_thread::get_id();
+    std::atomic<bool> isCancelled = this->isCancelled_;
+    this->executor_.forEachPart(runs.size(),
+      [&](std::size_t i)
+      {
+        Parameters own = forTrial(parameters);
+        own.numberOfVertices = this->patches_[i].vertices();
+        if (factor != 1.)
+        {
+          own.fitSmoothness = factor * this->smoothness_[i];
+        }
+        // Only the thread of the caller may tell him.
+        const Progress progress = [&](double)
+        {
+          if (std::this_thread::get_id() == asking && !this->progress_(this->done()))
+          {
+            isCancelled = true;
+          }
+          return !isCancelled;
+        };
+        runs[i] = reconstruct(this->patches_[i].cloud(), own, progress);
+      });
+    this->isCancelled_ = isCancelled;
+    ++this->runCount_;
+    return runs;
+  }
+
+  double done() const
+  {
+    constexpr double MostRuns = 6.;
+    return std::min(1., this->runCount_ / MostRuns);
+  }
+
+  std::vector<double> measure(const std::vector<Reconstruction>& runs) const
+  {
+    std::vector<double> squared;
+    for (std::size_t i = 0; i < runs.size(); ++i)
+    {
+      const std::vector<double> own = this->patches_[i].squaredDistances(runs[i].surface);
+      squared.insert(squared.end(), own.begin(), own.end());
+    }
+    return squared;
+  }
+
+  bool isBetter(const Parameters& parameters, double factor, TuningTrial trial)
+  {
+    if (this->isCancelled_)
+    {
+      return false;
+    }
+    const std::vector<Reconstruction> runs = this->runAll(parameters, factor);
+    if (this->isCancelled_)
+    {
+      return false;
+    }
+    const std::vector<double> squared = this->measure(runs);
+    const auto [before, gain, doubt] = compare(this->best_, squared);
+    trial.error = this->cloud_.unit() * std::sqrt(std::max(0., before - gain));
+    trial.gain = before > 0. ? gain / before : 0.;
+    trial.doubt = before > 0. ? doubt / before : 0.;
+    trial.isTaken = trial.gain > std::max(LeastGain, LeastGainInDoubts * trial.doubt);
+    this->result_.trials.push_back(trial);
+    if (trial.isTaken)
+    {
+      this->best_ = squared;
+    }
+    return trial.isTaken;
+  }
+
+  const PointCloud& cloud_;
+  const Progress& progress_;
+  const Executor& executor_;
+  std::vector<TuningPatch> patches_;
+  std::vector<double> smoothness_; ///< lambda by the data, of each patch
+  std::vector<double> best_;       ///< squared distances with the best parameters so far
+  double noise_ = 0.;              ///< of mean edges
+  int runCount_ = 0;
+  bool isCancelled_ = false;
+  Tuning result_;
+};
+}
+
+std::vector<std::string> Tuning::reasons() const
+{
+  std::vector<std::string> lines;
+  for (const TuningTrial& trial : this->trials)
+  {
+    lines.push_back(std::string(trial.parameter) + " " + text(trial.value) + " instead of " +
+      text(trial.before) + (trial.isTaken ? ": taken" : ": not taken") +
+      ", squares of held-out distances are " + text(100. * std::abs(trial.gain)) + " % " +
+      (trial.gain < 0. ? "more" : "less") + " (standard error " + text(100. * trial.doubt) + " %)");
+  }
+  lines.insert(lines.end(), this->remarks.begin(), this->remarks.end());
+  return lines;
+}
+
+std::optional<Tuning> tune(const PointCloud& cloud, const Parameters& wanted,
+  const Progress& progress, const Executor& executor)
+{
+  if (wanted.fitRounds == 0)
+  {
+    return Tuning{ wanted, {}, {}, { "without a fit there is nothing to choose" } };
+  }
+  return Tuner(cloud, wanted, progress, executor).run();
+}
+}

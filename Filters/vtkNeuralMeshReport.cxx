@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNeuralMeshReport.h"
+
+#include "Reconstruction.h"
+#include "Tuning.h"
+#include "vtkMeshArrays.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkLogger.h"
+#include "vtkNew.h"
+#include "vtkObject.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include <limits>
+#include <sstream>
+#include <string>
+
+namespace
+{
+/// A column of the table, with a value of each row.
+template <typename ArrayT, typename Value>
+void AddColumn(vtkTable* table, const char* name,
+  const std::vector<neuralmesh::LearningCurve::Row>& rows, const Value& valueOf)
+{
+  vtkNew<ArrayT> column;
+  column->SetName(name);
+  for (const auto& row : rows)
+  {
+    column->InsertNextValue(static_cast<typename ArrayT::ValueType>(valueOf(row)));
+  }
+  table->AddColumn(column);
+}
+
+std::string Assignment(const neuralmesh::TuningChoice& choice)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << choice.parameter << "=" << choice.value;
+  return text.str();
+}
+}
+
+void vtkNeuralMeshReport::AddQuality(
+  const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output)
+{
+  const auto addNumber = [output](const char* name, double value)
+  { vtkMeshArrays::AddFieldValue<vtkDoubleArray>(output, name, value); };
+  const auto addCount = [output](const char* name, auto count)
+  { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count)); };
+  const neuralmesh::SurfaceReport& surface = result.quality->surface;
+  addNumber("Residual", result.quality->residual);
+  addNumber("Noise",
+    result.finish ? result.finish->noise * unit : std::numeric_limits<double>::quiet_NaN());
+  addNumber("OutlierShare", result.quality->outlierShare);
+  addNumber("RegularRatio", surface.regularRatio);
+  addNumber("TriangleQuality", surface.meanQuality);
+  addCount("Components", surface.components);
+  addCount("Genus", surface.genus.value_or(-1));
+  addCount("BoundaryLoops", surface.boundaryLoops);
+  addCount("FoldedEdges", surface.foldedEdges);
+  constexpr vtkIdType NotLookedFor = -1;
+  addCount("IntersectingTriangles",
+    result.finish ? static_cast<vtkIdType>(result.finish->left.intersectingTriangles)
+                  : NotLookedFor);
+}
+
+void vtkNeuralMeshReport::RemoveFrom(vtkPolyData* output)
+{
+  for (const char* name : { "Residual", "Noise", "OutlierShare", "RegularRatio", "TriangleQuality",
+         "Components", "Genus", "BoundaryLoops", "FoldedEdges", "IntersectingTriangles",
+         "ChosenParameters", "ReasonsOfChoice" })
+  {
+    output->GetFieldData()->RemoveArray(name);
+  }
+}
+
+void vtkNeuralMeshReport::FillLearningCurve(
+  const std::vector<neuralmesh::LearningCurve::Row>& rows, vtkTable* table)
+{
+  using Row = neuralmesh::LearningCurve::Row;
+  const auto addCount = [&](const char* name, const auto& countOf)
+  { AddColumn<vtkIdTypeArray>(table, name, rows, countOf); };
+  const auto addNumber = [&](const char* name, const auto& numberOf)
+  { AddColumn<vtkDoubleArray>(table, name, rows, numberOf); };
+  addCount("Iteration", [](const Row& row) { return row.counts.iterations; });
+  addCount("Vertices", [](const Row& row) { return row.vertices; });
+  addNumber("Seconds", [](const Row& row) { return row.seconds; });
+  addNumber("SampleDistanceMean", [](const Row& row) { return row.sampleDistanceMean; });
+  addNumber("SampleDistanceDeviation", [](const Row& row) { return row.sampleDistanceDeviation; });
+  addNumber("NormalChangeMean", [](const Row& row) { return row.normalChangeMean; });
+  addNumber("RegularRatio", [](const Row& row) { return row.regularRatio; });
+  addCount("Additions", [](const Row& row) { return row.counts.additions; });
+  addCount("Removals", [](const Row& row) { return row.counts.removals; });
+  addCount("Flips", [](const Row& row) { return row.counts.flips; });
+  addCount("RejectedSamples", [](const Row& row) { return row.counts.rejectedSamples; });
+  addCount("IllegalOperations", [](const Row& row) { return row.counts.illegalOperations; });
+  addCount("RemovedTriangles", [](const Row& row) { return row.counts.removedTriangles; });
+  addCount("MergedBoundaries", [](const Row& row) { return row.counts.mergedBoundaries; });
+  addCount("FilledBoundaries", [](const Row& row) { return row.counts.filledBoundaries; });
+}
+
+void vtkNeuralMeshReport::AddTuning(const neuralmesh::Tuning& tuning, vtkPolyData* output)
+{
+  vtkNew<vtkStringArray> chosen;
+  chosen->SetName("ChosenParameters");
+  for (const auto& choice : tuning.choices)
+  {
+    chosen->InsertNextValue(Assignment(choice));
+  }
+  output->GetFieldData()->AddArray(chosen);
+  vtkNew<vtkStringArray> reasons;
+  reasons->SetName("ReasonsOfChoice");
+  for (const std::string& reason : tuning.reasons())
+  {
+    reasons->InsertNextValue(reason);
+  }
+  output->GetFieldData()->AddArray(reasons);
+}
+
+void vtkNeuralMeshReport::Log(const neuralmesh::Tuning& tuning, vtkObject* filter)
+{
+  for (const auto& choice : tuning.choices)
+  {
+    vtkLog(INFO, << filter->GetClassName() << " has chosen " << Assignment(choice));
+  }
+  for (const std::string& reason : tuning.reasons())
+  {
+    vtkLog(INFO, << filter->GetClassName() << ": " << reason);
+  }
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkNeuralMeshReport
+ * @brief   what a run of vtkNeuralMesh tells of itself: field data, learning curve, log
+ *
+ * Internal to the module.
+ */
+
+#ifndef vtkNeuralMeshReport_h
+#define vtkNeuralMeshReport_h
+
+#include "LearningCurve.h"
+
+#include <vector>
+
+class vtkObject;
+class vtkPolyData;
+class vtkTable;
+namespace neuralmesh
+{
+struct Reconstruction;
+struct Tuning;
+}
+
+class vtkNeuralMeshReport
+{
+public:
+  /** What the mesh is worth, in units of the input, where a unit of the cloud is so long. */
+  static void AddQuality(
+    const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output);
+  /** Which parameters were chosen, and why. */
+  static void AddTuning(const neuralmesh::Tuning& tuning, vtkPolyData* output);
+  /** Removes all that these add: the input may bring the report on an earlier mesh along. */
+  static void RemoveFrom(vtkPolyData* output);
+
+  static void FillLearningCurve(
+    const std::vector<neuralmesh::LearningCurve::Row>& rows, vtkTable* table);
+
+  /** Tells in VTK's log what was chosen by a filter. */
+  static void Log(const neuralmesh::Tuning& tuning, vtkObject* filter);
+};
+
+#endif
