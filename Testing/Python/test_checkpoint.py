@@ -12,8 +12,9 @@ from neuralmesh import vtkNeuralMesh
 
 # On which the mesh does not depend, or only by the points; the others are refused before they would
 # count.
-FREE = {"time_limit", "carry_point_data", "output_points_precision", "checkpoint_interval",
-        "keep_checkpoint", "number_of_threads", "maximum_points"}
+# Of `automatic` the values that are chosen are compared.
+FREE = {"automatic", "time_limit", "carry_point_data", "output_points_precision",
+        "checkpoint_interval", "keep_checkpoint", "number_of_threads", "maximum_points"}
 REFUSED_BEFORE = {"growth_as_time", "number_of_snapshots", "preset", "jump"}
 
 
