@@ -232,8 +232,8 @@ REMOVAL_OPERATION = Experiment(
     name="removal-operation",
     figures="Figure 6.7",
     title="Vertex delete, half-edge and full-edge collapse",
-    setting="The basic algorithm to 5,000 vertices, with removals five times as often (C_ec 4), so "
-    "that there is something to see.",
+    setting="The basic algorithm to 5,000 vertices, with removals two and a half times as often "
+    "(C_ec 4), so that there is something to see.",
     cases=_compared(
         "removal",
         {way: {"removal_operation": way, "removal_patience": 4.0} for way in _REMOVALS},

@@ -134,14 +134,15 @@ def _experiment(experiments: list[Experiment], scale: Scale, options: argparse.N
         names = ", ".join(map(model_name, scale.models))
         write_report(results, folder / "index.html", f"models {names} {shown}".strip())
         print(f"report             {folder / 'index.html'}")
-        _write_markdown(results, options.markdown)
+        _write_markdown(results, options)
     return 1 if failed else 0
 
 
-def _write_markdown(results: list[Result], path: Path | None) -> None:
-    if path is not None:
-        write_text(path.absolute(), verdicts_as_markdown(results))
-        print(f"verdicts           {path}")
+def _write_markdown(results: list[Result], options: argparse.Namespace) -> None:
+    if options.markdown is not None:
+        names = " ".join([*options.names, *(["--quick"] if options.quick else [])])
+        write_text(options.markdown.absolute(), verdicts_as_markdown(results, names))
+        print(f"verdicts           {options.markdown}")
 
 
 def _run(runs: dict[str, Run], store: Path, processes: int) -> set[str]:

@@ -25,14 +25,22 @@ from ..vtkFiltersNeuralMesh import vtkNeuralMeshScan
 _BUNNY = Path("/usr/share/glmark2/models/bunny.obj")
 _CGAL_DATA = Path("/usr/share/doc/libcgal-dev/data.tar.gz")
 _PACKAGES = {_BUNNY: "glmark2-data", _CGAL_DATA: "libcgal-demo"}
-# How thick the plate is, and how much sparser the scan of its thin part.
 PLATE_THICKNESS = 0.02
-PLATE_SPARSITY = 50
+# How much sparser the scan of the plate is than that of the pillar on it.
+SPARSITY = {"plate": 1, "plate-10": 10, "plate-50": 50}
 _ROOM = (0.375, 0.25, 0.375)  # parts of a side of the plate: the middle one is under the pillar
 
 
 class ModelError(ValueError):
     """What is wrong with a model."""
+
+
+# Those of our own stand on the plane of x and y, the others on that of x and z.
+_UPRIGHT = ("torus", "cube", *SPARSITY)
+
+
+def up_axis(model: str) -> int:
+    return 2 if model in _UPRIGHT else 1
 
 
 def is_file(model: str) -> bool:
@@ -80,8 +88,8 @@ def cloud_of(model: str, count: int) -> vtkPointSet:
     surface = surface_of(model)
     if surface is None:
         return read_points(Path(model))
-    if model == "plate":
-        return _append(_scan(_statue(), count), _scan(_base(), count // PLATE_SPARSITY))
+    if model in SPARSITY:
+        return _append(_scan(_pillar(), count), _scan(_base(), count // SPARSITY[model]))
     return _scan(surface, count)
 
 
@@ -139,7 +147,7 @@ def _cube() -> vtkPolyData:
     return _triangles(vtkCubeSource())
 
 
-def _statue() -> vtkPolyData:
+def _pillar() -> vtkPolyData:
     """A pillar without its lower end, on the middle of the base."""
     low, high, side = PLATE_THICKNESS, 1.0, 0.5
     corner = np.array([-side / 2, -side / 2, low])
@@ -174,7 +182,7 @@ def _parallelograms(sides: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> v
 
 
 def _plate() -> vtkPolyData:
-    return _append(_statue(), _base())
+    return _append(_pillar(), _base())
 
 
 def _triangles(source: Any) -> vtkPolyData:
@@ -200,7 +208,7 @@ SURFACES: dict[str, Callable[[], vtkPolyData]] = {
     "knot": _of_cgal("knot1"),
     "torus": _torus,
     "cube": _cube,
-    "plate": _plate,
+    **dict.fromkeys(SPARSITY, _plate),
 }
 # Those by which the thesis's scans are replaced, unless the user names others.
 MODELS = ("bunny", "armadillo", "elephant", "hand")

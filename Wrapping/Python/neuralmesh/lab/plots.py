@@ -32,7 +32,7 @@ def _pyplot() -> Any:
     from matplotlib import pyplot
 
     pyplot.rcParams.update({
-        "axes.grid": True, "axes.prop_cycle": pyplot.cycler(color=_COLORS), "font.size": 9,
+        "axes.grid": True, "axes.axisbelow": True, "axes.prop_cycle": pyplot.cycler(color=_COLORS), "font.size": 9,
         "axes.spines.right": False, "axes.spines.top": False, "grid.color": "#e4e6ea",
         "legend.frameon": False, "savefig.dpi": 110,
     })  # fmt: skip
@@ -53,6 +53,31 @@ def _label(axes: Any, x: str, y: str) -> None:
                   else column.title if column else name)  # fmt: skip
 
 
+def plain(name: str) -> str:
+    """A name of the program in words; what has blanks is in words already."""
+    return name if " " in name else name.replace("_", " ")
+
+
+def _title(factor: str, value: Any) -> str:
+    """What a panel shows; on and off say nothing by themselves."""
+    return f"{plain(factor)} {value}" if value in ("on", "off") else plain(str(value))
+
+
+def _legend(figure: Any, axes: Any, factor: str) -> None:
+    """Below all panels, where it hides nothing."""
+    handles, labels = axes.get_legend_handles_labels()
+    figure.tight_layout()
+    figure.legend(
+        handles,
+        [plain(label) for label in labels],
+        title=plain(factor),
+        loc="upper center",
+        bbox_to_anchor=(0.5, 0.0),
+        ncol=min(len(labels), 7),
+        fontsize=8,
+    )
+
+
 Plot = Callable[[Table, Path], None]
 
 
@@ -71,12 +96,12 @@ def bars(columns: Sequence[str], factor: str, over: str = "model", log: bool = F
                 errors = [part.error(column) for part in parts]
                 means = [part.mean(column) for part in parts]
                 axes.bar(places, means, 0.92 * width, yerr=errors, label=str(value))
-            axes.set_xticks(range(len(groups)), [str(group) for group in groups])
+            axes.set_xticks(range(len(groups)), [plain(str(group)) for group in groups])
             axes.grid(visible=False, axis="x")
             if log:
                 axes.set_yscale("log")
             _label(axes, "", column)
-        panels[0][0].legend(title=factor.replace("_", " "), fontsize=7)
+        _legend(figure, panels[0][0], factor)
         _save(figure, path)
 
     return plot
@@ -95,8 +120,8 @@ def lines(columns: Sequence[str], factor: str, over: str = "model") -> Plot:
                 means = [part.mean(column) for part in parts]
                 errors = [part.error(column) for part in parts]
                 axes.errorbar(values, means, errors, marker="o", markersize=4, label=str(group))
-            _label(axes, factor.replace("_", " "), column)
-        panels[0][0].legend(fontsize=7)
+            _label(axes, plain(factor), column)
+        _legend(figure, panels[0][0], over)
         _save(figure, path)
 
     return plot
@@ -117,33 +142,34 @@ def curves(
             for axes, model in zip(row, models):
                 for (value,), part in table.where(**{over: model}).groups(factor):
                     axes.plot(*part.curve(x, column), label=str(value))
-                axes.set_title(str(model), fontsize=9)
+                axes.set_title(_title(over, model), fontsize=9)
                 if log:
                     axes.set_xscale("log")
                     axes.set_yscale("log")
                 _label(axes, x, column if axes is row[0] else "")
-        grid[0][0].legend(title=factor.replace("_", " "), fontsize=7)
+        _legend(figure, grid[0][0], factor)
         _save(figure, path)
 
     return plot
 
 
-def draw_meshes(rows: Sequence[tuple[str, str]], path: Path, edges: bool = False) -> None:
-    """Meshes side by side, each by its title and its file. Triangles seen from behind are dark."""
+def draw_meshes(meshes: Sequence[tuple[str, str, int]], path: Path) -> None:
+    """Meshes side by side, each by its title, its file and the axis that points upwards. Triangles
+    seen from behind are dark."""
     figure, panels = _pyplot().subplots(
-        1, len(rows), figsize=(2.9 * len(rows), 3.1), squeeze=False
+        1, len(meshes), figsize=(2.9 * len(meshes), 3.1), squeeze=False
     )
-    for axes, (title, mesh) in zip(panels[0], rows):
-        _draw_mesh(axes, *read_stored_mesh(mesh), edges)
+    for axes, (title, file, up) in zip(panels[0], meshes):
+        _draw_mesh(axes, *read_stored_mesh(file), up)
         axes.set_title(title, fontsize=9)
     _save(figure, path)
 
 
-def _draw_mesh(axes: Any, points: np.ndarray, triangles: np.ndarray, edges: bool) -> None:
+def _draw_mesh(axes: Any, points: np.ndarray, triangles: np.ndarray, up: int) -> None:
     """By the painter's algorithm: the triangles farthest from the eye first."""
     from matplotlib.collections import PolyCollection
 
-    corners = (points - points.mean(axis=0)) @ _view(points).T
+    corners = (points - points.mean(axis=0)) @ _view(up).T
     corners = corners[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-30)[:, None]
@@ -151,24 +177,25 @@ def _draw_mesh(axes: Any, points: np.ndarray, triangles: np.ndarray, edges: bool
     shade = 0.35 + 0.65 * np.clip(np.abs(normals @ (_LIGHT / np.linalg.norm(_LIGHT))), 0, 1)
     colors = np.where(is_front, _FRONT, _BACK) * shade[:, None]
     order = np.argsort(corners[:, :, 2].mean(axis=1))
-    lines = dict(edgecolors="#303540", linewidths=0.25) if edges else dict(edgecolors="face")
     axes.add_collection(
-        PolyCollection(corners[order][:, :, :2], facecolors=colors[order], **lines)
+        PolyCollection(
+            corners[order][:, :, :2],
+            facecolors=colors[order],
+            edgecolors="#303540",
+            linewidths=0.25,
+        )
     )
     axes.autoscale_view()
     axes.set_aspect("equal")
     axes.set_axis_off()
 
 
-def _view(points: np.ndarray) -> np.ndarray:
-    """Rows: what is right, up and towards the eye. The axis along which the model is longest is up,
-    that along which it is shortest leads to the eye, a little from the side and from above."""
-    depth, right, up = np.argsort(np.ptp(points, axis=0), kind="stable")
-    axes = np.eye(3)[[right, up, depth]]
-    axes[2] *= np.sign(np.linalg.det(axes))
-    turn, tilt = math.radians(25), math.radians(18)
+def _view(up: int) -> np.ndarray:
+    """Rows: what is right, up and towards the eye, which is a little aside and above."""
+    turn, tilt = math.radians(30), math.radians(30)
     aside = np.array([[math.cos(turn), 0, -math.sin(turn)], [0, 1, 0],
                       [math.sin(turn), 0, math.cos(turn)]])  # fmt: skip
     above = np.array([[1, 0, 0], [0, math.cos(tilt), -math.sin(tilt)],
                       [0, math.sin(tilt), math.cos(tilt)]])  # fmt: skip
-    return above @ aside @ axes
+    # With y upwards, right is x and depth z; with z upwards, they are y and x.
+    return above @ aside @ np.roll(np.eye(3), up - 1, axis=1)

@@ -12,7 +12,8 @@ from typing import Iterator
 from .. import __version__
 from ..batch.whole_file import write_text
 from .experiment import NOT_JUDGED, Claim, Experiment, Finding, verdict_of
-from .plots import draw_meshes
+from .models import up_axis
+from .plots import draw_meshes, plain
 from .table import COLUMNS, Table
 
 _STYLE = """
@@ -59,15 +60,15 @@ def make_result(experiment: Experiment, table: Table, is_whole: bool, folder: Pa
     shown = list(_shown_meshes(experiment, table))
     if shown:
         plots.append(folder / f"{experiment.name}-meshes.png")
-        draw_meshes(shown, plots[1], edges=True)
+        draw_meshes(shown, plots[1])
     return Result(experiment, table, findings, plots)
 
 
-def _shown_meshes(experiment: Experiment, table: Table) -> Iterator[tuple[str, str]]:
+def _shown_meshes(experiment: Experiment, table: Table) -> Iterator[tuple[str, str, int]]:
     for title, factors in experiment.pictures.items():
         rows = [row for row in table.where(**factors).rows if row["mesh_file"]]
         if rows:
-            yield title, rows[0]["mesh_file"]
+            yield title, rows[0]["mesh_file"], up_axis(rows[0]["model"])
 
 
 def _verdict(finding: Finding | None) -> str:
@@ -129,13 +130,13 @@ def _words(finding: Finding | None) -> str:
 
 def _summary(experiment: Experiment, table: Table) -> str:
     """Means over the seeds, with their standard errors."""
-    heads = [*(name.replace("_", " ") for name in experiment.groups), "runs"]
+    heads = [*(plain(name) for name in experiment.groups), "runs"]
     for name in experiment.columns:
         column = COLUMNS[name]
         heads.append(f"{column.title} [{column.unit}]" if column.unit else column.title)
     rows = ""
     for group, part in table.groups(*experiment.groups):
-        cells = "".join(f"<td>{escape(str(value).replace('_', ' '))}</td>" for value in group)
+        cells = "".join(f"<td>{escape(plain(str(value)))}</td>" for value in group)
         figures = "".join(
             f'<td class="number">{escape(_mean(part, name))}</td>' for name in experiment.columns
         )
@@ -155,12 +156,17 @@ def _mean(part: Table, name: str) -> str:
 # --- Markdown ------------------------------------------------------------------------------------
 
 
-def verdicts_as_markdown(results: list[Result]) -> str:
+def verdicts_as_markdown(results: list[Result], names: str) -> str:
     """The verdicts alone, as tables."""
-    parts = ["| thesis | experiment | verdict |\n|---|---|---|\n"]
+    parts = [
+        "# The thesis, experiment by experiment\n",
+        f"Written by `python3 -m neuralmesh.lab {names} --markdown FILE`; what it means is told by "
+        "[Laboratory.md](Laboratory.md).\n",
+        "| thesis | experiment | verdict |\n|---|---|---|\n",
+    ]
     for result in results:
         experiment = result.experiment
-        parts[0] += f"| {experiment.figures} | {experiment.title} | {result.verdict} |\n"
+        parts[2] += f"| {experiment.figures} | {experiment.title} | {result.verdict} |\n"
         lines = [f"## {experiment.figures}: {experiment.title}\n", f"{experiment.setting}\n"]
         lines.append("| the thesis says | found | verdict |\n|---|---|---|")
         for claim, finding in zip(experiment.claims, result.findings):

@@ -30,6 +30,7 @@ from .models import cloud_of
 from .store import store_result
 
 STEP_TIMES = Path(__file__).with_name("step-times")
+_LABORATORY = os.getppid()
 _MOMENTS = 60  # of a curve at most
 
 
@@ -57,8 +58,7 @@ def _learn(run: Run) -> _Result:
         run.vertices, run.seed, **{"preset": "thesis", "number_of_threads": 1, **run.parameters}
     )
     mesh_filter.SetInputData(cloud)
-    parent = os.getppid()
-    execute(mesh_filter, lambda _fraction: os.getppid() == parent)
+    execute(mesh_filter, lambda _fraction: _end_with_laboratory())
     mesh = mesh_filter.GetAverageMesh() if run.kind == "average" else mesh_filter.GetOutput()
     if mesh.GetNumberOfPolys() == 0:
         raise ValueError(f"{run.model}: there is no mesh")
@@ -75,6 +75,12 @@ def _learn(run: Run) -> _Result:
     figures |= measure(mesh, run.model, run.points)
     curve = _curve(mesh_filter.GetLearningCurve(), figures["seconds"])
     return figures, curve, mesh if run.keeps_mesh else None
+
+
+def _end_with_laboratory() -> None:
+    """Without a result: half a run is none."""
+    if os.getppid() != _LABORATORY:
+        sys.exit("the laboratory has ended")
 
 
 def _curve(table: vtkTable, seconds: float) -> dict[str, list[float]]:
@@ -118,7 +124,6 @@ def _time_steps(run: Run) -> _Result:
 
 def _output(command: list[str]) -> str:
     """What the program prints; it ends when the laboratory has ended."""
-    parent = os.getppid()
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as process:
@@ -127,8 +132,9 @@ def _output(command: list[str]) -> str:
                 output, errors = process.communicate(timeout=0.1)
                 break
             except subprocess.TimeoutExpired:
-                if os.getppid() != parent:
+                if os.getppid() != _LABORATORY:
                     process.kill()
+    _end_with_laboratory()
     if process.returncode != 0:
         raise RuntimeError(errors.strip() or f"step-times ended with status {process.returncode}")
     return output
