@@ -201,6 +201,12 @@ class WrongUse(FolderTest):
         _, errors, status = run(self.folder / "results", "jumps", "--models", "none.ply")
         self.assertEqual(status, 2)
         self.assertIn("there is no file", errors)
+        for folder in ("one", "two"):
+            write_scan(self.folder / folder / "same.xyz")
+        files = [str(self.folder / folder / "same.xyz") for folder in ("one", "two")]
+        _, errors, status = run(self.folder / "results", "jumps", "--models", *files)
+        self.assertEqual((status, errors.count("\n")), (2, 1))
+        self.assertIn("two models are called same", errors)
         self.assertFalse((self.folder / "results").exists())
 
     # Promise: a folder that cannot be one is named in one line.

@@ -243,7 +243,7 @@ def _distance_cases(scale: Scale) -> list[Case]:
         )
         for model in scale.models
         for way, parameters in _WAYS.items()
-        for seed in scale.seeds()
+        for seed in scale.seeds(5)
     ]
 
 

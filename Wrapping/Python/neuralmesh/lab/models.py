@@ -61,7 +61,11 @@ def model_identity(model: str) -> list[Any]:
 
 
 def require_models(models: tuple[str, ...]) -> None:
-    """Raise ModelError for the first one that is not there, with what to do."""
+    """Raise ModelError for the first one that is not there, with what to do, or is called as another."""
+    names = [model_name(model) for model in models]
+    for name in names:
+        if names.count(name) > 1:
+            raise ModelError(f"two models are called {name}: tables could not tell them apart")
     for model in models:
         path = Path(model) if is_file(model) else _PATHS.get(model)
         if path is None or path.is_file():
