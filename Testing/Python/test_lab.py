@@ -88,7 +88,9 @@ class Quick(FolderTest):
                 for row in ends:
                     missing = {column for column in experiment.columns if not row[column]}
                     # Measured on the cube alone, not of average meshes, and where it was called.
-                    self.assertLessEqual(missing, {"edge_density", "genus", "openings", "folds", "topology_us"})
+                    self.assertLessEqual(
+                        missing, {"edge_density", "genus", "openings", "folds", "topology_us"}
+                    )
 
     # Promise: each experiment gives a plot, which stands in the report beside what the thesis says,
     # what was found and a verdict; the report needs no other file.

@@ -116,13 +116,14 @@ def _calls_are_logarithmic(table: Table) -> Finding:
 
 
 def _plot_costs(table: Table, path: Path) -> None:
+    """A panel for each step: what a call costs by the size of the mesh."""
     rows = []
     for row in table.rows:
         for step in _STEPS:
             sizes, costs = cost_of_calls(row, step)
-            curve = {"vertices": sizes.tolist(), f"{step}_us": costs.tolist()}
-            rows.append({"order": row["order"], "step": COLUMNS[f"{step}_us"].title, "curve": {
-                "vertices": curve["vertices"], "cost": curve[f"{step}_us"]}})  # fmt: skip
+            curve = {"vertices": sizes.tolist(), "cost": costs.tolist()}
+            title = COLUMNS[f"{step}_seconds"].title
+            rows.append({"order": row["order"], "step": title, "curve": curve})
     curves(("cost",), "order", over="step", log=True)(Table(rows), path)
 
 
@@ -142,16 +143,15 @@ COST = Experiment(
             _grows("basic", tuple(_ORDERS), linear=False),
         ),
         Claim(
-            "Node Addition: O(n) by the original search.", _grows("addition", (SEARCH,), linear=True)
+            "Node Addition: O(n) by the original search.",
+            _grows("addition", (SEARCH,), linear=True),
         ),
         Claim(
             "Node Removal: O(n) by the original search.", _grows("removal", (SEARCH,), linear=True)
         ),
         Claim("Node Addition: O(log n) by the list.", _grows("addition", (LIST,), linear=False)),
         Claim("Node Removal: O(log n) by the list.", _grows("removal", (LIST,), linear=False)),
-        Claim(
-            "Topology learning: O(n) a call.", _grows("topology", tuple(_ORDERS), linear=True)
-        ),
+        Claim("Topology learning: O(n) a call.", _grows("topology", tuple(_ORDERS), linear=True)),
         Claim("... called O(log n) times.", _calls_are_logarithmic),
         Claim("In all: O(n²) by the original search.", _grows_in_all((SEARCH,), 1.7, 2.3)),
         Claim("In all: O(n log n) by the list.", _grows_in_all((LIST,), 0.9, 1.4)),
@@ -205,11 +205,10 @@ STEPS = Experiment(
             "Topology learning takes almost the same time: within a tenth.",
             alike("topology_seconds", "order", LIST, SEARCH, within=0.1),
         ),
+        Claim("Node Removal takes some less time with the list.", _faster("removal", by=1.1)),
         Claim(
-            "Node Removal takes some less time with the list.", _faster("removal", by=1.1)
-        ),
-        Claim(
-            "Node Addition takes drastically less: a tenth of it at most.", _faster("addition", by=10)
+            "Node Addition takes drastically less: a tenth of it at most.",
+            _faster("addition", by=10),
         ),
         Claim(
             "(Future work) Exact counters in heaps are as fast in all as the list: within a tenth.",
@@ -260,9 +259,7 @@ DISTANCE = Experiment(
             "bunny 0.007 against 0.006, hand 8.30 against 6.60; but Max Planck 3.86 against 5.23).",
             larger("hausdorff", "way", _WITH, than=_WITHOUT),
         ),
-        Claim(
-            "So is the distance on average (RMS).", larger("rms", "way", _WITH, than=_WITHOUT)
-        ),
+        Claim("So is the distance on average (RMS).", larger("rms", "way", _WITH, than=_WITHOUT)),
         Claim(
             "It can be put down to α_L 0.2: without the list the RMS distance is larger, too, with "
             "0.2 than with 0.05.",
@@ -356,9 +353,7 @@ MODELS_COMPARED = Experiment(
     "α_L; and with exact counters in heaps.",
     cases=_model_cases,
     claims=(
-        Claim(
-            "The list is faster on all models.", larger("seconds", "order", SEARCH, than=LIST)
-        ),
+        Claim("The list is faster on all models.", larger("seconds", "order", SEARCH, than=LIST)),
         Claim(
             "More vertices are regular with the list on all models.",
             larger("regular", "order", LIST, than=SEARCH),

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from .experiment import Case, Claim, Experiment, Finding, Run, Scale
+from .experiment import Case, Claim, Experiment, Finding, Judge, Run, Scale
 from .judging import alike, is_larger, larger
 from .plots import bars
 from .table import Table
@@ -41,7 +41,7 @@ def _jump_cases(scale: Scale) -> list[Case]:
     ]
 
 
-def _best(column: str, families: tuple[str, ...], than: str, sign: int = 1):
+def _best(column: str, families: tuple[str, ...], than: str, sign: int = 1) -> Judge:
     """On which models one of the families is better than another one, and which is best."""
 
     def judge(table: Table) -> Finding:

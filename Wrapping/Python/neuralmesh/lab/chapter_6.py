@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Callable
 
 from .experiment import Case, Claim, Experiment, Finding, Judge, Run, Scale
 from .judging import alike, every_run, larger, ordered
@@ -41,8 +41,10 @@ def _basic(
     ]
 
 
-def _compared(factor: str, ways: dict[Any, dict[str, Any]], keeps_mesh: bool = False):
-    """Cases of each model in each of the ways."""
+def _compared(
+    factor: str, ways: dict[Any, dict[str, Any]], keeps_mesh: bool = False
+) -> Callable[[Scale], list[Case]]:
+    """Each model in each of the ways, which are the values of the factor."""
 
     def cases(scale: Scale) -> list[Case]:
         return [
@@ -107,7 +109,10 @@ def _declines_for_most(table: Table) -> Finding:
         words.append(f"{model} {at:.1f} → {best:.1f} → {last:.1f}")
     models = len(words)
     shown = "; ".join(words)
-    cases = {"declines for most": 2 * fallen > models, "not for all": models == 1 or fallen < models}
+    cases = {
+        "declines for most": 2 * fallen > models,
+        "not for all": models == 1 or fallen < models,
+    }
     return Finding(
         cases,
         f"fewer regular vertices with 0.5 than with 0.2 in {fallen} of {models} models "
@@ -320,9 +325,7 @@ GROWTH_RATE = Experiment(
     ),
     claims=(
         Claim("Below the bound the mesh does not grow: C_ec 2.", _grows(_BELOW, is_grown=False)),
-        Claim(
-            "One or two above the bound it does: C_ec 4.", _grows(_ONE_ABOVE, is_grown=True)
-        ),
+        Claim("One or two above the bound it does: C_ec 4.", _grows(_ONE_ABOVE, is_grown=True)),
         Claim("... C_ec 5.", _grows(_TWO_ABOVE, is_grown=True)),
         Claim("So it does with the usual value, 10.", _grows(10.0, is_grown=True)),
     ),

@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from itertools import combinations
+from typing import Callable
 
 import numpy as np
 
-from .experiment import Case, Claim, Experiment, Finding, Run, Scale
+from .experiment import Case, Claim, Experiment, Finding, Judge, Run, Scale
 from .judging import larger
 from .plots import bars
 from .table import COLUMNS, Table
@@ -39,7 +40,7 @@ def _topology_cases(scale: Scale) -> list[Case]:
     ]
 
 
-def _handles(way: str, is_so, said: str):
+def _handles(way: str, is_so: Callable[[float, float], bool], said: str) -> Judge:
     """In which variants most runs are so, by genus and boundaries."""
 
     def judge(table: Table) -> Finding:
@@ -80,11 +81,15 @@ TOPOLOGY = Experiment(
         ),
         Claim(
             "... and the two boundaries are merged to a handle: genus 1, closed.",
-            _handles("thesis rules", lambda genus, openings: genus == 1 and openings == 0, "a torus"),
+            _handles(
+                "thesis rules", lambda genus, openings: genus == 1 and openings == 0, "a torus"
+            ),
         ),
         Claim(
             "(Ours) With the rules mended it becomes a torus: genus 1, closed.",
-            _handles("mended rules", lambda genus, openings: genus == 1 and openings == 0, "a torus"),
+            _handles(
+                "mended rules", lambda genus, openings: genus == 1 and openings == 0, "a torus"
+            ),
         ),
     ),
     columns=("genus", "openings", "pieces", "largest_triangle", "rms", "seconds"),
@@ -228,7 +233,9 @@ def _has_artefacts(table: Table) -> Finding:
     return Finding(cases, "; ".join(words))
 
 
-def _less(column: str, stage: str):
+def _less(column: str, stage: str) -> Judge:
+    """That the figure is less at this stage than on average over the members."""
+
     def judge(table: Table) -> Finding:
         cases, words = {}, []
         for (model,), part in table.groups("model"):

@@ -85,7 +85,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--models", nargs="+", metavar="FILE", help="models instead of those of the packages"
     )
-    parser.add_argument("--markdown", type=Path, metavar="FILE", help="write the verdicts there, too")
+    parser.add_argument(
+        "--markdown", type=Path, metavar="FILE", help="write the verdicts there, too"
+    )
     parser.add_argument(
         "--processes",
         type=_count,

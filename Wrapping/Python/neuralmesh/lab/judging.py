@@ -9,7 +9,7 @@ difference.
 from __future__ import annotations
 
 import math
-from typing import Any, Iterator, Sequence
+from typing import Any, Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -17,7 +17,9 @@ from .experiment import Finding, Judge
 from .table import COLUMNS, Table
 
 
-def ordered(column: str, factor: str, values: Sequence[Any], rises: bool, over: str = "model") -> Judge:
+def ordered(
+    column: str, factor: str, values: Sequence[Any], rises: bool, over: str = "model"
+) -> Judge:
     """That the figure rises, or falls, from each of the values of the factor to the next one."""
 
     def judge(table: Table) -> Finding:
@@ -25,7 +27,9 @@ def ordered(column: str, factor: str, values: Sequence[Any], rises: bool, over: 
         for case, part in _cases(table, over):
             parts = [part.where(**{factor: value}) for value in values]
             pairs = zip(parts, parts[1:])
-            cases[case] = all(is_larger(column, *(pair if not rises else pair[::-1])) for pair in pairs)
+            cases[case] = all(
+                is_larger(column, *(pair if not rises else pair[::-1])) for pair in pairs
+            )
             words.append(f"{case} {_arrows(column, parts)}")
         return Finding(cases, _sentence(column, words))
 
@@ -67,7 +71,7 @@ def alike(
     return judge
 
 
-def every_run(column: str, is_so: Any, said: str, **factors: Any) -> Judge:
+def every_run(column: str, is_so: Callable[[float], bool], said: str, **factors: Any) -> Judge:
     """That something is so of the figures of each run; a case is a model, in most of whose runs."""
 
     def judge(table: Table) -> Finding:

@@ -31,11 +31,19 @@ def _pyplot() -> Any:
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    pyplot.rcParams.update({
-        "axes.grid": True, "axes.axisbelow": True, "axes.prop_cycle": pyplot.cycler(color=_COLORS), "font.size": 9,
-        "axes.spines.right": False, "axes.spines.top": False, "grid.color": "#e4e6ea",
-        "legend.frameon": False, "savefig.dpi": 110,
-    })  # fmt: skip
+    pyplot.rcParams.update(
+        {
+            "axes.grid": True,
+            "axes.axisbelow": True,
+            "axes.prop_cycle": pyplot.cycler(color=_COLORS),
+            "axes.spines.right": False,
+            "axes.spines.top": False,
+            "font.size": 9,
+            "grid.color": "#e4e6ea",
+            "legend.frameon": False,
+            "savefig.dpi": 110,
+        }
+    )
     return pyplot
 
 
