@@ -242,7 +242,7 @@ def _distance_cases(scale: Scale) -> list[Case]:
         )
         for model in scale.models
         for way, parameters in _WAYS.items()
-        for seed in scale.seeds(5)
+        for seed in scale.seeds()
     ]
 
 
@@ -480,7 +480,7 @@ def _sparse_cases(scale: Scale) -> list[Case]:
         )
         for plate in SPARSITY
         for smoothing, parameters in _SMOOTHINGS.items()
-        for seed in scale.seeds(5)
+        for seed in scale.seeds()
     ]
 
 

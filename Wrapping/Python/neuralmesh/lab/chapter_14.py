@@ -37,7 +37,7 @@ def _jump_cases(scale: Scale) -> list[Case]:
         )
         for model in (*scale.models, "cube")
         for family, parameters in _FAMILIES.items()
-        for seed in scale.seeds(5)
+        for seed in scale.seeds()
     ]
 
 
