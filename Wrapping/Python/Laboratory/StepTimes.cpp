@@ -169,14 +169,14 @@ void printRow(const LearningCurve::Row& row, const StopWatch& watch)
   {
     std::printf(",%llu", static_cast<unsigned long long>(watch.calls(step)));
   }
-  std::printf("\n");
+  std::printf(",%llu\n", static_cast<unsigned long long>(row.counts.removals));
 }
 
 void grow(const PointCloud& cloud, const Options& options)
 {
   Learner learner = makeLearner(cloud, options);
   std::printf("vertices,iterations,regular_ratio,basic_seconds,addition_seconds,removal_seconds,"
-              "topology_seconds,additions,removals,topology_calls\n");
+              "topology_seconds,additions,removals,topology_calls,removed\n");
   LearningCurve curve;
   StopWatch watch;
   learner.watchSteps([&watch](Step step) { watch.begin(step); });

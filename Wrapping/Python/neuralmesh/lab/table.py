@@ -27,7 +27,7 @@ class Column:
 COLUMNS = {
     "vertices": Column("vertices", "", 0),
     "seconds": Column("CPU time of learning", "s", 2),
-    "cost": Column("cost of a call", "µs", 2),
+    "cost": Column("cost", "µs", 2),
     "regular": Column("regular vertices", "%", 1),
     "valence_deviation": Column("deviation of valences from regular", "", 2),
     "hausdorff": Column("Hausdorff distance", "% of the diagonal", 2),
@@ -45,7 +45,7 @@ COLUMNS = {
     "illegal": Column("splits and collapses refused", "", 0),
     "basic_us": Column("Basic Step, a call", "µs", 2),
     "addition_us": Column("Node Addition, a call", "µs", 2),
-    "removal_us": Column("Node Removal, a call", "µs", 2),
+    "removal_us": Column("Node Removal, a vertex removed", "µs", 2),
     "basic_seconds": Column("Basic Step", "CPU s", 3),
     "addition_seconds": Column("Node Addition", "CPU s", 3),
     "removal_seconds": Column("Node Removal", "CPU s", 3),

@@ -113,7 +113,7 @@ def _time_steps(run: Run) -> _Result:
     steps = [name for name in curve if name.endswith("_seconds")]
     curve["seconds"] = np.sum([curve[name] for name in steps], axis=0).tolist()
     curve["regular"] = [100 * ratio for ratio in curve.pop("regular_ratio")]
-    calls = {"basic": "iterations", "addition": "additions", "removal": "removals",
+    calls = {"basic": "iterations", "addition": "additions", "removal": "removed",
              "topology": "topology_calls"}  # fmt: skip
     figures = {name: curve[name][-1] for name in ("vertices", "seconds", "regular", *steps)}
     for step, count in calls.items():
