@@ -30,7 +30,9 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTOR
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "${python_package}, python3-numpy")
 # For the pictures of galleries where there is no display.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "xvfb, xauth, libgl1-mesa-dri")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "${development_packages}, g++, cmake, make")
+# For C++, and for the laboratory.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS
+  "${development_packages}, g++, cmake, make, python3-matplotlib, libcgal-demo, glmark2-data")
 # One for each VTK, of which Debian installs one at a time.
 set(CPACK_DEBIAN_PACKAGE_PROVIDES "neuralmesh (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_PACKAGE_CONFLICTS neuralmesh)

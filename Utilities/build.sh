@@ -11,7 +11,9 @@ else
 fi
 # For the Debian package; for pip, manual pages and completions, which tests try.
 package_packages=(dpkg-dev file)
-test_packages=(libgtest-dev doxygen libcgal-demo glmark2-data "${screen_packages[@]}"
+# For the laboratory: what it draws with, and the models of its experiments.
+laboratory_packages=(python3-matplotlib libcgal-demo glmark2-data)
+test_packages=(libgtest-dev doxygen "${laboratory_packages[@]}" "${screen_packages[@]}"
   chromium chromium-driver python3-selenium
   "${package_packages[@]}" python3-pip python3-venv man-db fish)
 # For the 3D views of galleries; npm may have come in another way than by this package.

@@ -10,6 +10,8 @@ declare -A pictures=(
   [draw_charts.py]="steps sweep_moves sweep_growth sweep_noise sweep_fit"
   [draw_tutorial.sh]="tutorial_scan tutorial_mesh tutorial_window tutorial_colours
     tutorial_distances tutorial_step12 tutorial_step17 tutorial_step23"
+  [draw_laboratory.sh]="laboratory_smoothing_rate laboratory_smoothing_rate_meshes
+    laboratory_sparse_meshes laboratory_cost laboratory_models laboratory_jumps"
   [../../Testing/Benchmarks/peers.sh]="peers"
 )
 if [ "${1:-}" = --list ]; then
@@ -42,5 +44,6 @@ for maker in draw.py draw_charts.py; do
 done
 # They are steps of one tutorial, and drawn together.
 [ -z "$(wanted_of draw_tutorial.sh)" ] || bash "$folder/draw_tutorial.sh"
-# Half an hour.
+# Half an hour each.
+[ -z "$(wanted_of draw_laboratory.sh)" ] || bash "$folder/draw_laboratory.sh"
 [ -z "$(wanted_of ../../Testing/Benchmarks/peers.sh)" ] || bash Testing/Benchmarks/peers.sh

@@ -48,6 +48,15 @@ struct RunCounts
   }
 };
 
+/// The steps of an iteration.
+enum class Step
+{
+  Basic,
+  NodeAddition,
+  NodeRemoval,
+  TopologyLearning
+};
+
 /// The Neural Mesh algorithm: a mesh that grows and moves towards samples of a cloud. Here is the
 /// algorithm itself, for all variants; when to end a run is for StoppingRules to say.
 class Learner
@@ -69,6 +78,9 @@ public:
   /// Learns so many samples, batch by batch, and calls `afterBatch`, if it is a function, after
   /// each. Ends early once all is learnt.
   void learn(std::uint64_t sampleCount, const std::function<void()>& afterBatch = {});
+
+  /// Has `watch` called when a step begins, for a stop watch; of Basic only when it follows another.
+  void watchSteps(std::function<void(Step)> watch) { this->watch_ = std::move(watch); }
 
   /// Samples in a batch, at the present size of the mesh.
   std::size_t batchSize() const;
@@ -137,6 +149,7 @@ private:
     return this->isAdditionDue() || this->isRemovalDue() || this->isTopologyDue();
   }
   void grow();
+  void begin(Step step) const;
   double patience() const; ///< by which C_vs is multiplied now
   bool isAdditionDue() const { return this->counts_.iterations >= this->nextAddition_; }
   void nodeAddition();
@@ -185,6 +198,7 @@ private:
   BoundarySmoothing boundarySmoothing_ = BoundarySmoothing::Along;
   WinGain winGain_;
   std::optional<FeatureStrength> featureStrength_;
+  std::function<void(Step)> watch_;
   double decay_ = 1.;
   float filterThreshold_ = 0.f; ///< epsilon_t of (9.2)
   float observationLimit_ = 0.f;

@@ -34,15 +34,27 @@ void Learner::grow()
 {
   if (this->isAdditionDue())
   {
+    this->begin(Step::NodeAddition);
     this->nodeAddition();
   }
   if (this->isRemovalDue())
   {
+    this->begin(Step::NodeRemoval);
     this->nodeRemoval();
   }
   if (this->isTopologyDue())
   {
+    this->begin(Step::TopologyLearning);
     this->learnTopology();
+  }
+  this->begin(Step::Basic);
+}
+
+void Learner::begin(Step step) const
+{
+  if (this->watch_)
+  {
+    this->watch_(step);
   }
 }
 

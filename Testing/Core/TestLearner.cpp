@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -105,6 +107,39 @@ TEST_P(LearnerSettings, SeedDecides)
   const Reconstruction other = reconstruct(cleanSphere(), settings, goOn);
   EXPECT_NE(first.mesh.points, other.mesh.points);
   EXPECT_NE(first.mesh.triangles, other.mesh.triangles);
+}
+
+// A watch is told when a step begins: of each addition, of removals and topology learning, and of the
+// basic step after them. The mesh is the same as without it.
+TEST_P(LearnerSettings, StepsAreWatched)
+{
+  Parameters settings = parameters(600);
+  settings.topologyLearning = true;
+  Learner watched(cleanSphere(), settings);
+  std::map<Step, std::uint64_t> begun;
+  Step last = Step::TopologyLearning;
+  watched.watchSteps(
+    [&](Step step)
+    {
+      ++begun[step];
+      last = step;
+    });
+  Learner other(cleanSphere(), settings);
+  for (Learner* learner : { &watched, &other })
+  {
+    learner->learn(std::numeric_limits<std::uint32_t>::max());
+  }
+  EXPECT_EQ(begun[Step::NodeAddition], watched.counts().additions);
+  EXPECT_GE(begun[Step::NodeRemoval], 1u);
+  EXPECT_GE(begun[Step::TopologyLearning], 1u);
+  EXPECT_GE(begun[Step::Basic], begun[Step::NodeAddition]);
+  EXPECT_EQ(last, Step::Basic);
+  EXPECT_EQ(watched.counts().iterations, other.counts().iterations);
+  ASSERT_EQ(watched.mesh().indexEnd(), other.mesh().indexEnd());
+  for (VertexIndex v = 0; v < other.mesh().indexEnd(); ++v)
+  {
+    EXPECT_EQ(watched.mesh().position(v).toDouble(), other.mesh().position(v).toDouble());
+  }
 }
 
 // While the mesh grows it is a closed manifold all the time, and grid and order know its vertices.

@@ -20,7 +20,7 @@ from markdown_pages import ELSEWHERE, LANGUAGES, REASONS, Block, pages
 # The test that compiles what the page saves.
 COMPILED_BY = {"Documentation/Developers.md": "Documentation.recipe"}
 # So many blocks may go without being run; who adds one says so here.
-MOST = {"root": 4, "build": 8, "long": 4, "window": 1, "cluster": 3}
+MOST = {"root": 4, "build": 8, "long": 6, "window": 1, "cluster": 3}
 
 
 def indented_code(page):

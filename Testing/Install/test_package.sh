@@ -60,6 +60,7 @@ fi
 # Promise: all is there, where Debian looks for it, and works.
 has_files bin/neuralmesh lib/libvtkFiltersNeuralMesh.so include/NeuralMesh/vtkNeuralMesh.h \
   lib/cmake/NeuralMesh/NeuralMeshConfig.cmake lib/python3/dist-packages/neuralmesh/__init__.py \
+  lib/python3/dist-packages/neuralmesh/lab/step-times \
   share/man/man1/neuralmesh.1.gz share/bash-completion/completions/neuralmesh \
   share/fish/vendor_completions.d/neuralmesh.fish "share/doc/$name/copyright" \
   "share/doc/$name/changelog.gz" share/doc/NeuralMesh/README.md

@@ -80,6 +80,10 @@ cmake -S "$here/Consumer" -B consumer -Dwanted_version="$version" > cmake.txt 2>
 cmake --build consumer > cmake.txt 2>&1 || { cat cmake.txt; fail "a program cannot be built"; }
 [ "$(consumer/consumer)" = "100 vertices" ] || fail "another answer of the program"
 
+# Promise: so can the laboratory be used.
+/usr/bin/python3 -m neuralmesh.lab cube steps --quick > lab.txt 2>&1 ||
+  { cat lab.txt; fail "no laboratory"; }
+
 # Promise: nothing is left of it, but for what man keeps of any manual that was read.
 apt-get purge -y -qq "$name" > apt.txt 2>&1 || { cat apt.txt; fail "cannot be removed"; }
 rm -rf "$PWD" "$package"

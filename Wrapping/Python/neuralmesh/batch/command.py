@@ -4,20 +4,17 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
-import fcntl
 import os
 import signal
 import sys
 from pathlib import Path
-from typing import Iterator
 
 from .. import __version__
 from .gallery import write_gallery
 from .recipe import Job, Recipe, RecipeError, read_recipe
 from .report import is_done, write_summary
 from .running import run_jobs
-from .whole_file import remove_unfinished
+from .whole_file import alone_in
 
 _EPILOG = """\
 A recipe is JSON; of its keys only `scans` must be there:
@@ -115,7 +112,7 @@ def _batch(recipe_path: Path, output: Path | None, processes: int) -> int:
     recipe = read_recipe(recipe_path)
     folder = (output or recipe_path.parent / f"{recipe_path.stem}-results").absolute()
     folder.mkdir(parents=True, exist_ok=True)
-    with _alone_in(folder):
+    with alone_in(folder, "batch"):
         failed = _run(recipe, folder, processes)
         write_summary(folder, recipe)
         print(f"summary    {folder / 'summary.csv'}")
@@ -143,18 +140,3 @@ def _run(recipe: Recipe, folder: Path, processes: int) -> int:
 
     run_jobs(jobs, folder, recipe.format, processes, recipe.time_limit, on_end)
     return failed
-
-
-@contextlib.contextmanager
-def _alone_in(folder: Path) -> Iterator[None]:
-    """Refuse to work where another batch does. Nothing half is left, whoever began it."""
-    with open(folder / ".lock", "w", encoding="ascii") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise OSError(f"{folder}: another batch is working there") from None
-        remove_unfinished(folder)
-        try:
-            yield
-        finally:
-            remove_unfinished(folder)

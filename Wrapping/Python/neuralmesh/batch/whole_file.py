@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that are there whole or not at all."""
+"""Files that are there whole or not at all, and folders in which one works alone."""
 
 from __future__ import annotations
 
 import contextlib
+import fcntl
 import json
 import os
 from pathlib import Path
@@ -36,3 +37,18 @@ def remove_unfinished(folder: Path) -> None:
     """Remove what processes that were killed have left, for which nobody else may be writing."""
     for path in folder.glob(f".*{_MARK}*"):
         path.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def alone_in(folder: Path, work: str) -> Iterator[None]:
+    """Refuse to work where another one does. Nothing half is left, whoever began it."""
+    with open(folder / ".lock", "w", encoding="ascii") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise OSError(f"{folder}: another {work} is working there") from None
+        remove_unfinished(folder)
+        try:
+            yield
+        finally:
+            remove_unfinished(folder)

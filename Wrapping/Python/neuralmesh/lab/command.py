@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command: python3 -m neuralmesh.lab NAME...|all."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+from pathlib import Path
+
+from .._parameters import near_names
+from ..batch.whole_file import alone_in, write_text
+from .catalogue import EXPERIMENTS
+from .experiment import Experiment, Run, Scale
+from .models import MODELS, ModelError, absolute, model_name, require_models
+from .plots import has_matplotlib
+from .progress import ProgressBar
+from .report import Result, make_result, verdicts_as_markdown, write_report
+from .running import do_runs
+from .store import is_done, table_of
+
+_NAMES = "\n".join(f"{name:18} {e.figures}: {e.title}" for name, e in EXPERIMENTS.items())
+_EPILOG = f"""\
+Experiments:
+
+{_NAMES}
+
+The folder gets for each experiment its values (NAME.csv) and its plots (NAME.png), and for all of
+them the report, index.html, one file that can be sent as it is. Each run is stored in runs/ as soon
+as it is done, and not done again while its parameters, its model and the version of NeuralMesh are
+the same: a command that was ended goes on where it was. To measure anew, remove runs/.
+
+Models are those of the Debian packages glmark2-data and libcgal-demo. Files named instead are
+surfaces (.ply .vtp .vtk .obj .stl), which are scanned, or clouds, of which distances are those of
+the points to the mesh.
+
+Exit status: 0 all is done, 1 some runs failed, 2 wrong use, 130 after Ctrl-C."""
+
+_INTERRUPTED = 128 + signal.SIGINT
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command and return its exit status."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    # However the command is told to end, its processes end first.
+    signal.signal(signal.SIGTERM, lambda number, _frame: sys.exit(128 + number))
+    try:
+        experiments = _named(options.names, parser)
+        models = tuple(absolute(model) for model in options.models or MODELS)
+        scale = Scale(options.quick, models[:2] if options.quick else models)
+        return _experiment(experiments, scale, options)
+    except ModelError as error:
+        return _say(error, 2)
+    except OSError as error:
+        return _say(error, 1)
+    except KeyboardInterrupt:
+        return _say("interrupted; the same command does the rest", _INTERRUPTED)
+
+
+def _say(message: object, status: int) -> int:
+    print(f"neuralmesh: {message}", file=sys.stderr)
+    return status
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python3 -m neuralmesh.lab",
+        description="Repeat the experiments of the thesis, and say what holds.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("names", nargs="+", metavar="NAME", help="experiments, see below, or all")
+    parser.add_argument(
+        "--output",
+        type=Path,
+        default=Path("laboratory"),
+        metavar="FOLDER",
+        help="where the results go (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--quick", action="store_true", help="small sizes, few seeds: to try it, not to judge by it"
+    )
+    parser.add_argument(
+        "--models", nargs="+", metavar="FILE", help="models instead of those of the packages"
+    )
+    parser.add_argument(
+        "--markdown", type=Path, metavar="FILE", help="write the verdicts there, too"
+    )
+    parser.add_argument(
+        "--processes",
+        type=_count,
+        default=len(os.sched_getaffinity(0)),
+        metavar="N",
+        help="how many runs at a time (default: as many as there are processors, %(default)s)",
+    )
+    return parser
+
+
+def _count(text: str) -> int:
+    number = int(text)
+    if not 1 <= number <= 1024:
+        raise argparse.ArgumentTypeError(f"{text} is not from 1 to 1024")
+    return number
+
+
+def _named(names: list[str], parser: argparse.ArgumentParser) -> list[Experiment]:
+    """The experiments, each once, in the order of the thesis."""
+    for name in names:
+        if name != "all" and name not in EXPERIMENTS:
+            near = ", ".join(near_names(name, EXPERIMENTS))
+            parser.error(f"there is no experiment {name}; is it one of these: {near}, all?")
+    return [e for name, e in EXPERIMENTS.items() if name in names or "all" in names]
+
+
+def _experiment(experiments: list[Experiment], scale: Scale, options: argparse.Namespace) -> int:
+    if not has_matplotlib():
+        raise OSError("the laboratory draws by matplotlib, which is not there "
+                      "(Debian: python3-matplotlib)")  # fmt: skip
+    cases = {experiment: experiment.cases(scale) for experiment in experiments}
+    runs = [case.run for of_one in cases.values() for case in of_one]
+    require_models(tuple(dict.fromkeys(run.model for run in runs)))
+    folder = options.output.absolute()
+    store = folder / "runs"
+    store.mkdir(parents=True, exist_ok=True)
+    with alone_in(store, "laboratory"):
+        failed = _run({run.key: run for run in runs}, store, options.processes)
+        results = []
+        for experiment, of_one in cases.items():
+            is_whole = not any(case.run.key in failed for case in of_one)
+            table = table_of(store, of_one)
+            results.append(make_result(experiment, table, is_whole, folder))
+            print(f"{experiment.name:18} {results[-1].verdict}")
+        shown = "in its quick form, which is too small to judge by" if scale.is_quick else ""
+        names = ", ".join(map(model_name, scale.models))
+        write_report(results, folder / "index.html", f"models {names} {shown}".strip())
+        print(f"report             {folder / 'index.html'}")
+        _write_markdown(results, options)
+    return 1 if failed else 0
+
+
+def _write_markdown(results: list[Result], options: argparse.Namespace) -> None:
+    if options.markdown is not None:
+        names = " ".join([*options.names, *(["--quick"] if options.quick else [])])
+        write_text(options.markdown.absolute(), verdicts_as_markdown(results, names))
+        print(f"verdicts           {options.markdown}")
+
+
+def _run(runs: dict[str, Run], store: Path, processes: int) -> set[str]:
+    """Do those that are not done; the keys of those that failed."""
+    left = {key: run for key, run in runs.items() if not is_done(store, run)}
+    if len(left) < len(runs):
+        print(f"{len(runs) - len(left)} of {len(runs)} runs were done before", flush=True)
+    bar = ProgressBar(sum(run.cost for run in left.values()), len(left))
+    failed = set()
+
+    def on_end(run: Run, error: str) -> None:
+        if error:
+            failed.add(run.key)
+            print(f"\nneuralmesh: {run.model}, {run.parameters}: {error}", file=sys.stderr)
+        bar.add(run.cost, f"{model_name(run.model)} {run.vertices}")
+
+    try:
+        do_runs(list(left.values()), store, processes, on_end)
+    finally:
+        bar.end()
+    return failed
