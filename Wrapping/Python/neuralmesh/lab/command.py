@@ -131,7 +131,7 @@ def _experiment(experiments: list[Experiment], scale: Scale, options: argparse.N
             is_whole = not any(case.run.key in failed for case in of_one)
             table = table_of(store, of_one)
             results.append(make_result(experiment, table, is_whole, folder))
-            print(f"{experiment.name:18} {results[-1].verdict}")
+            print(f"{experiment.name:18} {results[-1].extent}")
         shown = "in its quick form, which is too small to judge by" if scale.is_quick else ""
         names = ", ".join(map(model_name, scale.models))
         write_report(results, folder / "index.html", f"models {names} {shown}".strip())

@@ -107,9 +107,12 @@ class Finding:
     @property
     def extent(self) -> str:
         """The verdict, and in how many cases the claim holds where there are several."""
-        if len(self.cases) < 2:
-            return self.verdict
-        return f"{self.verdict} ({sum(self.cases.values())} of {len(self.cases)})"
+        return with_count(self.verdict, list(self.cases.values()))
+
+
+def with_count(verdict: str, holds: list[bool]) -> str:
+    """The verdict, and in how many of the cases it holds where there are several."""
+    return verdict if len(holds) < 2 else f"{verdict} ({sum(holds)} of {len(holds)})"
 
 
 def verdict_of(verdicts: list[str]) -> str:

@@ -11,7 +11,15 @@ from typing import Iterator
 
 from .. import __version__
 from ..batch.whole_file import write_text
-from .experiment import NOT_JUDGED, Claim, Experiment, Finding, verdict_of
+from .experiment import (
+    HOLDS,
+    NOT_JUDGED,
+    Claim,
+    Experiment,
+    Finding,
+    verdict_of,
+    with_count,
+)
 from .models import up_axis
 from .plots import draw_meshes, plain
 from .table import COLUMNS, Table
@@ -48,6 +56,13 @@ class Result:
     def verdict(self) -> str:
         return verdict_of([_verdict(finding) for finding in self.findings])
 
+    @property
+    def extent(self) -> str:
+        """The verdict, and how many of the claims hold."""
+        if self.verdict == NOT_JUDGED:
+            return NOT_JUDGED
+        return with_count(self.verdict, [_verdict(finding) == HOLDS for finding in self.findings])
+
 
 def make_result(experiment: Experiment, table: Table, is_whole: bool, folder: Path) -> Result:
     """Judge the table, if all its runs are done, and write the file of values and the plots."""
@@ -82,7 +97,7 @@ def write_report(results: list[Result], path: Path, scale: str) -> None:
     """One page that needs nothing beside it."""
     rows = "".join(
         f'<tr><td><a href="#{result.experiment.name}">{escape(result.experiment.figures)}</a></td>'
-        f"<td>{escape(result.experiment.title)}</td>{_verdict_cell(result.verdict)}</tr>"
+        f"<td>{escape(result.experiment.title)}</td>{_verdict_cell(result.verdict, result.extent)}</tr>"
         for result in results
     )
     body = "".join(map(_section, results))
@@ -166,7 +181,7 @@ def verdicts_as_markdown(results: list[Result], names: str) -> str:
     ]
     for result in results:
         experiment = result.experiment
-        parts[2] += f"| {experiment.figures} | {experiment.title} | {result.verdict} |\n"
+        parts[2] += f"| {experiment.figures} | {experiment.title} | {result.extent} |\n"
         lines = [f"## {experiment.figures}: {experiment.title}\n", f"{experiment.setting}\n"]
         lines.append("| the thesis says | found | verdict |\n|---|---|---|")
         for claim, finding in zip(experiment.claims, result.findings):
