@@ -5,6 +5,7 @@
 #include "TuningPatch.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <span>
@@ -16,6 +17,7 @@ namespace neuralmesh
 namespace
 {
 constexpr std::size_t LeastProbes = 1000;
+constexpr std::array RoundsToTry = { 6, 10 };
 constexpr double LeastGain = 0.01;
 constexpr double LeastGainInDoubts = 3.;
 // Noise, in mean edge lengths.
@@ -132,9 +134,9 @@ public:
 
   std::optional<Tuning> run()
   {
-    if (this->begin())
+    // With another density all that comes is to be measured against that.
+    if (this->begin() && (!this->chooseDensity() || this->begin()))
     {
-      this->chooseDensity();
       this->chooseRounds();
       this->chooseSmoothness();
     }
@@ -172,29 +174,32 @@ private:
     return true;
   }
 
-  void chooseDensity()
+  /// Returns whether it is another one than before.
+  bool chooseDensity()
   {
-    if (this->noise_ > NoiseThatHidesBends && this->result_.parameters.curvatureDensity > 0.)
+    double& density = this->result_.parameters.curvatureDensity;
+    if (this->noise_ <= NoiseThatHidesBends || density == 0.)
     {
-      this->result_.choices.push_back(
-        { "CurvatureDensity", this->result_.parameters.curvatureDensity, 0. });
-      this->result_.parameters.curvatureDensity = 0.;
-      this->result_.remarks.emplace_back(
-        "CurvatureDensity is 0, as bends cannot be told from noise of " + text(this->noise_) +
-        " edge lengths");
+      return false;
     }
+    this->result_.choices.push_back({ "CurvatureDensity", density, 0. });
+    this->result_.remarks.emplace_back(
+      "CurvatureDensity is 0, as bends cannot be told from noise of " + text(this->noise_) +
+      " edge lengths");
+    density = 0.;
+    return true;
   }
 
   void chooseRounds()
   {
     const int wanted = this->result_.parameters.fitRounds;
-    if (this->hasGaps())
+    if (wanted < RoundsToTry.back() && this->hasGaps())
     {
       this->result_.remarks.emplace_back(
         "no more FitRounds were tried, as the scan has gaps, whose rims they would draw back");
       return;
     }
-    for (const int rounds : { 6, 10 })
+    for (const int rounds : RoundsToTry)
     {
       Parameters tried = this->result_.parameters;
       tried.fitRounds = rounds;

@@ -15,6 +15,8 @@ namespace
 {
 constexpr std::size_t PatchCount = 4;
 constexpr std::size_t PointsPerHeldOut = 5;
+/// Different ones: around many points in one place there is no more to learn than there is of it.
+constexpr std::size_t LeastPoints = 1000;
 /// Of the radius of a patch: what is beyond is not measured, as meshes have their rim there.
 constexpr float InnerPart = 0.8f;
 
@@ -101,10 +103,18 @@ std::vector<TuningPatch> TuningPatch::patchesOf(
 {
   const double share = double(PatchVertices) / double(parameters.numberOfVertices);
   std::vector<TuningPatch> patches;
+  const auto add = [&](Vector4 center, float radius, std::uint64_t vertices)
+  {
+    TuningPatch patch(cloud, center, radius, vertices);
+    if (patch.cloud().differentCount() >= LeastPoints)
+    {
+      patches.push_back(std::move(patch));
+    }
+  };
   if (share >= 0.5)
   {
-    patches.emplace_back(cloud, 0.5f * (cloud.bulkMin() + cloud.bulkMax()),
-      std::numeric_limits<float>::max(), parameters.numberOfVertices);
+    add(0.5f * (cloud.bulkMin() + cloud.bulkMax()), std::numeric_limits<float>::max(),
+      parameters.numberOfVertices);
     return patches;
   }
   constexpr std::uint64_t Stream = 11;
@@ -123,7 +133,7 @@ std::vector<TuningPatch> TuningPatch::patchesOf(
   {
     if (radius <= largest && patches.size() < PatchCount)
     {
-      patches.emplace_back(cloud, center, radius, PatchVertices);
+      add(center, radius, PatchVertices);
     }
   }
   return patches;

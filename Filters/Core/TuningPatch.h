@@ -26,7 +26,7 @@ public:
   TuningPatch(const PointCloud& cloud, Vector4 center, float radius, std::uint64_t vertices);
 
   /// Patches of the cloud around random points, but for stray ones; all of the cloud, once, if not
-  /// much more than a patch is wanted of it.
+  /// much more than a patch is wanted of it. None where there are too few different points.
   static std::vector<TuningPatch> patchesOf(const PointCloud& cloud, const Parameters& parameters);
 
   /// What is there to learn from.

@@ -170,6 +170,46 @@ TEST(Tuning, NothingToChoose)
   EXPECT_EQ(none.remarks.size(), 1u);
 }
 
+// Points in one place tell nothing, however many they are: a patch around them is left out.
+TEST(Tuning, ManyPointsInOnePlace)
+{
+  CloudOptions options;
+  options.count = 50000;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeCube(), options);
+  for (const std::size_t every : { 3u, 2u })
+  {
+    for (std::size_t i = 0; i < points.size(); i += every)
+    {
+      points[i] = points[0];
+    }
+    const PointCloud cloud(points);
+    for (const TuningPatch& patch : TuningPatch::patchesOf(cloud, fiveThousand()))
+    {
+      EXPECT_GE(patch.cloud().differentCount(), 1000u);
+    }
+    EXPECT_FALSE(tune(cloud, fiveThousand(), goOn)->reasons().empty());
+  }
+}
+
+// What comes after another choice is measured against that: with samples drawn alike from the start
+// the trials are the same.
+TEST(Tuning, TrialsAreAgainstTheChosenDensity)
+{
+  CloudOptions options;
+  options.noise = 0.01;
+  const PointCloud cloud = cubeCloud(options);
+  Parameters wanted = fiveThousand();
+  const Tuning chosen = tune(cloud, wanted, goOn).value();
+  ASSERT_EQ(chosen.parameters.curvatureDensity, 0.);
+  wanted.curvatureDensity = 0.;
+  const Tuning alike = tune(cloud, wanted, goOn).value();
+  ASSERT_EQ(chosen.trials.size(), alike.trials.size());
+  for (std::size_t i = 0; i < alike.trials.size(); ++i)
+  {
+    EXPECT_EQ(chosen.trials[i].gain, alike.trials[i].gain);
+  }
+}
+
 // A rough mesh is told from a smooth one, by whichever of them the directions were laid down; the
 // closest places would tell the less, the rougher it is.
 TEST(TuningPatch, RoughnessIsNoAdvantage)
