@@ -6,6 +6,7 @@
 #include "PointCloud.h"
 #include "ThreadPool.h"
 #include "Tuning.h"
+#include "vtkNeuralMeshRun.h"
 #include "vtkPointCloudCollector.h"
 
 #include "vtkPointSet.h"
@@ -13,14 +14,12 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 namespace
 {
@@ -81,9 +80,7 @@ int Tune(const TuneOptions& options)
   vtkPointCloudCollector collector;
   const auto points = ReadPoints(options.Input);
   collector.Collect(points);
-  const unsigned threads = options.Threads > 0 ? static_cast<unsigned>(options.Threads)
-                                               : std::thread::hardware_concurrency();
-  const neuralmesh::ThreadPool executor(std::max(1u, threads));
+  const neuralmesh::ThreadPool executor(vtkNeuralMeshThreads(options.Threads));
   const neuralmesh::PointCloud cloud(collector.GetPoints(), {}, false, executor);
   if (!cloud.hasExtent())
   {

@@ -30,11 +30,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 vtkStandardNewMacro(vtkNeuralMesh);
@@ -59,19 +57,6 @@ namespace
 constexpr double EndOfMesh = 0.95;
 /// Where parameters are chosen, if they are.
 constexpr double EndOfChoice = 0.3;
-
-/// What NumberOfThreads stands for.
-unsigned ThreadsOf(int wanted)
-{
-  if (wanted > 0)
-  {
-    return static_cast<unsigned>(wanted);
-  }
-  const unsigned available = std::max(1u, std::thread::hardware_concurrency());
-  const char* const text = std::getenv("VTK_SMP_MAX_THREADS");
-  const int most = text ? std::atoi(text) : 0;
-  return most > 0 ? std::min(available, static_cast<unsigned>(most)) : available;
-}
 
 /// How many points are used if nobody says: as many as samples are drawn, but enough to tell the
 /// shape.
@@ -397,7 +382,7 @@ int vtkNeuralMesh::RequestData(
     carrier.emplace(collector);
   }
   const bool carries = carrier && carrier->HasArrays();
-  const neuralmesh::ThreadPool executor(ThreadsOf(this->NumberOfThreads));
+  const neuralmesh::ThreadPool executor(vtkNeuralMeshThreads(this->NumberOfThreads));
   const double cloudBegin = neuralmesh::cpuSeconds();
   const neuralmesh::PointCloud cloud(collector.GetPoints(), weights, carries, executor);
   this->CloudTime = neuralmesh::cpuSeconds() - cloudBegin;

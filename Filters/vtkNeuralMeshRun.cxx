@@ -3,12 +3,28 @@
 
 #include "vtkAlgorithm.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <thread>
+
 namespace
 {
 /// Progress is reported in steps of this size, and at least so often: whoever wants to abort does
 /// so when told of progress.
 constexpr double ProgressStep = 0.01;
 constexpr std::chrono::milliseconds ProgressInterval(50);
+}
+
+unsigned vtkNeuralMeshThreads(int wanted)
+{
+  if (wanted > 0)
+  {
+    return static_cast<unsigned>(wanted);
+  }
+  const unsigned available = std::max(1u, std::thread::hardware_concurrency());
+  const char* const text = std::getenv("VTK_SMP_MAX_THREADS");
+  const int most = text ? std::atoi(text) : 0;
+  return most > 0 ? std::min(available, static_cast<unsigned>(most)) : available;
 }
 
 void vtkNeuralMeshProgress::EnterPart(double begin, double end, const char* text)
