@@ -17,9 +17,21 @@ expect()
   [ "$status" -eq "$expected" ] || { cat out err; fail "status $status, not $expected: $*"; }
 }
 
-# 3000 points of a unit sphere, on a spiral.
+# json EXPRESSION: whether it holds in Python for `lines`, the JSON objects of `out`; a difference
+# of a and b of less than a hundredth is near(a, b).
+json()
+{
+  /usr/bin/python3 - "$1" <<'PYTHON' || { cat out; fail "this does not hold: $1"; }
+import json, sys
+lines = [json.loads(line) for line in open("out")]
+near = lambda a, b: abs(a - b) < 0.01 * abs(b)
+sys.exit(0 if eval(sys.argv[1]) else 1)
+PYTHON
+}
+
+# 3000 points of a unit sphere, or as many as are told, on a spiral.
 make_cloud()
 {
-  awk 'BEGIN { for (i = 0; i < 3000; ++i) { z = 1 - (2 * i + 1) / 3000; r = sqrt(1 - z * z);
+  awk -v n="${1:-3000}" 'BEGIN { for (i = 0; i < n; ++i) { z = 1 - (2 * i + 1) / n; r = sqrt(1 - z * z);
     printf "%.9f %.9f %.9f\n", r * cos(2.39996 * i), r * sin(2.39996 * i), z } }' > cloud.xyz
 }

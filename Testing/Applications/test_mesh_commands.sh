@@ -3,18 +3,6 @@
 # those who type them.
 source "$(dirname "$0")/command_testing.sh"
 
-# json EXPRESSION: whether it holds in Python for `lines`, the JSON objects of `out`; a difference
-# of a and b of less than a hundredth is near(a, b).
-json()
-{
-  /usr/bin/python3 - "$1" <<'PYTHON' || { cat out; fail "this does not hold: $1"; }
-import json, sys
-lines = [json.loads(line) for line in open("out")]
-near = lambda a, b: abs(a - b) < 0.01 * abs(b)
-sys.exit(0 if eval(sys.argv[1]) else 1)
-PYTHON
-}
-
 # Closed cubes of side 1 and 1.2 around the origin, the left half of the first one without its cut,
 # and points without triangles.
 make_meshes()

@@ -1,0 +1,93 @@
+#!/usr/bin/env bash
+# test_tune.sh COMMAND CASE: what `neuralmesh tune` and `reconstruct --automatic` promise to those who
+# type them.
+source "$(dirname "$0")/command_testing.sh"
+
+# Promise: it says what it chose and why, and the command line it ends with does what --automatic
+# does; it writes nothing.
+test_table()
+{
+  expect 0 "$neuralmesh" tune cloud.xyz --vertices 4500
+  grep -Eq '^CurvatureDensity +0 instead of 0.5$' out || { cat out; fail "no choice"; }
+  grep -q '^  CurvatureDensity is 0, as bends cannot be told from noise' out || fail "no reason"
+  grep -Eq 'FitRounds 6 instead of 3: .*squares .* (less|more) \(standard error' out ||
+    { cat out; fail "no trial"; }
+  [ ! -s err ] || { cat err; fail "there is something on stderr"; }
+  [ "$(ls)" = "$(printf 'cloud.xyz\nerr\nout')" ] || fail "it wrote something"
+  local line
+  line=$(tail -n 1 out)
+  [[ $line = 'neuralmesh reconstruct cloud.xyz OUTPUT '* ]] || fail "no command line at the end"
+  line=${line/#neuralmesh/"$neuralmesh"}
+  # Some words.
+  expect 0 ${line/OUTPUT/by_hand.ply} --quiet
+  expect 0 "$neuralmesh" reconstruct cloud.xyz automatic.ply --vertices 4500 --automatic --quiet
+  cmp by_hand.ply automatic.ply || fail "--automatic gives another mesh than the command line"
+}
+
+# Promise: --json prints one object with choices, trials and reasons.
+test_json()
+{
+  expect 0 "$neuralmesh" tune cloud.xyz --vertices 4500 --json
+  python3 -c 'import json; print(json.dumps(json.load(open("out"))))' > line && mv line out
+  json 'lines[0]["file"] == "cloud.xyz" and lines[0]["vertices"] == 4500'
+  json 'lines[0]["chosen"]["CurvatureDensity"] == 0'
+  json 'all(trial["error"] > 0 and trial["standard_error"] > 0 for trial in lines[0]["trials"])'
+  json 'lines[0]["trials"][0]["parameter"] == "FitRounds" and lines[0]["trials"][0]["value"] == 6'
+  json 'len(lines[0]["reasons"]) >= len(lines[0]["trials"])'
+}
+
+# Promise: reconstruct --automatic tells what was chosen, and why.
+test_automatic()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 4500 --automatic
+  grep -Eq '^chosen +CurvatureDensity=0' out || { cat out; fail "the choice is not told"; }
+  grep -q 'as bends cannot be told from noise' out || { cat out; fail "the reason is not told"; }
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 4500
+  ! grep -q 'chosen' out || { cat out; fail "something was chosen unasked"; }
+}
+
+# Promise: the same on any number of threads, and what is said does not depend on the order of
+# points in one place, of which there may be any number.
+test_coincident()
+{
+  awk '{ print NR % 3 ? $0 : "0.3 0.2 0.1" } NR % 2 { print "0.5 0.5 0.5" }' cloud.xyz > spots.xyz
+  expect 0 "$neuralmesh" tune spots.xyz --vertices 20000 --threads 1
+  cp out first
+  expect 0 "$neuralmesh" tune spots.xyz --vertices 20000 --threads 3
+  cmp out first || fail "threads change the choice"
+  awk '{ print NR % 2 ? "1 2 3" : "3 2 1" }' cloud.xyz > two.xyz
+  expect 0 "$neuralmesh" tune two.xyz
+  grep -q 'too few points' out || { cat out; fail "not the reason"; }
+}
+
+# Promise: clear errors for clouds that are none, exit status 2 for wrong use.
+test_wrong_use()
+{
+  expect 1 "$neuralmesh" tune missing.ply
+  grep -q 'missing.ply' err || { cat err; fail "missing.ply is not told"; }
+  printf '1 1 1\n1 1 1\n' > point.xyz
+  expect 1 "$neuralmesh" tune point.xyz
+  grep -q 'point.xyz: there are no two points apart from each other' err || fail "not the reason"
+  [ ! -s out ] || fail "there is something on stdout"
+  local arguments
+  while read -r arguments; do
+    # Some words.
+    expect 2 "$neuralmesh" tune $arguments
+    [ -s err ] || fail "no message for: $arguments"
+  done << 'CASES'
+
+cloud.xyz mesh.ply
+cloud.xyz --vertices 3
+cloud.xyz --seed -1
+cloud.xyz --threads many
+CASES
+  expect 0 "$neuralmesh" tune --help
+  grep -q 'Exit status: 0' out || fail "the help does not tell the exit statuses"
+}
+
+# So noisy that there is something to choose.
+make_cloud 40000
+awk 'function noise() { return 0.05 * (rand() + rand() + rand() - 1.5) }
+  BEGIN { srand(1) } { print $1 + noise(), $2 + noise(), $3 + noise() }' cloud.xyz > noisy.xyz
+mv noisy.xyz cloud.xyz
+"test_$2"
