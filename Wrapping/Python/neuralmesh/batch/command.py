@@ -4,12 +4,11 @@
 from __future__ import annotations
 
 import argparse
-import os
-import signal
 import sys
 from pathlib import Path
 
 from .. import __version__
+from .._command import add_processes_option, run_command
 from .gallery import write_gallery
 from .recipe import Job, Recipe, RecipeError, read_recipe
 from .report import is_done, write_summary
@@ -47,27 +46,13 @@ was left by jobs that are no longer in the recipe stays where it is.
 Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 130 after Ctrl-C. What
 is done by then stays, and the same command does the rest."""
 
-_INTERRUPTED = 128 + signal.SIGINT
-
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command and return its exit status."""
     options = _parser().parse_args(arguments)
-    # However the command is told to end, its processes end first.
-    signal.signal(signal.SIGTERM, lambda number, _frame: sys.exit(128 + number))
-    try:
-        return _batch(options.recipe, options.output, options.processes)
-    except RecipeError as error:
-        return _say(error, 2)
-    except OSError as error:
-        return _say(error, 1)
-    except KeyboardInterrupt:
-        return _say("interrupted; the same command does the rest", _INTERRUPTED)
-
-
-def _say(message: object, status: int) -> int:
-    print(f"neuralmesh: {message}", file=sys.stderr)
-    return status
+    return run_command(
+        lambda: _batch(options.recipe, options.output, options.processes), RecipeError
+    )
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -91,21 +76,8 @@ def _parser() -> argparse.ArgumentParser:
         metavar="FOLDER",
         help="where the results go (default: jobs-results beside jobs.json)",
     )
-    batch.add_argument(
-        "--processes",
-        type=_count,
-        default=len(os.sched_getaffinity(0)),
-        metavar="N",
-        help="how many jobs run at a time (default: as many as there are processors, %(default)s)",
-    )
+    add_processes_option(batch, "jobs")
     return parser
-
-
-def _count(text: str) -> int:
-    number = int(text)
-    if not 1 <= number <= 1024:
-        raise argparse.ArgumentTypeError(f"{text} is not from 1 to 1024")
-    return number
 
 
 def _batch(recipe_path: Path, output: Path | None, processes: int) -> int:

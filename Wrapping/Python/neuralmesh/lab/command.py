@@ -4,11 +4,10 @@
 from __future__ import annotations
 
 import argparse
-import os
-import signal
 import sys
 from pathlib import Path
 
+from .._command import add_processes_option, run_command
 from .._parameters import near_names
 from ..batch.whole_file import alone_in, write_text
 from .catalogue import EXPERIMENTS
@@ -37,31 +36,13 @@ the points to the mesh.
 
 Exit status: 0 all is done, 1 some runs failed, 2 wrong use, 130 after Ctrl-C."""
 
-_INTERRUPTED = 128 + signal.SIGINT
-
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command and return its exit status."""
     parser = _parser()
     options = parser.parse_args(arguments)
-    # However the command is told to end, its processes end first.
-    signal.signal(signal.SIGTERM, lambda number, _frame: sys.exit(128 + number))
-    try:
-        experiments = _named(options.names, parser)
-        models = tuple(absolute(model) for model in options.models or MODELS)
-        scale = Scale(options.quick, models[:2] if options.quick else models)
-        return _experiment(experiments, scale, options)
-    except ModelError as error:
-        return _say(error, 2)
-    except OSError as error:
-        return _say(error, 1)
-    except KeyboardInterrupt:
-        return _say("interrupted; the same command does the rest", _INTERRUPTED)
-
-
-def _say(message: object, status: int) -> int:
-    print(f"neuralmesh: {message}", file=sys.stderr)
-    return status
+    experiments = _named(options.names, parser)
+    return run_command(lambda: _experiment(experiments, options), ModelError)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -88,21 +69,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--markdown", type=Path, metavar="FILE", help="write the verdicts there, too"
     )
-    parser.add_argument(
-        "--processes",
-        type=_count,
-        default=len(os.sched_getaffinity(0)),
-        metavar="N",
-        help="how many runs at a time (default: as many as there are processors, %(default)s)",
-    )
+    add_processes_option(parser, "runs")
     return parser
-
-
-def _count(text: str) -> int:
-    number = int(text)
-    if not 1 <= number <= 1024:
-        raise argparse.ArgumentTypeError(f"{text} is not from 1 to 1024")
-    return number
 
 
 def _named(names: list[str], parser: argparse.ArgumentParser) -> list[Experiment]:
@@ -114,10 +82,12 @@ def _named(names: list[str], parser: argparse.ArgumentParser) -> list[Experiment
     return [e for name, e in EXPERIMENTS.items() if name in names or "all" in names]
 
 
-def _experiment(experiments: list[Experiment], scale: Scale, options: argparse.Namespace) -> int:
+def _experiment(experiments: list[Experiment], options: argparse.Namespace) -> int:
     if not has_matplotlib():
         raise OSError("the laboratory draws by matplotlib, which is not there "
                       "(Debian: python3-matplotlib)")  # fmt: skip
+    models = tuple(absolute(model) for model in options.models or MODELS)
+    scale = Scale(options.quick, models[:2] if options.quick else models)
     cases = {experiment: experiment.cases(scale) for experiment in experiments}
     runs = [case.run for of_one in cases.values() for case in of_one]
     require_models(tuple(dict.fromkeys(run.model for run in runs)))
