@@ -45,8 +45,7 @@ public:
    * not won for a while are removed all at once. NOISE_FILTERING (default) is Algorithm 4: samples
    * far from the mesh pull less than their distance would have it, and vertices are removed a few
    * at a time. NORMAL_BASED is Algorithm 3: as BASIC, but the mesh grows where its normals turn, so
-   * that it is dense at edges and where the surface bends, and sparse where it is flat. See
-   * Documentation/NormalBased.md.
+   * that it is dense at edges and bends, and sparse where it is flat (Documentation/NormalBased.md).
    */
   vtkNeuralMeshSetClampMacro(Variant, int, BASIC, NORMAL_BASED);
   vtkGetMacro(Variant, int);
@@ -67,8 +66,7 @@ public:
    * How it is known which vertex is the most active and which the laziest. EXACT (default): by
    * signal counters. LIST: by counters up to ListVertices, then by the activity list (chapter 11),
    * in which a winner jumps forward. The list is the thesis's way to O(n log n); here exact
-   * counters are as fast and give meshes that are as good or better, see
-   * Documentation/ActivityList.md.
+   * counters are as fast and give meshes as good or better (Documentation/ActivityList.md).
    */
   vtkNeuralMeshSetClampMacro(Order, int, EXACT, LIST);
   vtkGetMacro(Order, int);
@@ -80,8 +78,8 @@ public:
   /**
    * Whether the topology of the shape is learnt (chapter 7), in the basic and the noise-filtering
    * variant: triangles that stay large are removed, for there the cloud has no points, and
-   * boundaries that come close to each other are joined. So handles and openings come to be. See
-   * Documentation/Topology.md. Default off.
+   * boundaries that come close to each other are joined: so handles and openings come to be. Default
+   * off. See Documentation/Topology.md.
    */
   vtkSetMacro(TopologyLearning, vtkTypeBool);
   vtkGetMacro(TopologyLearning, vtkTypeBool);
@@ -175,8 +173,7 @@ public:
   ///@{
   /**
    * The operation of Node Addition (Figure 6.6). VERTEX_SPLIT (default) shares the edges of the
-   * vertex with the new one. EDGE_SPLIT halves its longest edge: the new vertex has valence 4, the
-   * old one keeps its own.
+   * vertex with the new one. EDGE_SPLIT halves its longest edge: the new vertex has valence 4.
    */
   vtkNeuralMeshSetClampMacro(AdditionOperation, int, VERTEX_SPLIT, EDGE_SPLIT);
   vtkGetMacro(AdditionOperation, int);
@@ -348,8 +345,7 @@ public:
   /**
    * A change counts as this multiple of the mean change at most, in the mean, too; 0 for no limit.
    * A triangle that folds turns a normal a thousand times farther than an edge of the shape does:
-   * without a limit the mesh grows in its folds. Default 10, in both presets (the thesis names
-   * none), range 0 to 1e9.
+   * without a limit the mesh grows in its folds. Default 10 (the thesis names none), 0 to 1e9.
    */
   vtkNeuralMeshSetClampMacro(GainLimit, double, 0.0, 1e9);
   vtkGetMacro(GainLimit, double);
@@ -358,8 +354,7 @@ public:
   ///@{
   /**
    * alpha_fd of (8.5): what is left of the feature strength of a vertex when it wins; the rest is
-   * that of its move. More averages over more wins. Default 0.995 (the thesis names none), range 0
-   * to 1.
+   * that of its move. More averages over more wins. Default 0.995 (the thesis names none), 0 to 1.
    */
   vtkNeuralMeshSetClampMacro(FeatureMemory, double, 0.0, 1.0);
   vtkGetMacro(FeatureMemory, double);
@@ -369,8 +364,7 @@ public:
   /**
    * With ComputeFeatureStrength: the number of samples per vertex that are learnt, without growth,
    * once the mesh has all its vertices. While it grows vertices are not yet where they will be; 0
-   * takes the strengths as growth leaves them. Default 400, in both presets (thesis: none), range 0
-   * to 1000000.
+   * takes the strengths as growth leaves them. Default 400 (thesis: none), range 0 to 1000000.
    */
   vtkNeuralMeshSetClampMacro(FeatureSamples, double, 0.0, 1e6);
   vtkGetMacro(FeatureSamples, double);
@@ -523,8 +517,7 @@ public:
   /**
    * The largest number of samples that are drawn at once; there is never more than one for eight
    * vertices. The winners of a batch are searched before it is learnt, which is faster by far.
-   * Another size gives another mesh of the same quality. Default 65536 (thesis 1, one by one),
-   * range 1 to 1048576.
+   * Another size gives another mesh, as good. Default 65536 (thesis 1, one by one), 1 to 1048576.
    */
   vtkNeuralMeshSetClampMacro(BatchSize, int, 1, 1048576);
   vtkGetMacro(BatchSize, int);
