@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CloudPlaces.h"
 
+#include "Median.h"
 #include "NearestMarked.h"
 #include "PlaceOnMesh.h"
 
@@ -48,10 +49,8 @@ CloudPlaces::CloudPlaces(
         }
       });
   }
-  std::vector<float> sorted = squaredDistances;
-  const auto median = sorted.begin() + std::ptrdiff_t(count / 2);
-  std::nth_element(sorted.begin(), median, sorted.end());
-  const float farthest = outlierDistance(std::sqrt(*median), mesh.meanEdge());
+  const float median = medianOf(squaredDistances, executor);
+  const float farthest = outlierDistance(std::sqrt(median), mesh.meanEdge());
   for (std::size_t i = 0; i < count; ++i)
   {
     if (squaredDistances[i] > farthest * farthest)

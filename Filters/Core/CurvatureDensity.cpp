@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CurvatureDensity.h"
 
+#include "Median.h"
 #include "PlaceOnMesh.h"
 #include "UmbrellaLaplacian.h"
 
@@ -61,16 +62,14 @@ std::vector<float> curvatureDensity(
   const PointCloud& cloud, const Mesh& mesh, double exponent, const Executor& executor)
 {
   std::vector<float> densities = smoothed(mesh, meanCurvatures(mesh));
-  std::vector<float> sorted = densities;
-  const auto median = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
-  std::nth_element(sorted.begin(), median, sorted.end());
+  const float median = medianOf(densities);
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
     // Flat all over, the median is 0.
-    const bool isKnown = *median > 0.f && !mesh.ring(v).isOpen();
-    densities[v] = isKnown ? std::clamp(std::pow(densities[v] / *median, float(exponent)),
-                               1.f / MostDensity, MostDensity)
-                           : 1.f;
+    const bool isKnown = median > 0.f && !mesh.ring(v).isOpen();
+    densities[v] = isKnown
+      ? std::clamp(std::pow(densities[v] / median, float(exponent)), 1.f / MostDensity, MostDensity)
+      : 1.f;
   }
   const VertexGrid grid = gridOf(mesh, cloud);
   std::vector<float> result(cloud.points().size());

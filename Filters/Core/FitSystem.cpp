@@ -26,10 +26,12 @@ FitSystem::FitSystem(const Mesh& mesh, double slip, const Executor& executor)
   , diagonal_(mesh.indexEnd())
   , rightSide_(mesh.indexEnd())
 {
+  this->innerWeights_.reserve(mesh.indexEnd());
   this->rowBegin_.reserve(mesh.indexEnd() + 1);
   this->rowBegin_.push_back(0);
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
+    this->innerWeights_.push_back(mesh.isBoundary(v) ? 0.f : 1.f / float(mesh.valence(v)));
     this->rowBegin_.push_back(this->rowBegin_.back() + mesh.valence(v));
   }
   this->others_.resize(this->rowBegin_.back());
@@ -47,7 +49,7 @@ void FitSystem::add(
   for (unsigned i = 0; i < 3; ++i)
   {
     const VertexIndex v = place.triangle[i];
-    if (v < rows.begin || v >= rows.end)
+    if (!rows.has(v))
     {
       continue;
     }
@@ -70,6 +72,12 @@ void FitSystem::applyLaplacian(std::span<const Vector4> x, std::span<Vector4> re
     { applyUmbrella<float>(this->mesh_, x, result, begin, end); });
 }
 
+float FitSystem::weight(VertexIndex vertex, VertexIndex neighbor) const
+{
+  const float inner = this->innerWeights_[vertex];
+  return inner > 0.f ? inner : umbrellaWeight<float>(this->mesh_.ring(vertex), neighbor);
+}
+
 float FitSystem::boundaryPart(double lambda)
 {
   return float(std::min(1., MostBoundarySmoothness / lambda));
@@ -78,13 +86,17 @@ float FitSystem::boundaryPart(double lambda)
 void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vector4> laplacian,
   std::span<Vector4> result) const
 {
-  this->applyLaplacian(x, laplacian);
   const auto smooth = float(lambda);
   const float boundaryPart = this->boundaryPart(lambda);
-  for (VertexIndex v = 0; v < x.size() && boundaryPart < 1.f; ++v)
-  {
-    laplacian[v] = this->mesh_.isBoundary(v) ? boundaryPart * laplacian[v] : laplacian[v];
-  }
+  this->executor_.forEachRange(x.size(), RowsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      applyUmbrella<float>(this->mesh_, x, laplacian, begin, end);
+      for (auto v = VertexIndex(begin); v < end && boundaryPart < 1.f; ++v)
+      {
+        laplacian[v] = this->mesh_.isBoundary(v) ? boundaryPart * laplacian[v] : laplacian[v];
+      }
+    });
   const auto applyRow = [&](VertexIndex v)
   {
     const Ring& ring = this->mesh_.ring(v);
@@ -93,7 +105,7 @@ void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vecto
     {
       const VertexIndex neighbor = ring[slot];
       sum += this->others_[this->rowBegin_[v] + slot] * x[neighbor];
-      sum += smooth * umbrellaWeight<float>(this->mesh_.ring(neighbor), v) * laplacian[neighbor];
+      sum += smooth * this->weight(neighbor, v) * laplacian[neighbor];
     }
     result[v] = sum;
   };
@@ -127,7 +139,7 @@ std::vector<FitSystem::Block> FitSystem::inverseDiagonal(double lambda) const
     float squares = part(v);
     for (const VertexIndex neighbor : this->mesh_.ring(v))
     {
-      const auto weight = umbrellaWeight<float>(this->mesh_.ring(neighbor), v);
+      const float weight = this->weight(neighbor, v);
       squares += part(neighbor) * weight * weight;
     }
     const float smooth = float(lambda) * squares;
@@ -180,12 +192,15 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
     }
     const auto step = float(squared / curvature);
     const double before = squared;
+    // Of what is no longer needed the memory is still near.
+    std::vector<Vector4>& preconditioned = product;
     squared = sumOver(
       [&](std::size_t v)
       {
         x[v] += step * direction[v];
         residual[v] += -step * product[v];
-        return dot(inverse[v] * residual[v], residual[v]);
+        preconditioned[v] = inverse[v] * residual[v];
+        return dot(preconditioned[v], residual[v]);
       });
     const auto turn = float(squared / before);
     this->executor_.forEachRange(n, RowsPerRange,
@@ -193,7 +208,7 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
       {
         for (std::size_t v = first; v < last; ++v)
         {
-          direction[v] = inverse[v] * residual[v] + turn * direction[v];
+          direction[v] = preconditioned[v] + turn * direction[v];
         }
       });
   }

@@ -33,6 +33,8 @@ public:
   {
     VertexIndex begin = 0;
     VertexIndex end = NoVertex;
+
+    bool has(VertexIndex v) const { return v >= this->begin && v < this->end; }
   };
   /// Adds a sample whose place is on a triangle with this normal (of any length), to the equations
   /// of those corners that are among `rows`. Other rows may be added to at the same time.
@@ -77,6 +79,8 @@ private:
   /// Of lambda, for the vertices on boundaries.
   static float boundaryPart(double lambda);
   std::vector<Block> inverseDiagonal(double lambda) const;
+  /// As umbrellaWeight(), without a look at the ring where there is no boundary.
+  float weight(VertexIndex vertex, VertexIndex neighbor) const;
 
   const Mesh& mesh_;
   const Executor& executor_;
@@ -85,5 +89,6 @@ private:
   std::vector<Block> diagonal_;
   std::vector<Block> others_; ///< for each slot of the ring of each vertex
   std::vector<Vector4> rightSide_;
+  std::vector<float> innerWeights_; ///< umbrella weights at inner vertices; 0 at others
 };
 }

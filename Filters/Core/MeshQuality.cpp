@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshQuality.h"
 
+#include "Median.h"
 #include "PlaceOnMesh.h"
 #include "SurfaceFit.h"
 
@@ -38,10 +39,7 @@ MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const Tria
   {
     squared.push_back(closestPlace(cloud.points()[point], mesh, grid).squaredDistance);
   }
-  std::vector<float> sorted = squared;
-  const auto median = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
-  std::nth_element(sorted.begin(), median, sorted.end());
-  const float farthest = outlierDistance(std::sqrt(*median), mesh.meanEdge());
+  const float farthest = outlierDistance(std::sqrt(medianOf(squared)), mesh.meanEdge());
 
   double sum = 0., weights = 0.;
   std::size_t outliers = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceFit.h"
 
+#include "Median.h"
 #include "VertexGrid.h"
 
 #include <algorithm>
@@ -46,6 +47,16 @@ Vector4 normalAt(const PlaceOnMesh& place, std::span<const Vector4> positions)
 {
   const Vector4 a = positions[place.triangle[0]];
   return cross(positions[place.triangle[1]] - a, positions[place.triangle[2]] - a);
+}
+
+bool isOpen(const Mesh& mesh)
+{
+  VertexIndex v = 0;
+  while (v < mesh.indexEnd() && !mesh.isBoundary(v))
+  {
+    ++v;
+  }
+  return v < mesh.indexEnd();
 }
 }
 
@@ -99,9 +110,7 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   }
   const float edges = this->hasPlaces_ ? LaterOutlierEdges : FirstOutlierEdges;
   this->hasPlaces_ = true;
-  const auto median = distances.begin() + std::ptrdiff_t(distances.size() / 2);
-  std::nth_element(distances.begin(), median, distances.end());
-  this->medianDistance_ = std::sqrt(*median);
+  this->medianDistance_ = std::sqrt(medianOf(distances, this->executor_));
   this->outlierDistance_ =
     neuralmesh::outlierDistance(this->medianDistance_, this->mesh_.meanEdge(), edges);
   this->fillSystem();
@@ -112,26 +121,36 @@ void SurfaceFit::fillSystem()
 {
   // Anew, as edges may have been flipped.
   this->system_.emplace(this->mesh_, Slip, this->executor_);
-  // Each part goes through all samples for its rows: so that these add up in the same order however
-  // many parts there are.
+  this->forEachRows([this](const FitSystem::Rows& rows) { this->fillRows(rows); });
+  this->usedCount_ = std::size_t(this->executor_.sum(this->places_.size(), FitSamplesPerRange,
+    [this](std::size_t i) { return this->isUsed(this->places_[i]) ? 1. : 0.; }));
+  if (isOpen(this->mesh_))
+  {
+    this->pullBoundariesIn();
+  }
+}
+
+/// Each part goes through all samples for its rows: so these add up in the same order however many
+/// parts there are.
+template <typename Body>
+void SurfaceFit::forEachRows(const Body& body) const
+{
   const std::size_t parts = this->executor_.threadCount(), rows = this->mesh_.indexEnd();
   this->executor_.forEachPart(parts,
-    [&](std::size_t part) {
-      this->fillRows({ VertexIndex(part * rows / parts), VertexIndex((part + 1) * rows / parts) });
+    [&](std::size_t part)
+    {
+      body(FitSystem::Rows{
+        VertexIndex(part * rows / parts), VertexIndex((part + 1) * rows / parts) });
     });
-  this->usedCount_ = std::size_t(std::count_if(this->places_.begin(), this->places_.end(),
-    [this](const PlaceOnMesh& place) { return this->isUsed(place); }));
-  this->pullBoundariesIn();
 }
 
 void SurfaceFit::fillRows(const FitSystem::Rows& rows)
 {
-  const auto isIn = [&rows](VertexIndex v) { return v >= rows.begin && v < rows.end; };
   for (std::size_t i = 0; i < this->samples_.size(); ++i)
   {
     const PlaceOnMesh& place = this->places_[i];
     const auto& [a, b, c] = place.triangle;
-    if (this->isUsed(place) && (isIn(a) || isIn(b) || isIn(c)))
+    if (this->isUsed(place) && (rows.has(a) || rows.has(b) || rows.has(c)))
     {
       // Beyond a boundary the distance along the surface counts in full: there is no other place.
       const Vector4 normal =
@@ -154,23 +173,30 @@ void SurfaceFit::pullBoundariesIn()
   };
   const Mesh& mesh = this->mesh_;
   std::vector<Strip> strips(mesh.indexEnd()); // of the edges to the first neighbour
-  for (const PlaceOnMesh& place : this->places_)
+  const auto measure = [&](const PlaceOnMesh& place, const FitSystem::Rows& rows)
   {
-    if (!this->isUsed(place))
-    {
-      continue;
-    }
     for (unsigned i = 0; i < 3; ++i)
     {
       const VertexIndex from = place.triangle[(i + 1) % 3], to = place.triangle[(i + 2) % 3];
-      if (mesh.isBoundary(from) && mesh.ring(from).front() == to)
+      if (rows.has(from) && mesh.isBoundary(from) && mesh.ring(from).front() == to)
       {
         Strip& strip = strips[from];
         ++strip.samples;
         strip.width = std::min(strip.width, place.weights[int(i)]);
       }
     }
-  }
+  };
+  this->forEachRows(
+    [&](const FitSystem::Rows& rows)
+    {
+      for (const PlaceOnMesh& place : this->places_)
+      {
+        if (this->isUsed(place))
+        {
+          measure(place, rows);
+        }
+      }
+    });
   const double samplesPerTriangle = double(this->usedCount_) / (2. * double(mesh.vertexCount()));
   const double logarithm = std::log(ChanceOfEmptyStrip);
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)

@@ -69,6 +69,8 @@ private:
     return this->weights_.empty() ? 1.f : this->weights_[sample];
   }
   void fillSystem();
+  template <typename Body>
+  void forEachRows(const Body& body) const;
   void fillRows(const FitSystem::Rows& rows);
   void pullBoundariesIn();
   bool chooseSmoothness(const Progress& progress);

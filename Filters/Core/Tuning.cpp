@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Tuning.h"
 
+#include "Median.h"
 #include "Reconstruction.h"
 #include "TuningPatch.h"
 
@@ -53,13 +54,6 @@ double meanOf(std::span<const double> values)
     sum += value;
   }
   return sum / double(values.size());
-}
-
-double medianOf(std::vector<double> values)
-{
-  const auto median = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), median, values.end());
-  return *median;
 }
 
 /// By how much squared distances are less than those before.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TuningPatch.h"
 
+#include "Median.h"
 #include "PlaceOnMesh.h"
 #include "Random.h"
 
@@ -34,13 +35,6 @@ float radiusOf(const PointCloud& cloud, Vector4 center, double share)
   const auto rank = squared.begin() + std::ptrdiff_t(double(squared.size() - 1) * share);
   std::nth_element(squared.begin(), rank, squared.end());
   return std::sqrt(*rank);
-}
-
-float medianOf(std::vector<float> values)
-{
-  const auto median = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), median, values.end());
-  return *median;
 }
 
 Vector4 unitVector(Vector4 vector)

@@ -23,7 +23,7 @@ using namespace neuralmesh;
 
 constexpr std::size_t PointCount = 2'000'000;
 constexpr std::uint64_t VertexCount = 200'000;
-constexpr int Rounds = 2;
+constexpr int Rounds = 4;
 
 bool goOn(double) { return true; }
 
