@@ -107,6 +107,8 @@ PointCloud::PointCloud(std::span<const Eigen::Vector3d> points, std::span<const 
   this->bulkMin_ = Vector4(enlarged.min());
   this->bulkMax_ = Vector4(enlarged.max());
 
+  // Sorting takes the most memory of all.
+  std::vector<Eigen::Vector3d>().swap(finite);
   origins.resize(tracksOrigins ? scaled.size() : 0);
   this->sort(scaled, std::move(origins), weights, keepsOrigins, executor);
 }
