@@ -31,11 +31,14 @@ bool isLoop(const Mesh& mesh, std::span<const VertexIndex> vertices, bool agains
   return !vertices.empty();
 }
 
+/// From the first boundary to the second one.
+using Rung = std::pair<VertexIndex, VertexIndex>;
+
 /// The edges across a strip, as it is walked once around; the first edge is the last.
-std::vector<std::pair<VertexIndex, VertexIndex>> stripEdges(std::span<const VertexIndex> first,
+std::vector<Rung> stripEdges(std::span<const VertexIndex> first,
   std::span<const VertexIndex> second, const std::vector<bool>& alongFirst)
 {
-  std::vector<std::pair<VertexIndex, VertexIndex>> edges;
+  std::vector<Rung> edges;
   edges.reserve(alongFirst.size());
   std::size_t i = 0;
   std::size_t j = 0;
@@ -153,22 +156,21 @@ bool Mesh::canJoin(std::span<const VertexIndex> first, std::span<const VertexInd
   {
     return false;
   }
-  std::vector<std::pair<VertexIndex, VertexIndex>> edges = stripEdges(first, second, alongFirst);
+  std::vector<Rung> edges = stripEdges(first, second, alongFirst);
   const auto fits = [&](VertexIndex v, auto end)
   {
     const auto added =
       std::count_if(edges.begin(), edges.end(), [&](const auto& edge) { return edge.*end == v; });
     return this->valence(v) + unsigned(added) <= Ring::Capacity;
   };
-  using Edge = std::pair<VertexIndex, VertexIndex>;
   const bool allFit =
-    std::all_of(first.begin(), first.end(), [&](VertexIndex v) { return fits(v, &Edge::first); }) &&
+    std::all_of(first.begin(), first.end(), [&](VertexIndex v) { return fits(v, &Rung::first); }) &&
     std::all_of(
-      second.begin(), second.end(), [&](VertexIndex v) { return fits(v, &Edge::second); });
+      second.begin(), second.end(), [&](VertexIndex v) { return fits(v, &Rung::second); });
   std::sort(edges.begin(), edges.end());
   return allFit && std::adjacent_find(edges.begin(), edges.end()) == edges.end() &&
     std::none_of(edges.begin(), edges.end(),
-      [this](const Edge& edge) { return this->ring(edge.first).contains(edge.second); });
+      [this](const Rung& edge) { return this->ring(edge.first).contains(edge.second); });
 }
 
 void Mesh::join(std::span<const VertexIndex> first, std::span<const VertexIndex> second,
