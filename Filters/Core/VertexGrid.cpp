@@ -21,9 +21,44 @@ constexpr float CellMargin = 0.01f;
 constexpr std::size_t QueriesPerRange = 256;
 constexpr std::size_t QueriesAhead = 8; ///< whose cell is brought into the cache
 
+/// Around the sample; farther out it is quicker to look at regions.
+constexpr int NearShells = 4;
+
 float squaredDistanceOf(std::uint64_t candidate)
 {
   return std::bit_cast<float>(std::uint32_t(candidate >> 32));
+}
+
+/// Of a coordinate, clamped to the box, to a slab of cells; all in cells.
+float squaredGap(float coordinate, int begin, int width)
+{
+  const float gap =
+    std::max(float(begin) - coordinate, coordinate - float(begin + width)) - CellMargin;
+  return gap > 0.f ? gap * gap : 0.f;
+}
+
+/// Calls `use` for each place of a grid that is `shell` steps away from `home`, along some axis.
+template <typename Use>
+void forEachOfShell(
+  const std::array<int, 3>& home, const std::array<int, 3>& counts, int shell, const Use& use)
+{
+  const auto from = [&](std::size_t axis) { return std::max(home[axis] - shell, 0); };
+  const auto to = [&](std::size_t axis) { return std::min(home[axis] + shell, counts[axis] - 1); };
+  for (int z = from(2); z <= to(2); ++z)
+  {
+    for (int y = from(1); y <= to(1); ++y)
+    {
+      const bool wholeRow = std::abs(z - home[2]) == shell || std::abs(y - home[1]) == shell;
+      const int step = wholeRow || shell == 0 ? 1 : 2 * shell;
+      for (int x = wholeRow ? from(0) : home[0] - shell; x <= to(0); x += step)
+      {
+        if (x >= 0)
+        {
+          use({ x, y, z });
+        }
+      }
+    }
+  }
 }
 }
 
@@ -48,13 +83,15 @@ void VertexGrid::reset(Vector4 boxMin, Vector4 boxMax, float cellSize, std::size
   this->origin_ = boxMin;
   this->cellSize_ = cellSize;
   this->inverseCellSize_ = 1.f / cellSize;
-  std::size_t blockCount = 1;
+  std::size_t blockCount = 1, regionCount = 1;
   for (int axis = 0; axis < 3; ++axis)
   {
     const auto i = std::size_t(axis);
     this->blockCounts_[i] = int(blocksAlong(axis));
     this->cells_[i] = this->blockCounts_[i] * BlockWidth;
     blockCount *= std::size_t(this->blockCounts_[i]);
+    this->regionCounts_[i] = ((this->blockCounts_[i] - 1) >> RegionBits) + 1;
+    regionCount *= std::size_t(this->regionCounts_[i]);
   }
   this->lastCell_ =
     Vector4(float(this->cells_[0] - 1), float(this->cells_[1] - 1), float(this->cells_[2] - 1));
@@ -73,6 +110,7 @@ void VertexGrid::reset(Vector4 boxMin, Vector4 boxMax, float cellSize, std::size
   this->freeBlocks_.clear();
   this->freeBlocks_.reserve(4 * blocksBefore + 8);
   this->blockNumbers_.assign(blockCount, 0);
+  this->blocksInRegion_.assign(regionCount, 0);
 }
 
 std::uint32_t VertexGrid::takeLine()
@@ -87,6 +125,25 @@ std::uint32_t VertexGrid::takeLine()
   return std::uint32_t(this->lines_.size() - 1);
 }
 
+VertexGrid::Triple VertexGrid::regionAt(CellIndex cell)
+{
+  constexpr int Bits = BlockBits + RegionBits;
+  return { cell.x >> Bits, cell.y >> Bits, cell.z >> Bits };
+}
+
+std::size_t VertexGrid::regionOf(const Triple& region) const
+{
+  return (std::size_t(region[2]) * std::size_t(this->regionCounts_[1]) + std::size_t(region[1])) *
+    std::size_t(this->regionCounts_[0]) +
+    std::size_t(region[0]);
+}
+
+bool VertexGrid::isBeyond(int shell, int width, Candidate best) const
+{
+  const float gap = (float((shell - 1) * width) - CellMargin) * this->cellSize_;
+  return shell > 1 && gap * gap > squaredDistanceOf(best);
+}
+
 void VertexGrid::insertAt(CellIndex cell, VertexIndex v)
 {
   std::uint32_t& blockNumber = this->blockNumbers_[this->blockOf(cell)];
@@ -99,6 +156,7 @@ void VertexGrid::insertAt(CellIndex cell, VertexIndex v)
     }
     blockNumber = this->freeBlocks_.back();
     this->freeBlocks_.pop_back();
+    ++this->blocksInRegion_[this->regionOf(regionAt(cell))];
   }
   Block& block = this->blocks_[blockNumber];
   std::uint32_t& first = block.lines[cellInBlock(cell)];
@@ -138,6 +196,7 @@ void VertexGrid::eraseAt(CellIndex cell, VertexIndex v)
       {
         this->freeBlocks_.push_back(blockNumber);
         blockNumber = 0;
+        --this->blocksInRegion_[this->regionOf(regionAt(cell))];
       }
     }
     return;
@@ -185,80 +244,107 @@ VertexGrid::Candidate VertexGrid::searchBall(
   return best;
 }
 
+VertexGrid::Candidate VertexGrid::searchBlock(
+  const Place& place, Vector4 sample, const Vector4* positions, Candidate best) const
+{
+  const auto& [bx, by, bz] = place.block;
+  const CellIndex corner{ bx * BlockWidth, by * BlockWidth, bz * BlockWidth };
+  const std::uint32_t number = this->blockNumbers_[this->blockOf(corner)];
+  if (number == 0)
+  {
+    return best;
+  }
+  const Block& block = this->blocks_[number];
+  const float cellArea = this->cellSize_ * this->cellSize_;
+  for (int z = 0; z < BlockWidth; ++z)
+  {
+    const float dz = squaredGap(place.inside[2], corner.z + z, 1);
+    for (int y = 0; y < BlockWidth; ++y)
+    {
+      const float dyz = dz + squaredGap(place.inside[1], corner.y + y, 1);
+      if (dyz * cellArea > squaredDistanceOf(best))
+      {
+        continue;
+      }
+      for (int x = 0; x < BlockWidth; ++x)
+      {
+        const std::uint32_t line = block.lines[cellInBlock({ x, y, z })];
+        const float d = dyz + squaredGap(place.inside[0], corner.x + x, 1);
+        if (line != 0 && d * cellArea <= squaredDistanceOf(best))
+        {
+          best = this->searchCell(line, sample, positions, best);
+        }
+      }
+    }
+  }
+  return best;
+}
+
 VertexGrid::Candidate VertexGrid::searchBlocks(
   CellIndex home, Vector4 sample, const Vector4* positions, Candidate best) const
 {
-  const std::array<int, 3> homeBlock{ home.x >> BlockBits, home.y >> BlockBits,
-    home.z >> BlockBits };
+  const Triple homeBlock{ home.x >> BlockBits, home.y >> BlockBits, home.z >> BlockBits };
   const Vector4 inside = this->inCells(sample);
   const int shells = *std::max_element(this->blockCounts_.begin(), this->blockCounts_.end());
-
-  // Squared distance in cells from the sample, as clamped to the box, to a slab of cells.
-  const auto slab = [](float coordinate, int begin, int end)
+  for (int shell = 0; shell < std::min(shells, NearShells); ++shell)
   {
-    const float gap = std::max(float(begin) - coordinate, coordinate - float(end)) - CellMargin;
-    return gap > 0.f ? gap * gap : 0.f;
-  };
+    if (this->isBeyond(shell, BlockWidth, best))
+    {
+      return best;
+    }
+    forEachOfShell(homeBlock, this->blockCounts_, shell,
+      [&](const Triple& block) {
+        best = this->searchBlock({ block, inside }, sample, positions, best);
+      });
+  }
+  return shells > NearShells ? this->searchRegions(homeBlock, sample, positions, best) : best;
+}
+
+VertexGrid::Candidate VertexGrid::searchRegions(
+  const Triple& homeBlock, Vector4 sample, const Vector4* positions, Candidate best) const
+{
+  constexpr int CellsAlong = RegionWidth * BlockWidth;
+  const Triple home{ homeBlock[0] >> RegionBits, homeBlock[1] >> RegionBits,
+    homeBlock[2] >> RegionBits };
+  const Vector4 inside = this->inCells(sample);
   const float cellArea = this->cellSize_ * this->cellSize_;
-
-  const auto searchBlock = [&](int bx, int by, int bz)
+  const auto isFarther = [&](const Triple& box, int width)
   {
-    const CellIndex corner{ bx * BlockWidth, by * BlockWidth, bz * BlockWidth };
-    const std::uint32_t number = this->blockNumbers_[this->blockOf(corner)];
-    if (number == 0)
+    float squared = 0.f;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      squared += squaredGap(inside[int(axis)], box[axis] * width, width);
+    }
+    return squared * cellArea > squaredDistanceOf(best);
+  };
+  const auto searchRegion = [&](const Triple& region)
+  {
+    if (this->blocksInRegion_[this->regionOf(region)] == 0 || isFarther(region, CellsAlong))
     {
       return;
     }
-    const Block& block = this->blocks_[number];
-    for (int z = 0; z < BlockWidth; ++z)
+    const auto from = [&](std::size_t axis) { return region[axis] << RegionBits; };
+    const auto to = [&](std::size_t axis)
+    { return std::min(from(axis) + RegionWidth, this->blockCounts_[axis]); };
+    for (int z = from(2); z < to(2); ++z)
     {
-      const float dz = slab(inside[2], corner.z + z, corner.z + z + 1);
-      for (int y = 0; y < BlockWidth; ++y)
+      for (int y = from(1); y < to(1); ++y)
       {
-        const float dyz = dz + slab(inside[1], corner.y + y, corner.y + y + 1);
-        if (dyz * cellArea > squaredDistanceOf(best))
+        for (int x = from(0); x < to(0); ++x)
         {
-          continue;
-        }
-        for (int x = 0; x < BlockWidth; ++x)
-        {
-          const std::uint32_t line = block.lines[cellInBlock({ x, y, z })];
-          const float d = dyz + slab(inside[0], corner.x + x, corner.x + x + 1);
-          if (line != 0 && d * cellArea <= squaredDistanceOf(best))
+          const Triple block{ x, y, z };
+          if (!isFarther(block, BlockWidth))
           {
-            best = this->searchCell(line, sample, positions, best);
+            best = this->searchBlock({ block, inside }, sample, positions, best);
           }
         }
       }
     }
   };
-
-  for (int shell = 0; shell < shells; ++shell)
+  const int shells = *std::max_element(this->regionCounts_.begin(), this->regionCounts_.end());
+  for (int shell = 0; shell < shells && !this->isBeyond(shell, CellsAlong, best); ++shell)
   {
-    const float gap = (float((shell - 1) * BlockWidth) - CellMargin) * this->cellSize_;
-    if (shell > 1 && gap * gap > squaredDistanceOf(best))
-    {
-      break;
-    }
-    const auto from = [&](std::size_t axis) { return std::max(homeBlock[axis] - shell, 0); };
-    const auto to = [&](std::size_t axis)
-    { return std::min(homeBlock[axis] + shell, this->blockCounts_[axis] - 1); };
-    for (int bz = from(2); bz <= to(2); ++bz)
-    {
-      for (int by = from(1); by <= to(1); ++by)
-      {
-        const bool wholeRow =
-          std::abs(bz - homeBlock[2]) == shell || std::abs(by - homeBlock[1]) == shell;
-        const int step = wholeRow || shell == 0 ? 1 : 2 * shell;
-        for (int bx = wholeRow ? from(0) : homeBlock[0] - shell; bx <= to(0); bx += step)
-        {
-          if (bx >= 0)
-          {
-            searchBlock(bx, by, bz);
-          }
-        }
-      }
-    }
+    forEachOfShell(home, this->regionCounts_, shell, searchRegion);
   }
   return best;
 }

@@ -18,11 +18,14 @@ namespace neuralmesh
 /// The closest of many moving vertices, exactly: a uniform grid of cells about two edges wide, kept
 /// in two levels so that memory follows the surface and not the volume. A cell is a cache line of
 /// vertex indices (more lines if need be); 8 x 8 x 8 cells are a block, which exists only where
-/// there are vertices; an array over all blocks is the only thing that grows with the volume.
+/// there are vertices; an array over all blocks is the only thing that grows with the volume. 8 x 8 x
+/// 8 blocks are a region, of which is known how many of its blocks there are.
 ///
 /// A query looks into the cell of the sample (if that is empty, into the seven cells that are
 /// closest, too), then into those that the ball to the best vertex so far touches. Where all eight
-/// are empty, or the best is far, it goes outwards block by block.
+/// are empty, or the best is far, it goes outwards block by block, and from some blocks on region by
+/// region: where nearly all vertices are in a small part of the box, the rest of it is millions of
+/// empty blocks.
 /// Positions outside the box count to the cells at its border; as clamping to a box never
 /// lengthens a distance, all bounds hold there, too.
 ///
@@ -89,6 +92,18 @@ private:
     std::uint32_t cellCount = 0;
   };
 
+  static constexpr int RegionBits = 3;
+  static constexpr int RegionWidth = 1 << RegionBits;
+
+  /// Along x, y and z, in blocks or regions.
+  using Triple = std::array<int, 3>;
+  /// A block, and the sample in cells, clamped to the box.
+  struct Place
+  {
+    Triple block;
+    Vector4 inside;
+  };
+
   /// A vertex and its squared distance in one number: as distances are not negative, their bits are
   /// ordered as they are, and the lowest index wins a tie.
   using Candidate = std::uint64_t;
@@ -101,6 +116,10 @@ private:
   CellIndex cellOf(Vector4 position) const;
   std::size_t blockOf(CellIndex cell) const;
   static unsigned cellInBlock(CellIndex cell);
+  static Triple regionAt(CellIndex cell);
+  std::size_t regionOf(const Triple& region) const;
+  /// Whether all that is so many steps away, each so many cells wide, is farther than `best`.
+  bool isBeyond(int shell, int width, Candidate best) const;
   std::uint32_t lineOf(CellIndex cell) const;
 
   void insertAt(CellIndex cell, VertexIndex v);
@@ -112,17 +131,23 @@ private:
   Candidate searchOctant(CellIndex home, Vector4 sample, const Vector4* positions) const;
   Candidate searchBall(
     CellIndex home, Vector4 sample, const Vector4* positions, Candidate best) const;
+  Candidate searchBlock(
+    const Place& place, Vector4 sample, const Vector4* positions, Candidate best) const;
   Candidate searchBlocks(
     CellIndex home, Vector4 sample, const Vector4* positions, Candidate best) const;
+  Candidate searchRegions(
+    const Triple& homeBlock, Vector4 sample, const Vector4* positions, Candidate best) const;
 
   Vector4 origin_;
   Vector4 lastCell_;
   float cellSize_ = 1.f;
   float inverseCellSize_ = 1.f;
-  std::array<int, 3> cells_{};
-  std::array<int, 3> blockCounts_{};
+  Triple cells_{};
+  Triple blockCounts_{};
+  Triple regionCounts_{};
 
   LargeVector<std::uint32_t> blockNumbers_;
+  std::vector<std::uint32_t> blocksInRegion_;
   LargeVector<Block> blocks_;
   std::vector<std::uint32_t> freeBlocks_;
   LargeVector<Line> lines_;

@@ -10,7 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace neuralmesh::testing
@@ -188,6 +190,42 @@ TEST(Tuning, ManyPointsInOnePlace)
       EXPECT_GE(patch.cloud().differentCount(), 1000u);
     }
     EXPECT_FALSE(tune(cloud, fiveThousand(), goOn)->reasons().empty());
+  }
+}
+
+// Whatever the cloud is like, something valid is chosen, and it is said why.
+TEST(Tuning, AnyCloud)
+{
+  Random random(9);
+  const auto anyPoint = [&random]
+  {
+    const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+    return Eigen::Vector3d(x, y, z);
+  };
+  const std::array<std::function<Eigen::Vector3d(int)>, 7> clouds{
+    [&](int) { return anyPoint(); },                                                   // filled
+    [&](int) -> Eigen::Vector3d { return anyPoint().x() * Eigen::Vector3d(1, 2, 3); }, // a line
+    [](int i) { return Eigen::Vector3d(i % 90, i / 90, 0.); },                       // a grid
+    [](int i) { return Eigen::Vector3d(i % 20, i / 20 % 20, i / 400); },               // of voxels
+    // Most of them in a box of a thousandth.
+    [&](int i) -> Eigen::Vector3d { return (i % 10 ? 1e-3 : 1.) * anyPoint(); },
+    [&](int i) -> Eigen::Vector3d { return anyPoint().array().pow(1 + i % 40); }, // towards planes
+    [&](int i) -> Eigen::Vector3d { return 1e30 * anyPoint() + Eigen::Vector3d(1e36, i % 2, 0.); },
+  };
+  for (const auto& pointAt : clouds)
+  {
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 8000; ++i)
+    {
+      points.push_back(pointAt(i));
+    }
+    const Tuning tuning = tune(PointCloud(points), fiveThousand(), goOn).value();
+    EXPECT_FALSE(tuning.reasons().empty());
+    EXPECT_TRUE(tuning.parameters.errors().empty());
+    for (const TuningTrial& trial : tuning.trials)
+    {
+      EXPECT_TRUE(std::isfinite(trial.error) && std::isfinite(trial.gain)) << trial.parameter;
+    }
   }
 }
 

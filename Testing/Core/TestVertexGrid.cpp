@@ -252,6 +252,18 @@ TEST(VertexGrid, ExactForClustersFarApart)
   }
 }
 
+// Nearly all vertices in a small part of the box, samples anywhere: in millions of empty blocks.
+TEST(VertexGrid, ExactFarFromVertices)
+{
+  const Draw vertex = [](Random& random)
+  {
+    const float width = random.below(20) == 0 ? 1.f : 0.002f;
+    return Vector4(0.7f, -0.4f, 0.1f) + randomPoint(random, 0.25f * width);
+  };
+  GridUnderTest grid(UnitMin, UnitMax, 0.001f, 300);
+  EXPECT_EQ(wrongAnswers(grid, vertex, inBox, 300, 2000, 19), 0);
+}
+
 // Of vertices that are equally close the lowest index wins, in one cell and across cells.
 TEST(VertexGrid, LowestIndexWinsTie)
 {
@@ -287,7 +299,7 @@ TEST(VertexGrid, ExactWithCellsTooSmall)
   for (const float cellSize : { 1e-7f, 1e-40f, 0.f })
   {
     GridUnderTest grid(UnitMin, UnitMax, cellSize, 100);
-    EXPECT_EQ(wrongAnswers(grid, onSphere, onSphere, 100, 50, 18), 0);
+    EXPECT_EQ(wrongAnswers(grid, onSphere, onSphere, 100, 1000, 18), 0);
   }
 }
 
