@@ -202,15 +202,13 @@ TEST(Tuning, AnyCloud)
     const double x = random.uniform(), y = random.uniform(), z = random.uniform();
     return Eigen::Vector3d(x, y, z);
   };
-  const std::array<std::function<Eigen::Vector3d(int)>, 7> clouds{
-    [&](int) { return anyPoint(); },                                                   // filled
-    [&](int) -> Eigen::Vector3d { return anyPoint().x() * Eigen::Vector3d(1, 2, 3); }, // a line
-    [](int i) { return Eigen::Vector3d(i % 90, i / 90, 0.); },                       // a grid
-    [](int i) { return Eigen::Vector3d(i % 20, i / 20 % 20, i / 400); },               // of voxels
+  const std::array<std::function<Eigen::Vector3d(int)>, 4> clouds{
+    [&](int) -> Eigen::Vector3d
+    { return anyPoint().x() * Eigen::Vector3d(1e36, 2e36, 1.); },        // a line
+    [](int i) { return Eigen::Vector3d(i % 20, i / 20 % 20, i / 400); }, // voxels
     // Most of them in a box of a thousandth.
     [&](int i) -> Eigen::Vector3d { return (i % 10 ? 1e-3 : 1.) * anyPoint(); },
     [&](int i) -> Eigen::Vector3d { return anyPoint().array().pow(1 + i % 40); }, // towards planes
-    [&](int i) -> Eigen::Vector3d { return 1e30 * anyPoint() + Eigen::Vector3d(1e36, i % 2, 0.); },
   };
   for (const auto& pointAt : clouds)
   {
