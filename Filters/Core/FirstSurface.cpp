@@ -36,7 +36,7 @@ constexpr double LeastPointsPerVoxel = 2.;
 /// Of a skin, in voxels.
 constexpr double SkinThickness = 1.5;
 /// Different ones. With less, a coarse grid tells nothing.
-constexpr std::size_t LeastPoints = 500;
+constexpr std::size_t LeastPointsForGrid = 500;
 
 /// Of the time that all takes.
 constexpr double PartOfGrids = 0.5;
@@ -285,7 +285,7 @@ std::optional<FirstSurface> openSurface(const PointCloud& cloud, const FirstSurf
 std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
   Boundaries boundaries, const Progress& progress, const Executor& executor)
 {
-  if (cloud.differentCount() < LeastPoints)
+  if (cloud.differentCount() < LeastPointsForGrid)
   {
     return {};
   }

@@ -19,7 +19,7 @@ namespace neuralmesh
 namespace
 {
 constexpr std::uint64_t PointFileStream = 0x66696c65;
-constexpr std::uint64_t PointsBetweenReports = 4096;
+constexpr std::uint64_t SharesBetweenReports = 4096;
 
 /// Points that are not farther apart than so many bytes are read together with what is between them,
 /// in pieces of that size: this takes less time than to read each by itself.
@@ -211,7 +211,7 @@ bool PointFile::draw(std::uint64_t wanted, std::uint64_t seed,
   Random random(seed, PointFileStream);
   for (std::uint64_t i = 0; i < shares; ++i)
   {
-    if (i % PointsBetweenReports == 0 && !progress(double(i) / double(shares)))
+    if (i % SharesBetweenReports == 0 && !progress(double(i) / double(shares)))
     {
       return false;
     }

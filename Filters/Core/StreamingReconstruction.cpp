@@ -15,7 +15,7 @@ namespace neuralmesh
 namespace
 {
 /// With fewer there is nothing to see yet.
-constexpr std::size_t LeastPoints = 100;
+constexpr std::size_t LeastPointsToMesh = 100;
 constexpr std::uint64_t SamplesBetweenChecks = 4096;
 
 /// The mesh is begun anew if so much more of the occupied space is away from it than when it was
@@ -120,7 +120,7 @@ std::uint64_t StreamingReconstruction::learn(std::uint64_t samples, const Progre
 /// Has the mesh learn from the points that have come. False if there is no mesh then.
 bool StreamingReconstruction::takeInPoints(const Progress& progress)
 {
-  if (this->takenIn_ == this->reservoir_.seen() || this->reservoir_.points().size() < LeastPoints)
+  if (this->takenIn_ == this->reservoir_.seen() || this->reservoir_.points().size() < LeastPointsToMesh)
   {
     return this->hasMesh();
   }

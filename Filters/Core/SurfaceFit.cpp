@@ -33,7 +33,6 @@ constexpr double RetreatOfEmpty = 0.5;
 
 // The choice of lambda
 constexpr double FirstSmoothness = 1000.;
-constexpr double LeastSmoothness = 0.03;
 constexpr double MostSmoothness = 1e4;
 /// A bit more: too rough a surface would follow the noise all the way.
 constexpr double SmoothnessFactor = 1.1;

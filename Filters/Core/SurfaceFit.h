@@ -30,6 +30,9 @@ constexpr std::size_t HeldOutStride = 20;
 class SurfaceFit
 {
 public:
+  /// The least lambda that is worth trying: with less, triangles would fold.
+  static constexpr double LeastSmoothness = 0.03;
+
   /// Takes so many points of the cloud, evenly picked but for those held out, as samples. No vertex
   /// may be erased. Cloud, mesh and executor must outlive the fit.
   SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount,

@@ -3,6 +3,7 @@
 
 #include "Median.h"
 #include "Reconstruction.h"
+#include "SurfaceFit.h"
 #include "TuningPatch.h"
 
 #include <algorithm>
@@ -28,8 +29,6 @@ constexpr double NoiseThatHidesBends = 0.25;
 constexpr double NoiseToSmooth = 0.05;
 /// Lambda by the data, of patches.
 constexpr double MostSmoothnessOverLeast = 3.;
-/// With less, triangles would fold.
-constexpr double LeastSmoothness = 0.03;
 
 std::string text(double value)
 {
@@ -257,7 +256,7 @@ private:
     {
       for (const double factor : { first, second })
       {
-        if (factor * byData < LeastSmoothness ||
+        if (factor * byData < SurfaceFit::LeastSmoothness ||
           !this->isBetter(
             this->result_.parameters, factor, { "FitSmoothness", best * byData, factor * byData }))
         {

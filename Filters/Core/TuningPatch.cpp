@@ -17,7 +17,7 @@ namespace
 constexpr std::size_t PatchCount = 4;
 constexpr std::size_t PointsPerHeldOut = 5;
 /// Different ones: around many points in one place there is no more to learn than there is of it.
-constexpr std::size_t LeastPoints = 1000;
+constexpr std::size_t LeastPointsOfPatch = 1000;
 /// Of the radius of a patch: what is beyond is not measured, as meshes have their rim there.
 constexpr float InnerPart = 0.8f;
 
@@ -100,7 +100,7 @@ std::vector<TuningPatch> TuningPatch::patchesOf(
   const auto add = [&](Vector4 center, float radius, std::uint64_t vertices)
   {
     TuningPatch patch(cloud, center, radius, vertices);
-    if (patch.cloud().differentCount() >= LeastPoints)
+    if (patch.cloud().differentCount() >= LeastPointsOfPatch)
     {
       patches.push_back(std::move(patch));
     }

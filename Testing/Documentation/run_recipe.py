@@ -1,10 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Follows the recipe of Documentation/Developers.md: run_recipe.py ROOT LIBRARY COMPILER OPTION...
+"""Follows the recipe of Documentation/Developers.md: run_recipe.py ROOT COMPILER OPTION...
 
-The blocks of diff are applied to a copy of the engine, of which the changed sources, those that see the
-changed classes and the files of the page are compiled; all else comes from LIBRARY. The test among them
-must pass.
+The blocks of diff are applied to a copy of the engine, the files of the page are added, and all of it is
+compiled. The test among them must pass.
 """
 
 import pathlib
@@ -14,9 +13,6 @@ import sys
 import tempfile
 
 from markdown_pages import Page
-
-# Their classes hold what the recipe changes.
-DEPENDENT = ["Learner.cpp", "LearnerGrowth.cpp"]
 
 
 def run(command, **options):
@@ -29,8 +25,9 @@ def run(command, **options):
 
 
 def main():
-    root, library = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
-    compile_command = [*sys.argv[3:], "-std=c++20", "-O1", "-I", "Filters/Core"]
+    root = pathlib.Path(sys.argv[1]).resolve()
+    options = ["-std=c++20", "-O1", '-DNEURALMESH_VERSION="recipe"']
+    compile_command = [*sys.argv[2:], *options, "-I", "Filters/Core"]
     blocks = Page(root / "Documentation" / "Developers.md", "Developers.md").blocks
     patches = [block.text for block in blocks if block.language == "diff"]
     files = {block.value("file"): block.text for block in blocks if block.is_saved}
@@ -40,11 +37,10 @@ def main():
         run(["patch", "-p1"], input="".join(patches), cwd=folder)
         for name, text in files.items():
             (core / name).write_text(text, encoding="utf-8")
-        changed = [path for patch in patches for path in patch.splitlines()[1:2] if path.endswith(".cpp")]
-        names = [*(pathlib.Path(path).name for path in changed), *DEPENDENT, *files]
+        names = sorted(path.name for path in core.glob("*.cpp"))
         # In one go: most of the time goes into the headers.
         (core / "All.cpp").write_text("".join(f'#include "{name}"\n' for name in names), encoding="utf-8")
-        libraries = [str(library), "-lgtest", "-lgtest_main", "-lpthread"]
+        libraries = ["-lgtest", "-lgtest_main", "-lpthread"]
         run([*compile_command, "Filters/Core/All.cpp", *libraries, "-o", "test"], cwd=folder)
         run([f"{folder}/test"])
 
