@@ -14,19 +14,20 @@ namespace neuralmesh
 {
 /// A heap of vertices and their keys, four children to a node, that knows the place of each vertex:
 /// the first is found at once, any other is changed or erased in O(log n). `Before(a, b)` says
-/// whether key a goes before key b; of equal keys the lower index goes first.
+/// whether key a goes before key b; of equal keys the lower index goes first. The children of a node
+/// are a cache line.
 template <typename Before>
 class IndexedHeap
 {
 public:
   struct Entry
   {
-    WideReal key;
+    [[no_unique_address]] WideReal key;
     VertexIndex vertex = NoVertex;
   };
 
-  bool isEmpty() const { return this->entries_.empty(); }
-  const Entry& first() const { return this->entries_.front(); }
+  bool isEmpty() const { return this->entries_.size() == Root; }
+  const Entry& first() const { return this->entries_[Root]; }
   const WideReal& key(VertexIndex v) const { return this->entries_[this->places_[v]].key; }
 
   /// Brings the entry of `v` and the one above it into the cache.
@@ -34,7 +35,7 @@ public:
   {
     const std::size_t place = this->places_[v];
     __builtin_prefetch(&this->entries_[place]);
-    __builtin_prefetch(&this->entries_[(place > 0 ? place - 1 : 0) / Arity]);
+    __builtin_prefetch(&this->entries_[parentOf(place)]);
   }
 
   void insert(VertexIndex v, const WideReal& key)
@@ -66,18 +67,18 @@ public:
 
   void reserve(std::size_t count)
   {
-    this->entries_.reserve(count);
+    this->entries_.reserve(Root + count);
     this->places_.reserve(count);
   }
 
   /// As Mesh::renumber(). Puts the entries in order anew, as ties go by index.
   void renumber(std::span<const VertexIndex> newIndex)
   {
-    for (Entry& entry : this->entries_)
+    for (Entry& entry : std::span(this->entries_).subspan(Root))
     {
       entry.vertex = newIndex[entry.vertex];
     }
-    for (std::size_t place = this->entries_.size(); place-- > 0;)
+    for (std::size_t place = this->entries_.size(); place-- > Root;)
     {
       this->moveDown(place, this->entries_[place]);
     }
@@ -85,6 +86,21 @@ public:
 
 private:
   static constexpr std::size_t Arity = 4;
+  /// The places before it are unused, so that those of children begin at a multiple of four.
+  static constexpr std::size_t Root = Arity - 1;
+  static_assert(Arity * sizeof(Entry) == 64);
+
+  static std::size_t parentOf(std::size_t place) { return place / Arity + Arity - 2; }
+  static std::size_t firstChildOf(std::size_t place) { return (place - (Arity - 2)) * Arity; }
+
+  /// Which of them is next is not known before their parents are there.
+  void prefetchChildrenOf(std::size_t begin, std::size_t end) const
+  {
+    for (std::size_t place = begin; place < end; ++place)
+    {
+      __builtin_prefetch(this->entries_.data() + firstChildOf(place));
+    }
+  }
 
   static bool goesBefore(const Entry& a, const Entry& b)
   {
@@ -100,9 +116,9 @@ private:
 
   void moveUp(std::size_t place, const Entry& entry)
   {
-    while (place > 0)
+    while (place > Root)
     {
-      const std::size_t parent = (place - 1) / Arity;
+      const std::size_t parent = parentOf(place);
       if (!goesBefore(entry, this->entries_[parent]))
       {
         break;
@@ -117,12 +133,13 @@ private:
   {
     for (;;)
     {
-      const std::size_t begin = place * Arity + 1;
+      const std::size_t begin = firstChildOf(place);
       if (begin >= this->entries_.size())
       {
         break;
       }
       const std::size_t end = std::min(begin + Arity, this->entries_.size());
+      this->prefetchChildrenOf(begin, end);
       std::size_t best = begin;
       for (std::size_t child = begin + 1; child < end; ++child)
       {
@@ -143,7 +160,7 @@ private:
 
   void settle(std::size_t place, const Entry& entry)
   {
-    if (place > 0 && goesBefore(entry, this->entries_[(place - 1) / Arity]))
+    if (place > Root && goesBefore(entry, this->entries_[parentOf(place)]))
     {
       this->moveUp(place, entry);
     }
@@ -153,7 +170,7 @@ private:
     }
   }
 
-  LargeVector<Entry> entries_;
+  LargeVector<Entry> entries_ = LargeVector<Entry>(Root);
   LargeVector<std::uint32_t> places_;
 };
 }

@@ -21,6 +21,7 @@ def write_cloud(folder):
         writer = vtkXMLPolyDataWriter()
         pieces.append(f"piece{seed}.vtp")
         writer.SetFileName(os.path.join(folder, pieces[-1]))
+        writer.SetDataModeToBinary()  # appended data is not for every libexpat
         writer.SetInputData(support.fetch(support.scan(4000 * seed, Seed=seed)))
         writer.Write()
     path = os.path.join(folder, "cloud.pvtp")
