@@ -11,7 +11,8 @@ build build-benchmark NeuralMeshGrowthRun -DNEURALMESH_BUILD_BENCHMARKS=ON \
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 samples=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null \
-  --toggle-collect='neuralmesh::Learner::learn(unsigned long)' \
+  --toggle-collect='neuralmesh::Learner::learn(*' \
   build-benchmark/bin/NeuralMeshGrowthRun 10000 2> "$log")
 instructions=$(sed -n 's/.*Collected : //p' "$log")
+((instructions > 0)) || { echo "$0: callgrind has not seen the loop" >&2; exit 1; }
 echo "$((instructions / samples)) instructions a sample ($instructions / $samples)"
