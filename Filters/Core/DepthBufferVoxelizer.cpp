@@ -187,7 +187,10 @@ std::vector<std::uint8_t> voxelize(
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     {
       const auto& [a, b, c] = mesh.triangles[t];
-      buffers.draw({ points[a], points[b], points[c] }, !isPhantom.empty() && isPhantom[t] != 0);
+      if (points[a].allFinite() && points[b].allFinite() && points[c].allFinite())
+      {
+        buffers.draw({ points[a], points[b], points[c] }, !isPhantom.empty() && isPhantom[t] != 0);
+      }
     }
     buffers.carve(grid, inside);
   }

@@ -23,7 +23,7 @@ namespace neuralmesh
 /// voxels that meets nothing but phantoms is outside.
 ///
 /// Parts of the surface beyond the grid count where they are in line with it. Points must be
-/// finite.
+/// finite; triangles that are more voxels away from the grid than numbers go are left out.
 std::vector<std::uint8_t> voxelize(
   const TriangleMesh& mesh, const VoxelGrid& grid, std::span<const std::uint8_t> isPhantom = {});
 }

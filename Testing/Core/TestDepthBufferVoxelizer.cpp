@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -266,5 +267,17 @@ TEST(DepthBufferVoxelizer, CountsWhatLiesBeyondTheGrid)
   EXPECT_EQ(sum(voxelize(makeSphere(16), grid)), grid.size());
   grid.first = Eigen::Vector3d::Constant(3.);
   EXPECT_EQ(sum(voxelize(makeSphere(16), grid)), 0u);
+}
+
+// Triangles that are more voxels away than numbers go change nothing.
+TEST(DepthBufferVoxelizer, LeavesOutWhatIsBeyondAllNumbers)
+{
+  const VoxelGrid grid = gridOver(1.2, 16);
+  TriangleMesh mesh = makeSphere(16);
+  const std::vector<std::uint8_t> expected = voxelize(mesh, grid);
+  const auto corner = std::uint32_t(mesh.points.size());
+  mesh.points.push_back(Eigen::Vector3d::Constant(std::numeric_limits<double>::max()));
+  mesh.triangles.push_back({ 0, 1, corner });
+  EXPECT_EQ(voxelize(mesh, grid), expected);
 }
 }
