@@ -76,7 +76,7 @@
  *
  * @par What it does not do
  * The result has the topology that the coarse grid of the start finds, or that of the first mesh:
- * handles narrower than about 1.5 % of the longest side are closed; see Documentation/Start.md.
+ * handles narrower than about 3 % of the longest side are closed at first; see Documentation/Start.md.
  * TopologyLearning changes it while the mesh learns: see Documentation/Topology.md.
  * The mesh approximates: vertices lie near the points, not on them. Interpolation of the points is
  * done by vtkDelaunay3D or vtkSurfaceReconstructionFilter; where there are reliable oriented

@@ -383,8 +383,8 @@ public:
 
   ///@{
   /**
-   * SamplesPerAddition is multiplied by this as long as the mesh has less than EarlyVertices
-   * vertices, while it learns the rough shape: that makes twists and bridges rarer.
+   * SamplesPerAddition, and RemovalPatience unless noise is filtered, are multiplied by this as long
+   * as the mesh has less than EarlyVertices vertices: that makes twists and bridges rarer.
    * Default 4 (thesis 1), range 0.01 to 1000.
    */
   vtkNeuralMeshSetClampMacro(EarlyPatience, double, 0.01, 1000.0);

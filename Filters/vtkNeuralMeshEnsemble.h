@@ -6,7 +6,7 @@
  * vtkNeuralMeshEnsemble is vtkNeuralMesh with a start of its own: instead of what Start says, a mesh
  * that already has the shape and the handles of the cloud. For closed shapes with handles, and
  * wherever a single run leaves bridges or twists. It takes a few times as long, on one thread; the
- * members are learnt on as many as vtkSMPTools has. Algorithm 5 of the thesis:
+ * members are learnt beside each other, on NumberOfThreads. Algorithm 5 of the thesis:
  *
  * 1. Population: NumberOfMembers coarse meshes are learnt, from seeds derived from Seed, by the
  *    noise-filtering variant with exact counters.

@@ -47,8 +47,11 @@ check_files()
 {
   agrees CMakeLists.txt "$version"
   agrees CHANGELOG.md "$(newest_section)"
-  agrees "README.md, find_package" \
-    "$(sed -nE 's/^find_package\(NeuralMesh ([0-9.]+) .*/\1/p' README.md)" "${version%.*}"
+  local page
+  for page in README.md Documentation/FiveMinutes.md; do
+    agrees "$page, find_package" \
+      "$(sed -nE 's/^find_package\(NeuralMesh ([0-9.]+) .*/\1/p' "$page")" "${version%.*}"
+  done
 }
 
 # check_build BUILD

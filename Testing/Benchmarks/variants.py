@@ -31,7 +31,7 @@ WAYS = {
     "list, weighted jump": ["--order", "list", "--jump", "weighted"],
     "normal-based, list": ["--method", "normal", "--order", "list"],
     "until 10^6 iterations": ["--set", "MaximumIterations=1000000"],
-    "until mean |s - v_w| is 0.5 %": ["--set", "TargetSampleDistance=0.005"],
+    "until the mean distance of s and v_w is 0.5 %": ["--set", "TargetSampleDistance=0.005"],
     "until the cloud is 0.05 % from the mesh": ["--set", "TargetCloudDistance=0.0005"],
     "until M_delta is 0.0005": ["--set", "TargetNormalChange=0.0005"],
     "from a mesh of half the size": None,

@@ -11,7 +11,7 @@ from .vtkFiltersNeuralMesh import vtkNeuralMeshComparison
 
 
 def compare(
-    reference: vtkPolyData, result: vtkPolyData, samples: int = 300000, seed: int = 1
+    reference: vtkPolyData, result: vtkPolyData, samples: int = 200000, seed: int = 1
 ) -> dict[str, dict[str, float]]:
     """Measure how far a mesh is from a reference, over the surfaces and both ways.
 
