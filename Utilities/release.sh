@@ -20,7 +20,7 @@ fail()
 # agrees PLACE FOUND [WANTED]: prints it, and remembers if it is another one than the version.
 agrees()
 {
-  printf '%-40s %s\n' "$1" "${2:-none}"
+  printf '%-43s %s\n' "$1" "${2:-none}"
   [ "$2" = "${3:-$version}" ] || { echo "  is not ${3:-$version}"; disagree=1; }
 }
 
