@@ -5,7 +5,6 @@
 #include "Renumbering.h"
 
 #include <cmath>
-#include <cstdlib>
 
 namespace neuralmesh
 {
@@ -103,7 +102,7 @@ void ExactOrder::exchange(Archive& archive, std::span<const VertexIndex> vertice
 {
   archive(this->inverseS_.significand, this->inverseS_.epoch);
   archive.require(this->inverseS_.significand > 0. && std::isfinite(this->inverseS_.significand) &&
-    std::abs(this->inverseS_.epoch) < LargestEpoch);
+    this->inverseS_.epoch > -LargestEpoch && this->inverseS_.epoch < LargestEpoch);
   if (archive.isReading())
   {
     this->mostActive_ = {};

@@ -14,6 +14,8 @@ namespace
 {
 constexpr int MostIterations = 300;
 constexpr int IterationsPerCheck = 4;
+/// Of a triangle, in units of the cloud: with less, what is divided by it is beyond all numbers.
+constexpr float LeastSquaredNormal = 1e-30f;
 
 /// A part for the executor.
 constexpr std::size_t RowsPerRange = 4096;
@@ -41,8 +43,9 @@ void FitSystem::add(
   const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight, const Rows& rows)
 {
   const float squared = squaredNorm(normal);
-  const float along = squared > 0.f ? weight * this->slip_ : weight;
-  const float across = squared > 0.f ? weight * (1.f - this->slip_) / squared : 0.f;
+  const bool hasPlane = squared > LeastSquaredNormal;
+  const float along = hasPlane ? weight * this->slip_ : weight;
+  const float across = hasPlane ? weight * (1.f - this->slip_) / squared : 0.f;
   const Block metric{ Vector4(along, along, along) + across * (normal * normal),
     across * (normal * rotated(normal)) };
   const Vector4 pull = metric * sample;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -29,7 +30,7 @@ struct LargePageAllocator
   {
     if (!isLarge(count))
     {
-      return static_cast<T*>(::operator new(count * sizeof(T), std::align_val_t(alignof(T))));
+      return static_cast<T*>(::operator new(count * sizeof(T), std::align_val_t(Alignment)));
     }
 #ifdef __linux__
     // From the system, and back to it: as arrays grow, holes would be left in the heap.
@@ -58,7 +59,7 @@ struct LargePageAllocator
   {
     if (!isLarge(count))
     {
-      ::operator delete(memory, std::align_val_t(alignof(T)));
+      ::operator delete(memory, std::align_val_t(Alignment));
       return;
     }
 #ifdef __linux__
@@ -72,6 +73,8 @@ struct LargePageAllocator
 
 private:
   static constexpr std::size_t PageSize = std::size_t(1) << 21;
+  /// Small ones begin with a cache line at least.
+  static constexpr std::size_t Alignment = std::max<std::size_t>(alignof(T), 64);
 
   static bool isLarge(std::size_t count) { return count * sizeof(T) >= PageSize; }
   static std::size_t roundedBytes(std::size_t count)

@@ -120,7 +120,8 @@ std::uint64_t StreamingReconstruction::learn(std::uint64_t samples, const Progre
 /// Has the mesh learn from the points that have come. False if there is no mesh then.
 bool StreamingReconstruction::takeInPoints(const Progress& progress)
 {
-  if (this->takenIn_ == this->reservoir_.seen() || this->reservoir_.points().size() < LeastPointsToMesh)
+  if (this->takenIn_ == this->reservoir_.seen() ||
+    this->reservoir_.points().size() < LeastPointsToMesh)
   {
     return this->hasMesh();
   }

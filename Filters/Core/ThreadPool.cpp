@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ThreadPool.h"
 
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -40,6 +41,7 @@ ThreadPool::ThreadPool(unsigned threadCount)
   const unsigned wanted = threadCount > 0 ? threadCount : std::thread::hardware_concurrency();
   try
   {
+    this->workers_.reserve(wanted);
     for (unsigned i = 1; i < wanted; ++i)
     {
       this->workers_.emplace_back([this] { this->work(); });
@@ -48,6 +50,10 @@ ThreadPool::ThreadPool(unsigned threadCount)
   catch (const std::system_error&)
   {
     // No more threads are to be had.
+  }
+  catch (const std::bad_alloc&)
+  {
+    // Nor memory for them.
   }
 }
 

@@ -72,6 +72,10 @@ Comparison compare(std::span<const double> before, std::span<const double> after
   constexpr double FarthestMedians = 6.;
   const double limit =
     FarthestMedians * FarthestMedians * medianOf(std::vector<double>(before.begin(), before.end()));
+  if (!std::isfinite(limit))
+  {
+    return {};
+  }
   std::vector<double> befores, gains;
   for (std::size_t block = 0; block < Blocks; ++block)
   {
@@ -119,7 +123,7 @@ public:
     : cloud_(cloud)
     , progress_(progress)
     , executor_(executor)
-    , patches_(TuningPatch::patchesOf(cloud, wanted))
+    , patches_(TuningPatch::patchesOf(cloud, learnable(wanted, cloud)))
     , smoothness_(patches_.size())
   {
     this->result_.parameters = wanted;
@@ -157,7 +161,9 @@ private:
     {
       return false;
     }
-    if (probes < LeastProbes)
+    const bool areFinished =
+      std::all_of(runs.begin(), runs.end(), [](const auto& run) { return run.finish.has_value(); });
+    if (!areFinished || probes < LeastProbes)
     {
       this->result_.remarks.emplace_back("there are too few points to tell by them what is better");
       return false;

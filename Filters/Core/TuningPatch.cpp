@@ -84,7 +84,8 @@ TuningPatch::TuningPatch(
     [&](Vector4 point)
     {
       const bool isHeldOut = index++ % PointsPerHeldOut == 0;
-      if (isHeldOut)
+      // In Morton order, equal ones are neighbours; each is evidence only once.
+      if (isHeldOut && (this->heldOut_.empty() || squaredNorm(point - this->heldOut_.back()) > 0.f))
       {
         this->heldOut_.push_back(point);
       }

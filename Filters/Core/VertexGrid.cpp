@@ -15,7 +15,7 @@ namespace
 constexpr double MaximumBlockCount = double(1 << 24);
 /// So that a float tells coordinates in cells to within CellMargin.
 constexpr double MaximumBlocksAlong = double(1 << 12);
-constexpr float CellMargin = 0.01f;
+constexpr float CellMargin = 0.03f;
 
 /// A part for the executor.
 constexpr std::size_t QueriesPerRange = 256;

@@ -203,6 +203,38 @@ TEST(FitSystem, SolvesTheDenseSystem)
   }
 }
 
+// A triangle so small that dividing by the square of its normal is beyond all numbers counts as one
+// without a plane, and does the rest of the system no harm.
+TEST(FitSystem, TinyNormalsAreNone)
+{
+  const auto solutionWith = [](Vector4 normal)
+  {
+    Random random(6);
+    const Mesh mesh = makeRandomMesh(100, random);
+    std::vector<Sample> samples = makeSamples(mesh, 400, random);
+    samples[0].normal = normal;
+    FitSystem system(mesh, 0.01);
+    for (const Sample& sample : samples)
+    {
+      system.add(sample.place, sample.point, sample.normal, sample.weight);
+    }
+    std::vector<Vector4> x = positionsOf(mesh);
+    double scale = 0.;
+    EXPECT_TRUE(system.solve(1., 1e-6, scale, x, goOn));
+    EXPECT_GT(scale, 0.);
+    return x;
+  };
+  const std::vector<Vector4> expected = solutionWith(Vector4());
+  for (const float size : { 1e-16f, 1e-18f, 1e-20f, 1e-22f, 1e-30f })
+  {
+    const std::vector<Vector4> x = solutionWith(Vector4(size, 0.f, -size));
+    for (std::size_t v = 0; v < x.size(); ++v)
+    {
+      EXPECT_EQ(squaredNorm(x[v] - expected[v]), 0.f);
+    }
+  }
+}
+
 // The tolerance is one of the scale: what is near enough for it stays as it is.
 TEST(FitSystem, NearEnoughIsLeft)
 {

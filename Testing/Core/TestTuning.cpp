@@ -282,4 +282,35 @@ TEST(TuningPatch, HoldsAFifthOut)
       0.02 * perVertex);
   }
 }
+
+// Many copies of one point are no more evidence than one.
+TEST(TuningPatch, CopiesAreNoEvidence)
+{
+  constexpr std::size_t Different = 3000;
+  CloudOptions options;
+  options.count = Different;
+  std::vector<Eigen::Vector3d> points = sphereCloud(options);
+  points.insert(points.end(), 2 * Different, points[0]);
+  Parameters parameters;
+  parameters.numberOfVertices = 2000;
+  std::vector<TuningPatch> patches = TuningPatch::patchesOf(PointCloud(points), parameters);
+  ASSERT_EQ(patches.size(), 1u);
+  patches[0].aim(sphereMesh(0.));
+  EXPECT_GT(patches[0].probeCount(), Different / 20);
+  EXPECT_LE(patches[0].probeCount(), Different / 5 + 1);
+}
+
+// Where more vertices are wanted than the points are enough for, patches are as for those that are
+// learnt.
+TEST(Tuning, MoreVerticesThanPoints)
+{
+  CloudOptions options;
+  options.count = 12000;
+  const PointCloud cloud(sphereCloud(options));
+  Parameters wanted;
+  wanted.numberOfVertices = 100000;
+  const Tuning tuning = tune(cloud, wanted, goOn).value();
+  EXPECT_FALSE(tuning.trials.empty());
+  EXPECT_EQ(tuning.parameters.numberOfVertices, 100000u);
+}
 }
