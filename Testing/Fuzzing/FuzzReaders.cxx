@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -126,6 +127,18 @@ bool Read(const std::string& path, bool isApart)
   }
 }
 
+/** A system call, once more where a signal has cut it short: libFuzzer's clock sends some. */
+template <typename Call>
+auto Whole(const Call& call)
+{
+  auto result = call();
+  while (result < 0 && errno == EINTR)
+  {
+    result = call();
+  }
+  return result;
+}
+
 /** Has a process read a file; what it writes to stderr, and its status as by waitpid(). */
 std::pair<std::string, int> ReadApart(const std::string& path)
 {
@@ -146,13 +159,14 @@ std::pair<std::string, int> ReadApart(const std::string& path)
   close(ends[1]);
   std::string said;
   std::array<char, 4096> part{};
-  for (ssize_t count = 0; (count = read(ends[0], part.data(), part.size())) > 0;)
+  for (ssize_t count = 0;
+       (count = Whole([&] { return read(ends[0], part.data(), part.size()); })) > 0;)
   {
     said.append(part.data(), std::size_t(count));
   }
   close(ends[0]);
   int status = 0;
-  waitpid(child, &status, 0);
+  Whole([&] { return waitpid(child, &status, 0); });
   return { said, status };
 }
 
