@@ -44,7 +44,8 @@ def observed_call(
 def check_parameters(algorithm: vtkAlgorithm) -> None:
     """Raise ValueError if the properties of one of our filters do not go together."""
     execution = _Execution(algorithm, None)
-    with execution.observed():
+    # What a handler of Ctrl-C raises in an observer would end the process.
+    with execution.observed(), _guarded_interrupts(execution.call):
         algorithm.CheckParameters()
     execution.report()
 
