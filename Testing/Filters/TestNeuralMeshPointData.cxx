@@ -188,7 +188,7 @@ int CheckNames()
   data->SetGlobalIds(ids);
   data->SetPedigreeIds(pedigree);
   data->AddArray(ghosts);
-  auto filter = Run(cloud);
+  const auto filter = Run(cloud);
   vtkPointData* output = filter->GetOutput()->GetPointData();
   CHECK(output->GetNumberOfArrays() == 2);
   CHECK(output->HasArray("Normals") && output->HasArray("Activity"));
@@ -203,8 +203,8 @@ int CheckNames()
     data->AddArray(MakeArray<vtkDoubleArray>(
       cloud, name, 1, [](auto& array, vtkIdType i, const double*) { array->SetValue(i, -7.0); }));
   }
-  filter = Run(cloud);
-  output = filter->GetOutput()->GetPointData();
+  const auto again = Run(cloud);
+  output = again->GetOutput()->GetPointData();
   CHECK(output->GetNumberOfArrays() == 5);
   CHECK(output->GetArray("Activity")->GetTuple1(0) >= 0.0);
   CHECK(output->GetArray("Activity_Input")->GetTuple1(0) == -7.0);
