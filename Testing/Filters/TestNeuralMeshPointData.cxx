@@ -212,9 +212,9 @@ int CheckNames()
   CHECK(p[0] * output->GetArray("Normals_Input")->GetComponent(0, 0) < 0.0);
   CHECK(output->GetNormals() == output->GetArray("Normals"));
 
-  filter->CarryPointDataOff();
-  filter->Update();
-  CHECK(filter->GetOutput()->GetPointData()->GetNumberOfArrays() == 2);
+  again->CarryPointDataOff();
+  again->Update();
+  CHECK(again->GetOutput()->GetPointData()->GetNumberOfArrays() == 2);
   return EXIT_SUCCESS;
 }
 
