@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ThreadPool.h"
 
+#include <csignal>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -28,6 +29,30 @@ protected:
     runHere(count, part, context);
   }
 };
+
+/// While it lives, threads begin with all signals blocked but those of their own faults. What is
+/// sent to the process is for the threads of the application: Python, for one, does not notice a
+/// Ctrl-C that another thread has taken.
+class SignalsBlocked
+{
+public:
+  SignalsBlocked()
+  {
+    sigset_t signals;
+    sigfillset(&signals);
+    for (const int fault : { SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP })
+    {
+      sigdelset(&signals, fault);
+    }
+    pthread_sigmask(SIG_BLOCK, &signals, &this->before_);
+  }
+  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &this->before_, nullptr); }
+  SignalsBlocked(const SignalsBlocked&) = delete;
+  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
+
+private:
+  sigset_t before_;
+};
 }
 
 const Executor& Executor::sequential()
@@ -39,6 +64,7 @@ const Executor& Executor::sequential()
 ThreadPool::ThreadPool(unsigned threadCount)
 {
   const unsigned wanted = threadCount > 0 ? threadCount : std::thread::hardware_concurrency();
+  const SignalsBlocked signalsBlocked;
   try
   {
     this->workers_.reserve(wanted);

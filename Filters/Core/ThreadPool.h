@@ -13,7 +13,8 @@
 namespace neuralmesh
 {
 /// Runs parts on threads of its own and on the one that asks for it. Whoever asks while it is at
-/// work, a part among them, gets the parts run on the asking thread.
+/// work, a part among them, gets the parts run on the asking thread. Its threads take no signals
+/// that are sent to the process.
 class ThreadPool final : public Executor
 {
 public:

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <atomic>
+#include <csignal>
 #include <cstring>
 #include <stdexcept>
 #include <thread>
@@ -128,6 +129,38 @@ TEST(ThreadPool, PassesErrorsOn)
 TEST(ThreadPool, TakesTheWholeMachine)
 {
   EXPECT_EQ(ThreadPool().threadCount(), std::max(1u, std::thread::hardware_concurrency()));
+}
+
+// Promise: signals to the process are for the threads of the application, which are as before;
+// faults are for the thread that makes them.
+TEST(ThreadPool, TakesNoSignals)
+{
+  const auto isBlocked = [](int signal)
+  {
+    sigset_t blocked;
+    return pthread_sigmask(SIG_BLOCK, nullptr, &blocked) == 0 && sigismember(&blocked, signal) == 1;
+  };
+  const ThreadPool pool(2);
+  std::array<std::atomic<bool>, 2> isInterruptible{};
+  std::array<std::atomic<bool>, 2> isFaultBlocked{};
+  std::atomic<int> arrived = 0;
+  pool.forEachPart(2,
+    [&, caller = std::this_thread::get_id()](std::size_t)
+    {
+      const std::size_t here = std::this_thread::get_id() == caller ? 0 : 1;
+      isInterruptible[here] = !isBlocked(SIGINT);
+      isFaultBlocked[here] = isBlocked(SIGBUS);
+      // One part a thread.
+      ++arrived;
+      while (arrived < 2)
+      {
+        std::this_thread::yield();
+      }
+    });
+  EXPECT_TRUE(isInterruptible[0]);
+  EXPECT_FALSE(isInterruptible[1]);
+  EXPECT_FALSE(isFaultBlocked[0]);
+  EXPECT_FALSE(isFaultBlocked[1]);
 }
 
 // Promise: a cloud with weights, its mesh and the places of its points are the same to the byte at

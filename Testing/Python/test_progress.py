@@ -83,6 +83,32 @@ class Interrupt(unittest.TestCase):
                 self.assertEqual((errors, process.returncode), ("", 0))
                 self.assertEqual(output.splitlines()[-1], "interrupted")
 
+    # Promise: Ctrl-C ends a run also if a thread that knows nothing of Python takes the signal.
+    def test_signal_to_another_thread(self):
+        output, errors, status = support.run_script(
+            """
+            import ctypes, neuralmesh, signal, support, warnings
+            warnings.simplefilter("ignore")  # more vertices than points: a run that goes on
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+            # Holds on to the interpreter: giving it back would make Python look for signals.
+            libc = ctypes.PyDLL(None)
+            thread = ctypes.c_ulong()
+            libc.pthread_create(ctypes.byref(thread), None, libc.pause, None)
+            calls = []
+            def interrupt(done):
+                calls.append(done)
+                if len(calls) == 1:
+                    libc.pthread_kill(thread, signal.SIGINT)
+            try:
+                neuralmesh.reconstruct(
+                    support.sphere(20000), 100000000, time_limit=10, progress=interrupt
+                )
+            except KeyboardInterrupt:
+                print("interrupted", calls[-1] < 0.5)
+            """
+        )
+        self.assertEqual((output, errors, status), ("interrupted True\n", "", 0))
+
     # Promise: a handler of the user's own is called, decides what happens, and is there afterwards.
     def test_own_handler(self):
         received = []

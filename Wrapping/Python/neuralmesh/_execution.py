@@ -100,6 +100,9 @@ class _Execution:
             raise RuntimeError(" ".join(self._other_errors))
 
     def _on_progress(self, algorithm: vtkAlgorithm, _event: str) -> None:
+        # Sends nothing, but asks for signals: of one that a thread of another library has taken,
+        # Python would not know until then.
+        signal.raise_signal(0)
         if self._progress is None or self._raised is not None:
             return
         go_on = self.call(self._progress, algorithm.GetProgress())
