@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 source Utilities/build.sh
 
-install_packages "${build_packages[@]}" clang-format clang-tidy cppcheck
+install_packages "${build_packages[@]}" clang-format clang-tidy cppcheck git
 git ls-files '*.h' '*.cpp' '*.cxx' | xargs clang-format --dry-run --Werror
 echo "clang-format: all well"
 
