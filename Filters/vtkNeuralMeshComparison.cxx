@@ -3,6 +3,7 @@
 
 #include "vtkMeasuredSurface.h"
 
+#include "vtkCellLocator.h"
 #include "vtkDoubleArray.h"
 #include "vtkGenericCell.h"
 #include "vtkHausdorffDistancePointSetFilter.h"
@@ -13,7 +14,6 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkStaticCellLocator.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkVersionMacros.h"
@@ -114,7 +114,8 @@ double Percentile99(std::vector<double> distances)
   return *place;
 }
 
-/// Finds the nearest point of a surface, and its triangle.
+/// Finds the nearest point of a surface, and its triangle; of equally near ones always the same, which
+/// vtkStaticCellLocator does not with some backends of vtkSMPTools.
 class NearestPoint
 {
 public:
@@ -141,7 +142,7 @@ public:
   }
 
 private:
-  vtkNew<vtkStaticCellLocator> Locator;
+  vtkNew<vtkCellLocator> Locator;
   vtkNew<vtkGenericCell> Cell;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Promises: distances and angles are those of known surfaces, both ways, over the surfaces and not
-// at the vertices alone; wrong inputs are errors; a seed gives the same figures; neither offset nor
-// scale matters; an abort is obeyed.
+// at the vertices alone; wrong inputs are errors; a seed gives the same figures, also where triangles
+// are equally near; neither offset nor scale matters; an abort is obeyed.
 #include "FilterTesting.h"
 
 #include "vtkNeuralMeshComparison.h"
@@ -201,6 +201,27 @@ int CheckSeed()
   return EXIT_SUCCESS;
 }
 
+int CheckEquallyNear()
+{
+  // From outside, most samples are as near to two triangles or more.
+  vtkNew<vtkSphereSource> inner, outer;
+  inner->SetThetaResolution(100);
+  inner->SetPhiResolution(100);
+  outer->SetRadius(0.55);
+  std::vector<double> angles;
+  for (int run = 0; run < 3; ++run)
+  {
+    vtkNew<vtkNeuralMeshComparison> filter;
+    filter->SetReferenceConnection(inner->GetOutputPort());
+    filter->SetInputConnection(outer->GetOutputPort());
+    filter->SetNumberOfSamples(2000);
+    filter->Update();
+    angles.push_back(filter->GetNormalAngle(ToReference));
+    CHECK(angles.back() == angles.front());
+  }
+  return EXIT_SUCCESS;
+}
+
 int CheckOffsetAndScale()
 {
   for (const auto& [offset, scale] : { std::pair(1e7, 1.0), { 0.0, 1e-30 }, { 0.0, 1e30 } })
@@ -353,6 +374,7 @@ int TestNeuralMeshComparison(int, char*[])
   CHECK(CheckAsymmetric() == EXIT_SUCCESS);
   CHECK(CheckMaximumInsideTriangles() == EXIT_SUCCESS);
   CHECK(CheckSeed() == EXIT_SUCCESS);
+  CHECK(CheckEquallyNear() == EXIT_SUCCESS);
   CHECK(CheckOffsetAndScale() == EXIT_SUCCESS);
   CHECK(CheckUncleanInput() == EXIT_SUCCESS);
   CHECK(CheckStrips() == EXIT_SUCCESS);

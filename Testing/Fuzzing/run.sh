@@ -4,6 +4,7 @@
 #
 #   Testing/Fuzzing/run.sh SECONDS [Engine|Readers]
 #
+# Prints at the end of each how much CPU time the campaign took, the processes that read files among it.
 # What was found lies in build-fuzzing/found; a file of it is run again by
 # `build-fuzzing/bin/NeuralMeshFuzzEngineLong FILE`. The inputs that are worth while are kept in
 # build-fuzzing/corpus for the next campaign.
@@ -22,7 +23,8 @@ for target in "${targets[@]}"; do
   corpus=$folder/corpus/$target found=$folder/found/$target
   mkdir -p "$corpus" "$found"
   "$folder/bin/NeuralMeshFuzz${target}Shortly" --write "$corpus"
-  "$folder/bin/NeuralMeshFuzz${target}Long" -max_total_time="$seconds" -max_len=4096 -timeout=60 \
+  TIMEFORMAT="$target: %U CPU seconds in the program, %S in the system"
+  time "$folder/bin/NeuralMeshFuzz${target}Long" -max_total_time="$seconds" -max_len=4096 -timeout=60 \
     -rss_limit_mb=4096 -seed=1 -print_final_stats=1 -artifact_prefix="$found/" "$corpus" 2>&1 |
     tee "$folder/$target.log" | grep -E '^#[0-9]+.*(NEW|DONE|pulse)|stat::|SUMMARY|broken' | tail -n 20
 done

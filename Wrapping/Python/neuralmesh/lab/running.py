@@ -15,6 +15,13 @@ from typing import IO, Callable
 
 from .experiment import Run
 
+# The locators of VTK's other backends sort otherwise each time, and take another one of the triangles
+# that are equally near.
+_ON_ONE_THREAD = {
+    "VTK_SMP_BACKEND_IN_USE": "Sequential",
+    "VTK_SMP_MAX_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+}
 _LONGEST_MESSAGE = 4000  # characters of what a process says in the end
 
 
@@ -72,7 +79,7 @@ class _Worker:
             stderr=self._messages,
             # Ctrl-C reaches only the process that looks after this one.
             start_new_session=True,
-            env={**os.environ, "VTK_SMP_MAX_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
+            env={**os.environ, **_ON_ONE_THREAD},
         )
         self.answers = self._process.stdout
 
