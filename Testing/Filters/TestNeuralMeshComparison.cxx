@@ -203,7 +203,7 @@ int CheckSeed()
 
 int CheckEquallyNear()
 {
-  // From outside, most samples are as near to two triangles or more.
+  // From outside, the nearest point of many samples is on an edge or in a corner.
   vtkNew<vtkSphereSource> inner, outer;
   inner->SetThetaResolution(100);
   inner->SetPhiResolution(100);
