@@ -17,6 +17,35 @@ expect()
   [ "$status" -eq "$expected" ] || { cat out err; fail "status $status, not $expected: $*"; }
 }
 
+# CPU time of a process that runs, in hundredths of a second; nothing if it has ended.
+cpu_time_of()
+{
+  local stat
+  stat=$(cat "/proc/$1/stat" 2> /dev/null) || return 0
+  # Behind the name of the program: the state, and further on the time as user and in the system.
+  read -ra stat <<< "${stat##*) }"
+  [ "${stat[0]}" = Z ] || echo $((stat[11] + stat[12]))
+}
+
+# interrupted CENTISECONDS COMMAND...: runs it, and sends SIGINT when it has had so much CPU time: a busy
+# machine gives that later. The exit status is that of the command.
+interrupted()
+{
+  local after=$1 process time
+  shift
+  # The shell has what runs in the background ignore the signal.
+  env --default-signal=INT "$@" &
+  process=$!
+  while time=$(cpu_time_of $process); [ -n "$time" ] && [ "$time" -lt "$after" ]; do
+    sleep 0.01
+  done
+  kill -INT $process 2> /dev/null || true
+  wait $process
+}
+
+# within_limits COMMAND...: ends it where it needs more than 30 s of CPU time, or hangs.
+within_limits() { (ulimit -t 30; timeout 900 "$@"); }
+
 # json EXPRESSION: whether it holds in Python for `lines`, the JSON objects of `out`; a difference
 # of a and b of less than a hundredth is near(a, b).
 json()

@@ -34,7 +34,7 @@ def refusal(method, order, jump, topology):
 
 
 def run(*command):
-    return subprocess.run(command, capture_output=True, text=True, timeout=600)
+    return subprocess.run(command, capture_output=True, text=True, timeout=1800)
 
 
 def defects(checker, mesh):

@@ -7,7 +7,7 @@ readable=(ply vtp vtk vtu obj stl xyz pts txt csv)
 writable=(vtp ply obj stl)
 
 # reconstruct INPUT OUTPUT: with a limit of time, and few vertices.
-reconstruct() { timeout 30 "$neuralmesh" reconstruct "$1" "$2" --vertices 100; }
+reconstruct() { within_limits "$neuralmesh" reconstruct "$1" "$2" --vertices 100; }
 
 # refused INPUT: status 1, one line that names the file, nothing written.
 refused()
@@ -161,7 +161,7 @@ test_unwritable()
     done
     [ "$(id -u)" -eq 0 ] || expect 1 reconstruct cloud.xyz "closed/mesh.$extension"
   done
-  expect 1 timeout 10 "$neuralmesh" reconstruct cloud.xyz nowhere/mesh.ply --vertices 100000000
+  expect 1 within_limits "$neuralmesh" reconstruct cloud.xyz nowhere/mesh.ply --vertices 100000000
   expect 1 reconstruct cloud.xyz mesh.unknown
   is_one_line_about mesh.unknown
   expect 1 reconstruct cloud.xyz mesh
@@ -223,12 +223,12 @@ test_read_only_folder()
     echo "what was there" > "locked/mesh.$extension"
     if unshare --map-root-user --mount true 2> /dev/null; then
       export output="locked/mesh.$extension" neuralmesh
-      expect 1 timeout 10 unshare --map-root-user --mount bash -c \
+      expect 1 within_limits unshare --map-root-user --mount bash -c \
         'mount --bind locked locked && mount -o remount,bind,ro locked &&
           "$neuralmesh" reconstruct cloud.xyz "$output" --vertices 100000000'
     elif [ "$(id -u)" -ne 0 ]; then
       chmod 555 locked
-      expect 1 timeout 10 "$neuralmesh" reconstruct cloud.xyz "locked/mesh.$extension" \
+      expect 1 within_limits "$neuralmesh" reconstruct cloud.xyz "locked/mesh.$extension" \
         --vertices 100000000
       chmod 755 locked
     else

@@ -8,7 +8,8 @@ learning=(--vertices 1400 --set SamplesPerAddition=1500)
 
 run() { "$neuralmesh" reconstruct cloud.xyz "$@"; }
 
-# Runs until it has left a new checkpoint, and for so many seconds more; then kills it.
+# Runs until it has left a new checkpoint, and for so many seconds more; then kills it. Fails if the run
+# had come to its end.
 kill_after_checkpoint()
 {
   local before status=0
@@ -19,7 +20,8 @@ kill_after_checkpoint()
     sleep 0.005
   done
   sleep "$1"
-  kill -KILL $! || fail "the run was over too soon"
+  # On a busy machine it may have come to its end by now.
+  kill -KILL $! 2> stat_err || { wait $!; rm mesh.ply; return 1; }
   wait $! || status=$?
   [ "$status" -eq 137 ] || { cat err; fail "status $status of a killed run"; }
   [ ! -e mesh.ply ] || fail "a killed run wrote a mesh"
@@ -30,9 +32,12 @@ kill_after_checkpoint()
 test_same_bytes_after_kills()
 {
   expect 0 run whole.ply "${learning[@]}"
-  local pause
+  local pause tries=0
   for pause in 0 0.013 0.002 0.007 0.004; do
-    kill_after_checkpoint $pause
+    until kill_after_checkpoint $pause; do
+      tries=$((tries + 1))
+      [ $tries -lt 100 ] || fail "no run could be killed before its end"
+    done
   done
   expect 0 run mesh.ply "${learning[@]}" --checkpoint $checkpoint
   grep -Eq "^resumed +at sample [1-9][0-9]*, from $checkpoint\$" out || fail "it does not say so"
@@ -43,7 +48,7 @@ test_same_bytes_after_kills()
 # Promise: Ctrl-C writes the mesh learnt so far and a checkpoint, says so, and the same command goes on.
 test_ctrl_c()
 {
-  expect 130 timeout --preserve-status --signal INT 2 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
+  expect 130 interrupted 200 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
     --vertices 100000000 --set FitRounds=0 --checkpoint $checkpoint
   [ -s mesh.ply ] || fail "no mesh"
   grep -q "^checkpoint $checkpoint: the same command goes on" out || fail "it does not say so"

@@ -8,7 +8,7 @@
 
 namespace
 {
-/** Promised are 0.2 s; sanitizers and loaded machines take their time. */
+/** Of CPU time: a loaded machine does not matter. Promised are 0.2 s; sanitizers take more. */
 constexpr double MostSeconds = 5.0;
 
 /** Aborts the run in the middle, and remembers when. */
@@ -21,7 +21,7 @@ public:
     if (*static_cast<double*>(callData) > 0.5 && this->AbortTime == 0.0)
     {
       static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-      this->AbortTime = vtkTimerLog::GetUniversalTime();
+      this->AbortTime = vtkTimerLog::GetCPUTime();
     }
   }
   double AbortTime = 0.0;
@@ -38,7 +38,7 @@ int TestNeuralMeshAbort(int, char*[])
   filter->SetInputData(cloud);
   filter->Update();
   CHECK(aborter->AbortTime > 0.0);
-  CHECK(vtkTimerLog::GetUniversalTime() - aborter->AbortTime < MostSeconds);
+  CHECK(vtkTimerLog::GetCPUTime() - aborter->AbortTime < MostSeconds);
   CHECK(std::string(filter->GetStopReason()) == "cancelled");
   vtkPolyData* mesh = filter->GetOutput();
   CHECK(mesh->GetNumberOfPoints() > 100 && mesh->GetNumberOfPoints() < 10000);

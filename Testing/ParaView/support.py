@@ -9,6 +9,9 @@ from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
+# Seconds in which a process that takes a few of them must have hung, however busy the machine is.
+HANGING = 900
+
 CONFIGURATION = os.environ["NEURALMESH_PLUGIN_CONFIG"]
 PLUGIN = os.path.join(os.path.dirname(CONFIGURATION), "NeuralMesh", "NeuralMesh.so")
 

@@ -23,7 +23,7 @@ def run(script, **variables):
         [os.environ["NEURALMESH_PVPYTHON"], "-c", script],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=support.HANGING,
         env={**os.environ, **variables},
     )
     return process.stdout, process.stderr

@@ -17,7 +17,6 @@ BASELINE = pathlib.Path(__file__).with_name("Baselines") / "window.png"
 # In grey levels of 255. Measured: 0.02 with another driver of Mesa (softpipe), 9 if all is a pixel to
 # the right and one below, 21 with 50 vertices more, 85 without the mesh.
 TOLERANCE = 12
-SECONDS = 100
 
 MENU = "menubar/menuFilters/Neural Mesh"
 PANEL = "propertiesDock/propertiesPanel"
@@ -132,7 +131,7 @@ def play(events, folder):
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        timeout=SECONDS,
+        timeout=support.HANGING,
         env={**os.environ, "PV_PLUGIN_CONFIG_FILE": support.CONFIGURATION},
     )
     if process.returncode != 0:

@@ -46,7 +46,7 @@ def start(arguments, folder, **environment):
 def run(arguments, folder, **environment):
     """Run it; its output, its errors and its exit status."""
     process = start(arguments, folder, **environment)
-    output, errors = process.communicate(timeout=280)
+    output, errors = process.communicate(timeout=support.HANGING)
     return output, errors, process.returncode
 
 

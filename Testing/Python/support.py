@@ -11,6 +11,9 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 
+# Seconds in which a process that takes a few of them must have hung, however busy the machine is.
+HANGING = 900
+
 
 def sphere(count=2000, dtype=np.float64):
     """Points on the unit sphere, an array of shape (count, 3)."""
@@ -69,5 +72,5 @@ def start_script(script):
 def run_script(script):
     """Run the script so; its output, its errors and its exit status."""
     process = start_script(script)
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate(timeout=HANGING)
     return output, errors, process.returncode

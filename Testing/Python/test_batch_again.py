@@ -112,7 +112,7 @@ class Ends(BatchTest):
 
     def wait_for_the_end_of_jobs(self):
         """No process works in the folder any more."""
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + support.HANGING
         while any(os.path.realpath(cwd) == str(self.folder) for cwd in self.working_folders()):
             self.assertLess(time.monotonic(), deadline, "a process of a job is left")
             time.sleep(0.05)
@@ -153,7 +153,7 @@ class Ends(BatchTest):
     def test_interrupted(self):
         self.process.send_signal(signal.SIGINT)
         errors = self.process.stderr.read()
-        self.assertEqual(self.process.wait(60), 130)
+        self.assertEqual(self.process.wait(support.HANGING), 130)
         self.assertEqual(errors, "neuralmesh: interrupted; the same command does the rest\n")
         self.wait_for_the_end_of_jobs()
         self.assertLess(len(self.reports()), 8)
@@ -162,7 +162,7 @@ class Ends(BatchTest):
         again = start(["jobs.json", "--processes", "2"], self.folder)
         again.stdout.readline()
         again.send_signal(signal.SIGTERM)
-        again.communicate(timeout=60)
+        again.communicate(timeout=support.HANGING)
         self.assertEqual(again.returncode, 128 + signal.SIGTERM)
         self.wait_for_the_end_of_jobs()
 

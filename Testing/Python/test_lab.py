@@ -13,6 +13,7 @@ import time
 import unittest
 
 import numpy as np
+import support
 from batch_testing import DOCUMENTATION, write_scan
 from neuralmesh.batch.meshes import write_mesh
 from neuralmesh.lab import judging
@@ -39,7 +40,7 @@ def start(folder, *arguments):
 def run(folder, *arguments):
     """Run it; its output, its errors and its exit status."""
     process = start(folder, *arguments)
-    output, errors = process.communicate(timeout=500)
+    output, errors = process.communicate(timeout=support.HANGING)
     return output, errors, process.returncode
 
 
@@ -144,7 +145,7 @@ class Quick(FolderTest):
     def test_killed(self):
         results = self.folder / "killed"
         process = start(results, "addition", "cube", "--quick", "--processes", "1")
-        deadline = time.monotonic() + 200
+        deadline = time.monotonic() + support.HANGING
         while len(list(results.glob("runs/*.json"))) < 3 and time.monotonic() < deadline:
             time.sleep(0.01)
         process.send_signal(signal.SIGKILL)

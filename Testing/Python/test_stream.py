@@ -102,7 +102,7 @@ class Streams(unittest.TestCase):
     def test_example(self):
         result = subprocess.run(
             [os.environ["NEURALMESH_TEST_PYTHON"], str(EXAMPLE)],
-            capture_output=True, text=True, timeout=100, check=False)
+            capture_output=True, text=True, timeout=support.HANGING, check=False)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         areas = [float(line.split()[-2]) for line in result.stdout.splitlines()[1:-1]]
         self.assertEqual(len(areas), 12)

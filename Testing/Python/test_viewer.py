@@ -69,8 +69,20 @@ class Viewer(BatchTest):
     def wait_for(self, name):
         """Until the view of that name has been drawn."""
         viewer = self.browser.find_element(By.ID, "viewer")
-        WebDriverWait(self.browser, 100).until(lambda _: viewer.get_attribute("data-ready") == name)
-        time.sleep(0.3)
+        self.wait_until(lambda: viewer.get_attribute("data-ready") == name)
+        # What is to be seen then has been drawn when it does not change any more.
+        seen = [self.pixels()]
+
+        def is_still():
+            time.sleep(0.3)
+            seen.append(self.pixels())
+            return (seen[-1] == seen[-2]).all()
+
+        self.wait_until(is_still)
+
+    def wait_until(self, holds):
+        """Until the condition holds, which may take long on a busy machine."""
+        WebDriverWait(self.browser, support.HANGING).until(lambda _: holds())
 
     def pixels(self):
         """What is to be seen in the middle of the view, an array of shape (height, width, 3)."""
@@ -84,9 +96,12 @@ class Viewer(BatchTest):
         pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)
         return pixels[60:-40, 50:-50, :3].astype(int)
 
+    def differ(self, before):
+        """Which part of the view is another one than it was."""
+        return (self.pixels() != before).any(axis=2).mean()
+
     def press(self, button):
         self.browser.find_element(By.ID, button).click()
-        time.sleep(0.3)
 
     def is_open(self):
         return self.browser.find_element(By.ID, "viewer").is_displayed()
@@ -120,38 +135,40 @@ class Viewer(BatchTest):
     def test_moves(self):
         self.open("#red_vertices-300")
         self.wait_for("red_vertices-300")
+        surface = self.pixels()
         self.press("edges")
+        self.wait_until(lambda: self.differ(surface) > 0)
         start = self.pixels()
         scene = self.browser.find_element(By.ID, "scene")
         actions = webdriver.ActionChains(self.browser)
         actions.move_to_element(scene).click_and_hold().move_by_offset(80, 40).release().perform()
-        time.sleep(0.5)
+        self.wait_until(lambda: self.differ(start) > 0.02)
         rotated = self.pixels()
-        self.assertGreater((rotated != start).any(axis=2).mean(), 0.02)
         origin = webdriver.common.actions.wheel_input.ScrollOrigin.from_element(scene)
         webdriver.ActionChains(self.browser).scroll_from_origin(origin, 0, 300).perform()
-        time.sleep(0.5)
-        self.assertGreater((self.pixels() != rotated).any(axis=2).mean(), 0.02)
+        self.wait_until(lambda: self.differ(rotated) > 0.02)
         self.press("reset")
-        self.assertLess((self.pixels() != start).any(axis=2).mean(), 0.01)
+        self.wait_until(lambda: self.differ(start) < 0.01)
 
     # Promise: wireframe and edges are other looks, by buttons and by keys.
     def test_styles(self):
         self.open("#ball_1%2B1_vertices-300")
         self.wait_for("ball_1+1_vertices-300")
         surface = self.pixels()
-        self.press("wireframe")
-        wireframe = self.pixels()
-        self.press("edges")
-        edges = self.pixels()
         # Through a wireframe one sees what is behind it.
-        white = [(pixels == 255).all(axis=2).mean() for pixels in (surface, wireframe)]
-        self.assertGreater(white[1], white[0] + 0.1)
-        dark = [(pixels.sum(axis=2) < 200).mean() for pixels in (surface, edges)]
-        self.assertGreater(dark[1], dark[0] + 0.01)
+        white, dark = self.white(), self.dark()
+        self.press("wireframe")
+        self.wait_until(lambda: self.white() > white + 0.1)
+        self.press("edges")
+        self.wait_until(lambda: self.white() < white + 0.1 and self.dark() > dark + 0.01)
         self.browser.find_element(By.TAG_NAME, "body").send_keys("s")
-        time.sleep(0.3)
-        self.assertLess((self.pixels() != surface).any(axis=2).mean(), 0.01)
+        self.wait_until(lambda: self.differ(surface) < 0.01)
+
+    def white(self):
+        return (self.pixels() == 255).all(axis=2).mean()
+
+    def dark(self):
+        return (self.pixels().sum(axis=2) < 200).mean()
 
     # Promise: colours of the scan are those of the view, and large coordinates leave the mesh round.
     def test_colors(self):
@@ -172,8 +189,7 @@ class Viewer(BatchTest):
         self.browser.find_element(By.TAG_NAME, "body").send_keys(Keys.ARROW_LEFT)
         self.wait_for("ball_1+1_vertices-300")
         self.browser.find_element(By.TAG_NAME, "body").send_keys(Keys.ESCAPE)
-        time.sleep(0.2)
-        self.assertFalse(self.is_open())
+        self.wait_until(lambda: not self.is_open())
 
     # Promise: where a mesh is not there any more, the view says so.
     def test_missing(self):
@@ -183,7 +199,7 @@ class Viewer(BatchTest):
         path.unlink()
         self.open("#red_vertices-300")
         state = self.browser.find_element(By.ID, "state")
-        WebDriverWait(self.browser, 100).until(lambda _: "There is no 3D view" in state.text)
+        self.wait_until(lambda: "There is no 3D view" in state.text)
         self.browser.get_log("browser")
 
 

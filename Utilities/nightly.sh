@@ -1,0 +1,138 @@
+#!/usr/bin/env bash
+# Runs what the gate (.ci/run) leaves out as it takes hours, and prints one table of what came of it.
+#
+#   Utilities/nightly.sh [STEP...]      all steps if none is named; --list names them
+#
+# Root, for the Debian of its own that packages and plain VTK need; 8 GB. Each step writes nightly/STEP.log;
+# the exit status is 1 if one of them failed. A step that fails does not keep the others from running.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source Utilities/build.sh
+export CI=true
+
+# For fuzzing: seconds for each target.
+fuzzing_seconds=${NEURALMESH_FUZZING_SECONDS:-600}
+# For all parameters at once: runs, and their first seed is another one each night.
+random_runs=${NEURALMESH_RANDOM_RUNS:-20000}
+debian=$PWD/build-vtk91
+
+steps=(style tests random sweep address thread coverage fuzzing laboratory packages vtk91)
+declare -A what=(
+  [style]="clang-format, cppcheck, and clang-tidy of every source"
+  [tests]="the tests that have the label nightly"
+  [random]="$random_runs runs with all parameters by chance"
+  [sweep]="every method, order, jump and topology on real scans"
+  [address]="all tests with the address and undefined-behaviour sanitizers"
+  [thread]="all tests of core and filters with the thread sanitizer"
+  [coverage]="lines of the engine that its tests run through"
+  [fuzzing]="libFuzzer on engine and readers, $fuzzing_seconds s each"
+  [laboratory]="all experiments of the thesis"
+  [packages]="both Debian packages, each tried in a bare Debian"
+  [vtk91]="all tests against plain VTK 9.1"
+)
+
+step_style() { bash Utilities/check_style.sh --all; }
+
+build_for_tests()
+{
+  install_packages "${build_packages[@]}" "${test_packages[@]}"
+  build build all -DNEURALMESH_BUILD_TESTING=ON -DNEURALMESH_WARNINGS_AS_ERRORS=ON
+}
+
+step_tests()
+{
+  build_for_tests
+  ctest --test-dir build -j "$(nproc)" -L nightly --output-on-failure --no-tests=error
+}
+
+step_random()
+{
+  build_for_tests
+  NEURALMESH_RANDOM_RUNS=$random_runs ctest --test-dir build -R '^Core\.RandomRuns\.' \
+    --output-on-failure --no-tests=error
+}
+
+# Scans that Debian packages bring.
+step_sweep()
+{
+  build_for_tests
+  local folder
+  folder=$(mktemp -d)
+  tar -xzf /usr/share/doc/libcgal-dev/data.tar.gz -C "$folder" --strip-components=2 \
+    data/points_3/kitten.xyz data/points_3/oni.ply data/points_3/hippo1.ply
+  PYTHONPATH=build/lib/python3/dist-packages /usr/bin/python3 Testing/Applications/sweep.py \
+    build/bin/neuralmesh "$folder/kitten.xyz" "$folder/oni.ply" "$folder/hippo1.ply" \
+    /usr/share/glmark2/models/bunny.obj
+  rm -r "$folder"
+}
+
+step_address() { bash Utilities/check_sanitizers.sh address --all; }
+step_thread() { bash Utilities/check_sanitizers.sh thread --all; }
+step_coverage() { bash Utilities/check_coverage.sh; }
+
+step_fuzzing()
+{
+  bash Testing/Fuzzing/run.sh "$fuzzing_seconds"
+  [ -z "$(ls -A build-fuzzing/found/*)" ] || { ls build-fuzzing/found/*; return 1; }
+}
+
+step_laboratory()
+{
+  build_for_tests
+  # What an earlier night has measured is measured anew.
+  rm -rf nightly/laboratory
+  PYTHONPATH=build/lib/python3/dist-packages /usr/bin/python3 -m neuralmesh.lab all \
+    --output nightly/laboratory
+}
+
+step_packages()
+{
+  rm -rf packages
+  bash Utilities/make_packages.sh paraview
+  bash Utilities/make_packages.sh plain "$debian"
+  rm -rf --one-file-system "$debian-packages"
+  bash Utilities/test_packages.sh "$debian-packages"
+}
+
+# Those of the night, too.
+step_vtk91() { bash Utilities/test_with_vtk91.sh "$debian" -L 'fast|full|nightly'; }
+
+if [ "${1:-}" = --list ]; then
+  for step in "${steps[@]}"; do
+    printf '%-12s %s\n' "$step" "${what[$step]}"
+  done
+  exit
+fi
+for step in "$@"; do
+  [ -n "${what[$step]:-}" ] || { echo "$0: there is no step $step; --list names them" >&2; exit 2; }
+done
+[ $# -eq 0 ] || steps=("$@")
+
+mkdir -p nightly
+rows=() status=0
+TIMEFORMAT='%R %U %S'
+for step in "${steps[@]}"; do
+  echo "$step: ${what[$step]}"
+  result=passed
+  # In a shell of its own: a command that fails ends the step, and -e holds within it.
+  set +e
+  { time bash -euo pipefail -c "$(declare -p fuzzing_seconds random_runs debian build_packages \
+    test_packages); $(declare -f); step_$step" > "nightly/$step.log" 2>&1; } 2> nightly/time.txt
+  ended=$?
+  set -e
+  [ "$ended" -eq 0 ] || { result="FAILED" status=1; tail -n 20 "nightly/$step.log"; }
+  read -r wall user system < nightly/time.txt
+  said=$(grep -aoE '^100% tests passed.*|[0-9]+% tests passed.*|^lines: .*|all well.*$|^Total:.*' \
+    "nightly/$step.log" | tail -n 1 || true)
+  rows+=("$(awk -v step="$step" -v result="$result" -v wall="$wall" -v cpu="$user $system" -v said="$said" \
+    'BEGIN { split(cpu, part, " ")
+      printf "%-10s  %-6s  %7.1f  %7.1f  %s", step, result, wall / 60, (part[1] + part[2]) / 60, said }')")
+done
+
+{
+  echo
+  echo "$(git log -1 --format='%h %s' 2> /dev/null), $(date -u +'%Y-%m-%d %H:%M') UTC"
+  printf '%-10s  %-6s  %7s  %7s  %s\n' step result minutes "CPU min" "its last word"
+  printf '%s\n' "${rows[@]}"
+} | tee nightly/table.txt
+exit "$status"
