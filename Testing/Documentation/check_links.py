@@ -7,11 +7,11 @@ font with its folder exists; every page of Documentation is linked from its inde
 Documentation/Thesis.md exists, and no cell of its tables is empty. Prints what does not hold.
 """
 
-import pathlib
 import re
 import sys
 
 from markdown_pages import pages
+from repository_copy import repository_copy
 
 # A path from the root of the repository, in code font.
 FOLDERS = "Applications|CMake|Data|Documentation|Filters|Testing|Utilities|Wrapping"
@@ -58,8 +58,7 @@ def bad_cells(root, page):
                 yield f"{page.name}: there is no file {name}"
 
 
-def main():
-    root = pathlib.Path(sys.argv[1]).resolve()
+def check(root):
     all_pages = pages(root)
     by_path = {page.path: page for page in all_pages}
     wrong = [text for page in all_pages for text in (*bad_links(page, by_path), *bad_names(page, root))]
@@ -68,6 +67,11 @@ def main():
     wrong += bad_cells(root, thesis)
     print("\n".join(wrong) or f"{sum(len(page.links) for page in all_pages)} links: all well")
     return 1 if wrong else 0
+
+
+def main():
+    with repository_copy(sys.argv[1]) as root:
+        return check(root)
 
 
 if __name__ == "__main__":

@@ -7,12 +7,12 @@ is there, has words for who cannot see it, and no picture is left that no page s
 """
 
 import collections
-import pathlib
 import re
 import subprocess
 import sys
 
 from markdown_pages import pages
+from repository_copy import repository_copy
 
 
 def listed(folder):
@@ -49,13 +49,17 @@ def wrong_uses(root, folder):
     yield from (f"{path.name}: no page shows it" for path in folder.glob("*.png") if path not in used)
 
 
-def main():
-    root = pathlib.Path(sys.argv[1]).resolve()
+def check(root):
     folder = root / "Documentation" / "Pictures"
     makers = listed(folder)
     wrong = [*wrong_makers(folder, makers), *wrong_uses(root, folder)]
     print("\n".join(wrong) or f"{len(makers)} pictures: all well")
     return 1 if wrong else 0
+
+
+def main():
+    with repository_copy(sys.argv[1]) as root:
+        return check(root)
 
 
 if __name__ == "__main__":

@@ -6,11 +6,11 @@ What it is for comes first, then a picture, how it is done in C++, Python and sh
 where it comes from. The index has them all. Prints what is missing.
 """
 
-import pathlib
 import re
 import sys
 
 from markdown_pages import Page
+from repository_copy import repository_copy
 
 HEADINGS = ["How", "What it costs", "Source"]
 LANGUAGES = {"cpp", "python", "sh"}
@@ -33,13 +33,17 @@ def missing(page):
         yield f"{page.name}: how it is done in {language}"
 
 
-def main():
-    root = pathlib.Path(sys.argv[1]).resolve()
+def check(root):
     folder = root / "Documentation"
     names = variants(Page(folder / "README.md", "README.md"))
     wrong = [text for name in names for text in missing(Page(folder / name, name))]
     print("\n".join(wrong) or f"{len(names)} variants: all well")
     return 1 if wrong or len(names) < 9 else 0
+
+
+def main():
+    with repository_copy(sys.argv[1]) as root:
+        return check(root)
 
 
 if __name__ == "__main__":

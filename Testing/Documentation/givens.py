@@ -59,11 +59,8 @@ def coarse_mesh():
     return neuralmesh.reconstruct(torus(POINTS), vertices=300)
 
 
-def make_files(folder, root, build, page):
-    """The repository without what it has built, and the files of the scan."""
-    for path in root.iterdir():
-        if not path.name.startswith((".", "build", "demo")) or path.name == "demo.sh":
-            (folder / path.name).symlink_to(path)
+def make_files(folder, build, page):
+    """The build and the files of the scan, in a copy of the repository."""
     (folder / "build").symlink_to(build)
     scan, coarse = dataset_of(torus(POINTS)), coarse_mesh()
     write(vtkPLYWriter(), folder / "scan.ply", scan, ArrayName="RGB")

@@ -20,6 +20,8 @@ import pathlib
 import re
 import sys
 
+from repository_copy import repository_files
+
 REASONS = {
     "root": "installs something, or is for root alone",
     "build": "builds or tests the whole repository",
@@ -117,9 +119,10 @@ class Page:
 
 
 def pages(root):
+    """Those of the repository: Markdown that a user keeps beside it is none of ours."""
     root = pathlib.Path(root)
-    found = [*root.glob("*.md"), *root.glob("[A-Z]*/**/*.md")]
-    return [Page(path, path.relative_to(root).as_posix()) for path in sorted(found)]
+    return [Page(root / path, path.as_posix()) for path in repository_files(root)
+            if path.suffix == ".md" and re.match("[A-Z].*/|[^/]*$", path.as_posix())]
 
 
 def main():

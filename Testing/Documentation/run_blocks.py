@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the blocks of shell and Python of a page, one after the other: run_blocks.py ROOT BUILD PAGE
 
-They run in a folder that looks like that of the repository, with BUILD as `build`, and has what pages
-take as given: see givens.py. Blocks of Python share their variables. Prints what it runs.
+They run in a copy of the repository, with BUILD as `build`, that has what pages take as given: see
+givens.py. Blocks of Python share their variables. Blocks of shell are one session: what one of them
+exports, and the folder that it goes to, are there for the next. Nothing else leads to what was built, so
+that commands work as they are printed. Prints what it runs.
 """
 
 import doctest
@@ -16,7 +18,9 @@ import traceback
 
 import givens
 from markdown_pages import Page
+from repository_copy import repository_copy
 
+SET_BY_PAGES = {"PYTHONPATH", "PV_PLUGIN_CONFIG_FILE"}
 SAME = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 
@@ -24,29 +28,40 @@ class Failure(Exception):
     pass
 
 
-def shell_environment(build):
+def shell_environment(folder, build):
+    """That of somebody who has come to the folder, and has set nothing for NeuralMesh yet."""
     # A process that belongs to MPI has variables that are not for another one.
     environment = {
-        name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_"))
+        name: value
+        for name, value in os.environ.items()
+        if not name.startswith(("OMPI_", "PMIX_")) and name not in SET_BY_PAGES
     }
-    environment["PATH"] = f"{build / 'bin'}:{os.environ['PATH']}"
+    programs = os.environ["PATH"].split(os.pathsep)
+    programs = [path for path in programs if pathlib.Path(path).resolve() != build / "bin"]
+    environment["PATH"] = os.pathsep.join(programs)
+    environment["PWD"] = str(folder)
     environment["OMPI_ALLOW_RUN_AS_ROOT"] = environment["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"
     environment["OMPI_MCA_rmaps_base_oversubscribe"] = "1"
     return environment
 
 
-def run_shell(text, folder, environment):
-    process = subprocess.run(
-        ["bash", "-euo", "pipefail", "-c", text],
-        cwd=folder,
-        env=environment,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-    if process.returncode != 0:
-        raise Failure(f"exit status {process.returncode}\n{process.stdout}")
+def run_shell(text, environment):
+    """Runs it in the folder PWD of the environment, which becomes what the block leaves to the next."""
+    with tempfile.NamedTemporaryFile() as left:
+        process = subprocess.run(
+            ["bash", "-euo", "pipefail", "-c", f'{text}\nenv -0 > "$1"', "bash", left.name],
+            cwd=environment["PWD"],
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        if process.returncode != 0:
+            raise Failure(f"exit status {process.returncode}\n{process.stdout}")
+        variables = os.fsdecode(left.read()).split("\0")[:-1]
+    environment.clear()
+    environment.update(variable.split("=", 1) for variable in variables)
     return process.stdout
 
 
@@ -56,14 +71,14 @@ def check_output(wanted, printed):
 
 
 def save(path, text):
-    """Writes a file that is not there yet: never through a link into the repository."""
+    """Writes a file that is not there yet: no page changes a file of the repository."""
     path.parent.mkdir(exist_ok=True)
     with open(path, "x", encoding="utf-8") as file:
         file.write(text)
 
 
 def play(page, folder, build):
-    environment = shell_environment(build)
+    environment = shell_environment(folder, build)
     variables = givens.variables()
     printed = ""
     for block in page.blocks:
@@ -74,7 +89,7 @@ def play(page, folder, build):
             elif block.words == ["output"]:
                 check_output(block.text, printed)
             elif block.language == "sh" and block.is_run:
-                printed = run_shell(block.text, folder, environment)
+                printed = run_shell(block.text, environment)
             elif block.language == "python" and block.is_run:
                 # Lines of a traceback are those of the page.
                 code = "\n" * block.line + block.text
@@ -89,9 +104,8 @@ def play(page, folder, build):
 def main():
     root, build = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
     page = Page(root / sys.argv[3], sys.argv[3])
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name).resolve()
-        givens.make_files(folder, root, build, page.name)
+    with repository_copy(root) as folder:
+        givens.make_files(folder, build, page.name)
         os.chdir(folder)
         problem = play(page, folder, build)
         os.chdir(root)

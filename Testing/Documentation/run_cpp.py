@@ -6,16 +6,15 @@ run_cpp.py ROOT BUILD PROGRAM"""
 import pathlib
 import subprocess
 import sys
-import tempfile
 
 import givens
+from repository_copy import repository_copy
 
 
 def main():
     root, build, program = (pathlib.Path(path).resolve() for path in sys.argv[1:])
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name).resolve()
-        givens.make_files(folder, root, build, "")
+    with repository_copy(root) as folder:
+        givens.make_files(folder, build, "")
         process = subprocess.run([program], cwd=folder, capture_output=True, text=True)
     print(process.stdout + process.stderr)
     # Errors of VTK are told on stderr, and end nothing.

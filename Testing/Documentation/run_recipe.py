@@ -6,13 +6,11 @@ The blocks of diff are applied to a copy of the engine, the files of the page ar
 compiled. The test among them must pass.
 """
 
-import pathlib
-import shutil
 import subprocess
 import sys
-import tempfile
 
 from markdown_pages import Page
+from repository_copy import repository_copy
 
 
 def run(command, **options):
@@ -25,15 +23,13 @@ def run(command, **options):
 
 
 def main():
-    root = pathlib.Path(sys.argv[1]).resolve()
     options = ["-std=c++20", "-O1", '-DNEURALMESH_VERSION="recipe"']
     compile_command = [*sys.argv[2:], *options, "-I", "Filters/Core"]
-    blocks = Page(root / "Documentation" / "Developers.md", "Developers.md").blocks
-    patches = [block.text for block in blocks if block.language == "diff"]
-    files = {block.value("file"): block.text for block in blocks if block.is_saved}
-    with tempfile.TemporaryDirectory() as folder:
-        core = pathlib.Path(folder) / "Filters" / "Core"
-        shutil.copytree(root / "Filters" / "Core", core)
+    with repository_copy(sys.argv[1]) as folder:
+        core = folder / "Filters" / "Core"
+        blocks = Page(folder / "Documentation" / "Developers.md", "Developers.md").blocks
+        patches = [block.text for block in blocks if block.language == "diff"]
+        files = {block.value("file"): block.text for block in blocks if block.is_saved}
         run(["patch", "-p1"], input="".join(patches), cwd=folder)
         for name, text in files.items():
             (core / name).write_text(text, encoding="utf-8")

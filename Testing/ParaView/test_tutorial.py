@@ -55,11 +55,13 @@ class Tutorial(unittest.TestCase):
         cls.output, cls.errors, cls.status = process.stdout, process.stderr, process.returncode
 
     def shell(self, block, **variables):
-        # This process belongs to MPI, too, whose variables are not for another one.
+        # This process belongs to MPI, too, whose variables are not for another one; nor are those that
+        # lead to what was built, but for what the block itself sets.
         environment = {
             name: value
             for name, value in os.environ.items()
             if not name.startswith(("OMPI_", "PMIX_"))
+            and name not in ("PYTHONPATH", "PV_PLUGIN_CONFIG_FILE")
         }
         return subprocess.run(
             ["bash", "-e", "-c", block],

@@ -3,12 +3,17 @@
 
 import pathlib
 import re
+import sys
 import unittest
 
 from neuralmesh import vtkNeuralMesh, vtkNeuralMeshEnsemble
 from neuralmesh._parameters import parameters_of, snake_case
 
-DOCUMENTATION = pathlib.Path(__file__).parents[2] / "Documentation"
+ROOT = pathlib.Path(__file__).parents[2]
+sys.path.append(str(ROOT / "Testing" / "Documentation"))
+from markdown_pages import pages
+
+DOCUMENTATION = ROOT / "Documentation"
 WORDS = {"on": 1, "off": 0}
 
 
@@ -43,7 +48,7 @@ class Tables(unittest.TestCase):
     def test_values(self):
         variants = {"Basic": "Basic", "NoiseFiltering": "NoiseFiltering", "NormalBased": "NormalBased"}
         checked = 0
-        for page in DOCUMENTATION.glob("*.md"):
+        for page in (page.path for page in pages(ROOT) if page.path.parent == DOCUMENTATION):
             for row in rows_of(page):
                 name = row["property"].strip("`")
                 for column in {"default", "thesis"} & set(row):
