@@ -34,7 +34,7 @@ test_compare_table()
 # Promise: --json gives one object; the figures are right, and the same for the same seed.
 test_compare_json()
 {
-  expect 0 "$neuralmesh" compare cube.obj large.obj --json
+  expect 0 "$neuralmesh" compare cube.obj large.obj --json --samples 20000
   json 'len(lines) == 1 and lines[0]["reference"] == "cube.obj" and lines[0]["seed"] == 1'
   json 'near(lines[0]["reference_diagonal"], 3 ** 0.5)'
   json 'all(near(lines[0]["reference_to_result"][key], 0.1)
@@ -46,7 +46,7 @@ test_compare_json()
   json 'lines[0]["reference_to_result"]["normal_angle"] < 1e-6'
   json 'near(2 * lines[0]["normal_angle"], lines[0]["result_to_reference"]["normal_angle"])'
   cp out first
-  expect 0 "$neuralmesh" compare cube.obj large.obj --json
+  expect 0 "$neuralmesh" compare cube.obj large.obj --json --samples 20000
   cmp out first || fail "the same seed gave other figures"
   expect 0 "$neuralmesh" compare cube.obj large.obj --json --seed 2 --samples 3000
   json 'lines[0]["seed"] == 2 and lines[0]["samples"] == 3000'

@@ -47,7 +47,7 @@ void Prepare(vtkNeuralMeshComparison* filter, vtkPolyData* reference, vtkPolyDat
 {
   filter->SetReferenceData(reference);
   filter->SetInputData(result);
-  filter->SetNumberOfSamples(20000);
+  filter->SetNumberOfSamples(5000);
 }
 
 double Distance(vtkPolyData* mesh, vtkIdType point)
