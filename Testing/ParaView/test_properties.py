@@ -319,7 +319,7 @@ class Panel(unittest.TestCase):
         self.assertNotIn("NumberOfVertices", hidden)
 
     # Promise: the filters are in the menu, and the outputs have names and views. The learning curve has
-    # none until it is asked for, and then a representation of its own.
+    # none until it is asked for, and then a representation of its own; its icon tells of the chart.
     def test_hints(self):
         for name in CLASSES:
             hints = prototype(name).GetHints()
@@ -336,6 +336,9 @@ class Panel(unittest.TestCase):
             self.assertEqual((chart.GetAttribute("view"), chart.GetAttribute("port")),
                              ("XYChartView", "1"))
             self.assertEqual(chart.GetAttribute("type"), "NeuralMeshLearningCurve")
+            (icon,) = elements_with_name(prototype(name).GetHints(), "PipelineIcon")
+            self.assertEqual((icon.GetAttribute("name"), icon.GetAttribute("port")),
+                             ("XYChartView", "1"))
         self.assertEqual(views["NeuralMeshComparison", "2"], "SpreadSheetView")
         for name, cls in CLASSES.items():
             proxy = servermanager.ProxyManager().NewProxy(group_of(name), name)
