@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LearningParameters.h"
 
+#include "NearestNames.h"
+#include "OneLine.h"
 #include "vtkNeuralMeshEnsemble.h"
 
 #include "vtkNew.h"
@@ -141,6 +143,23 @@ double ValueOf(const LearningParameter& parameter, const std::string& text)
   const bool isNumber = error == std::errc() && end == text.data() + text.size();
   return isNumber ? value : std::numeric_limits<double>::quiet_NaN();
 }
+
+/** What to say of a name that no parameter has. */
+std::string DescribeUnknown(const std::string& name)
+{
+  std::vector<std::string> names;
+  for (const LearningParameter& parameter : GetLearningParameters())
+  {
+    names.push_back(parameter.Name);
+  }
+  std::string message = "--set: there is no parameter " + OneLine(name) + "; ";
+  const std::vector<std::string> nearest = NearestNames(name, names);
+  for (std::size_t i = 0; i < nearest.size(); ++i)
+  {
+    message += (i == 0 ? "did you mean " : " or ") + nearest[i];
+  }
+  return message + (nearest.empty() ? "" : "? ") + "'neuralmesh reconstruct --help' lists them all";
+}
 }
 
 const std::vector<LearningParameter>& GetLearningParameters()
@@ -152,7 +171,7 @@ const std::vector<LearningParameter>& GetLearningParameters()
 void SetLearningParameter(vtkNeuralMesh* filter, const std::string& assignment)
 {
   const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos)
+  if (equals == 0 || equals == std::string::npos)
   {
     throw UsageError("--set " + assignment + ": expected NAME=VALUE");
   }
@@ -164,8 +183,7 @@ void SetLearningParameter(vtkNeuralMesh* filter, const std::string& assignment)
     [&](const LearningParameter& candidate) { return candidate.Name == name; });
   if (parameter == parameters.end())
   {
-    throw UsageError(
-      "--set: there is no parameter " + name + "; there are\n" + DescribeLearningParameters());
+    throw UsageError(DescribeUnknown(name));
   }
   const double value = ValueOf(*parameter, text);
   if (!(value >= parameter->Minimum && value <= parameter->Maximum) ||

@@ -33,7 +33,7 @@ struct UsageError : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-/** Carries out an assignment NAME=VALUE. Throws UsageError, with the range or the names. */
+/** Carries out an assignment NAME=VALUE. Throws UsageError, with the range or near names. */
 void SetLearningParameter(vtkNeuralMesh* filter, const std::string& assignment);
 
 /** A table of names, defaults and ranges. */

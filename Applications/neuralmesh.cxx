@@ -13,6 +13,11 @@ constexpr int WrongUse = 2;
 int Run(int argc, char* argv[])
 {
   CommandLine line;
+  if (argc < 2)
+  {
+    std::cout << line.Application.help();
+    return 0;
+  }
   try
   {
     line.Application.parse(argc, argv);

@@ -138,7 +138,7 @@ void WriteManPage(const CLI::App& application, std::ostream& page)
     WriteSynopsis(*command, page);
   }
   page << ".B neuralmesh\n"
-       << Bold("--version") << " | " << Bold("--help") << "\n"
+       << "[" << Bold("--version") << " | " << Bold("--help") << "]\n"
        << ".SH DESCRIPTION\n"
        << "Turns a raw 3D scan, a point cloud without normals, with noise and outliers, into a\n"
        << "triangle mesh with as many vertices as are asked for, and tells how good meshes are.\n"

@@ -62,7 +62,6 @@ test_wrong_use()
     [ -s err ] || fail "no message for: $arguments"
     [ ! -e mesh.ply ] || fail "something was written for: $arguments"
   done <<'CASES'
-
 nonsense
 reconstruct
 reconstruct cloud.xyz
@@ -72,13 +71,49 @@ reconstruct cloud.xyz mesh.ply --seed -1
 reconstruct cloud.xyz mesh.ply --method guess
 reconstruct cloud.xyz mesh.ply --preset guess
 reconstruct cloud.xyz mesh.ply --set WinnerRate
+reconstruct cloud.xyz mesh.ply --set =1
 reconstruct cloud.xyz mesh.ply --set WinnerRate=2
 reconstruct cloud.xyz mesh.ply --set WinnerRate=x
 reconstruct cloud.xyz mesh.ply --set NoiseWindow=10.5
 reconstruct cloud.xyz mesh.ply --set Nothing=1
 reconstruct cloud.xyz mesh.ply --time-limit -1
 CASES
+}
+
+# says_unknown NAME SUGGESTIONS: what is said in one line of a parameter that does not exist.
+says_unknown()
+{
+  local message="neuralmesh: --set: there is no parameter $1; "
+  message+="$2'neuralmesh reconstruct --help' lists them all"
+  expect 2 "$neuralmesh" reconstruct cloud.xyz mesh.ply --set "$1=0.1"
+  [ "$(cat err)" = "$message" ] || { cat err; fail "another message about $1"; }
+  [ ! -s out ] && [ ! -e mesh.ply ] || fail "something was written for $1"
+}
+
+# Promise: a mistyped parameter is answered in one line, with those of like names, if there are any, and
+# the place where all of them are told.
+test_mistyped()
+{
+  says_unknown WinerRate 'did you mean WinnerRate? '
+  says_unknown winner_rate 'did you mean WinnerRate? '
+  says_unknown Strat 'did you mean Start? '
+  says_unknown EastVertices 'did you mean ListVertices or EarlyVertices? '
+  says_unknown xyzzy ''
+  local long
+  long=$(printf 'x%.0s' {1..100000})
+  expect 2 "$neuralmesh" reconstruct cloud.xyz mesh.ply --set "$long=1"
+  [ "$(wc -c < err)" -lt 500 ] || fail "the message about a long name is long"
+}
+
+# Promise: the command alone prints its help, the same as --help does, with status 0.
+test_help()
+{
   expect 0 "$neuralmesh" --help
+  grep -q '^Subcommands:' out || fail "the help does not name the subcommands"
+  mv out help
+  expect 0 "$neuralmesh"
+  cmp out help || fail "the command alone prints something else than its help"
+  [ ! -s err ] || { cat err; fail "there is something on stderr"; }
   expect 0 "$neuralmesh" reconstruct --help
   grep -q WinnerRate out || fail "the help does not name the parameters"
   expect 0 "$neuralmesh" --version
@@ -91,9 +126,14 @@ test_quiet()
   [ ! -s out ] && [ ! -s err ] || fail "it was not quiet"
 }
 
-# Promise: on a terminal there is a bar with rate and remaining time.
+# Promise: on a terminal there is a bar with rate and remaining time. Skipped where no terminal can be
+# made, as in a chroot without /dev/pts.
 test_progress_on_terminal()
 {
+  if ! script -qec true /dev/null > reason 2>&1 && grep -q pseudo-terminal reason; then
+    echo "skipped: $(cat reason)"
+    exit 77
+  fi
   script -qec "$neuralmesh reconstruct cloud.xyz mesh.ply --vertices 500" typescript > /dev/null
   grep -q 'vertices/s' typescript || fail "no rate"
   grep -q 's left' typescript || fail "no remaining time"

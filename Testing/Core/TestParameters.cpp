@@ -1,56 +1,154 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ParameterNames.h"
 #include "Parameters.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 
 namespace neuralmesh::testing
 {
+namespace
+{
+using Values = std::map<std::string, double>;
+
+/// All parameters on which a result depends.
+Values valuesOf(const Parameters& parameters)
+{
+  Values values;
+  forEachParameter(
+    [&](const char* name, auto place) { values[name] = static_cast<double>(parameters.*place); });
+  return values;
+}
+
+/// As they are documented: parameters of no preset, and the defaults of the others.
+const Values Defaults = {
+  { "Variant", 1 }, // noise filtering
+  { "Order", 0 },   // exact
+  { "Seed", 1 },
+  { "Start", 0 },      // occupied space
+  { "Boundaries", 0 }, // keep
+  { "CurvatureDensity", 0.5 },
+  { "WinnerRate", 0.1 },
+  { "SmoothingRate", 0.2 },
+  { "SmoothingIterations", 1 },
+  { "CounterDecay", 0.95 },
+  { "CounterHalfLife", 6 },
+  { "NoiseTolerance", 1 },
+  { "NoiseWindow", 1000 },
+  { "OutlierLimit", 5 },
+  { "OutlierLimitVertices", 1000 },
+  { "ChangeWindow", 1000 },
+  { "GainLimit", 10 },
+  { "ComputeFeatureStrength", 0 },
+  { "FeatureMemory", 0.995 },
+  { "FeatureSamples", 400 },
+  { "SamplesPerAddition", 50 },
+  { "EarlyPatience", 4 },
+  { "EarlyVertices", 1000 },
+  { "AdditionsPerRemoval", 10 },
+  { "RemovalPatience", 10 },
+  { "RemovalLimit", 0.5 },
+  { "EdgeFlips", 1 },
+  { "AdditionOperation", 0 }, // vertex split
+  { "RemovalOperation", 0 },  // half-edge collapse
+  { "TopologyLearning", 0 },
+  { "TopologyRules", 0 }, // mended
+  { "TopologyPatience", 10 },
+  { "TriangleRemovalFactor", 10 },
+  { "BoundaryMergingFactor", 2.576 },
+  { "Jump", 0 }, // constant
+  { "JumpFraction", 1. / 3. },
+  { "ConstantWeight", 1 },
+  { "NormalWeight", 1 },
+  { "AreaWeight", 1 },
+  { "VolumeWeight", 1 },
+  { "ListVertices", 1000 },
+  { "FitRounds", 3 },
+  { "FitSmoothness", 0 },
+  { "FitSamples", 10 },
+  { "BatchSize", 65536 },
+  { "NumberOfVertices", 20000 },
+  { "MaximumIterations", 0 },
+  { "TargetSampleDistance", 0 },
+  { "TargetCloudDistance", 0 },
+  { "TargetNormalChange", 0 },
+  { "StallPatience", 200 },
+};
+
+/// A copy of `values` with others for some names.
+Values with(Values values, const Values& others)
+{
+  for (const auto& [name, value] : others)
+  {
+    values.at(name) = value;
+  }
+  return values;
+}
+
+struct Combination
+{
+  Variant variant;
+  Order order;
+  double thesisSmoothingRate;
+  double thesisSmoothingIterations;
+};
+
+constexpr Combination Combinations[] = {
+  { Variant::Basic, Order::Exact, 0.05, 5 },
+  { Variant::Basic, Order::List, 0.2, 1 },
+  { Variant::NoiseFiltering, Order::Exact, 0.05, 1 },
+  { Variant::NoiseFiltering, Order::List, 0.2, 1 },
+  { Variant::NormalBased, Order::Exact, 0.05, 5 },
+  { Variant::NormalBased, Order::List, 0.2, 1 },
+};
+}
+
+// Parameters are by default what their documentation says.
+TEST(Parameters, Defaults)
+{
+  EXPECT_EQ(valuesOf(Parameters()), Defaults);
+  EXPECT_EQ(Parameters().timeLimit, 0.);
+}
+
 // The thesis preset is what the thesis lists, and has nothing that it lacks.
 TEST(Parameters, ThesisPreset)
 {
-  const Parameters noise = Parameters::of(Preset::Thesis, Variant::NoiseFiltering);
-  EXPECT_EQ(noise.variant, Variant::NoiseFiltering);
-  EXPECT_EQ(noise.winnerRate, 0.1);
-  EXPECT_EQ(noise.noiseTolerance, 1.);
-  EXPECT_EQ(noise.counterHalfLife, 6.);
-  EXPECT_EQ(noise.smoothingRate, 0.05);
-  EXPECT_EQ(noise.smoothingIterations, 1);
-  EXPECT_EQ(noise.samplesPerAddition, 50);
-  EXPECT_EQ(noise.additionsPerRemoval, 125);
-  EXPECT_EQ(noise.removalPatience, 10.);
-  EXPECT_EQ(noise.noiseWindow, 1000);
-  EXPECT_EQ(noise.outlierLimit, 0.);
-  EXPECT_EQ(noise.earlyPatience, 1.);
-  EXPECT_EQ(noise.batchSize, 1);
-  EXPECT_FALSE(noise.edgeFlips);
-  EXPECT_EQ(noise.curvatureDensity, 0.);
-
-  const Parameters basic = Parameters::of(Preset::Thesis, Variant::Basic);
-  EXPECT_EQ(basic.variant, Variant::Basic);
-  EXPECT_EQ(basic.counterDecay, 0.95);
-  EXPECT_EQ(basic.smoothingRate, 0.05);
-  EXPECT_EQ(basic.smoothingIterations, 5);
-
-  const Parameters list = Parameters::of(Preset::Thesis, Variant::NoiseFiltering, Order::List);
-  EXPECT_EQ(list.order, Order::List);
-  EXPECT_EQ(list.smoothingRate, 0.2);
-  EXPECT_EQ(list.listVertices, 1000);
-  EXPECT_DOUBLE_EQ(list.jumpFraction, 1. / 3.);
-  const Parameters basicList = Parameters::of(Preset::Thesis, Variant::Basic, Order::List);
-  EXPECT_EQ(basicList.smoothingRate, 0.2);
-  EXPECT_EQ(basicList.smoothingIterations, 1);
+  for (const auto& [variant, order, smoothingRate, smoothingIterations] : Combinations)
+  {
+    EXPECT_EQ(valuesOf(Parameters::of(Preset::Thesis, variant, order)),
+      with(Defaults,
+        {
+          { "Variant", static_cast<double>(variant) },
+          { "Order", static_cast<double>(order) },
+          { "Start", 1 }, // tetrahedron
+          { "CurvatureDensity", 0 },
+          { "SmoothingRate", smoothingRate },
+          { "SmoothingIterations", smoothingIterations },
+          { "OutlierLimit", 0 },
+          { "EarlyPatience", 1 },
+          { "AdditionsPerRemoval", 125 },
+          { "RemovalLimit", 0 },
+          { "EdgeFlips", 0 },
+          { "TopologyRules", 1 }, // thesis
+          { "FitRounds", 0 },
+          { "BatchSize", 1 },
+        }));
+  }
 }
 
-// The default preset is the parameters as they are.
+// The default preset is the defaults, whatever the variant and the order.
 TEST(Parameters, DefaultPreset)
 {
-  const Parameters parameters = Parameters::of(Preset::Default, Variant::Basic);
-  EXPECT_EQ(parameters.variant, Variant::Basic);
-  EXPECT_EQ(parameters.smoothingRate, Parameters().smoothingRate);
-  EXPECT_EQ(parameters.batchSize, Parameters().batchSize);
-  EXPECT_TRUE(parameters.edgeFlips);
+  for (const Combination& combination : Combinations)
+  {
+    EXPECT_EQ(valuesOf(Parameters::of(Preset::Default, combination.variant, combination.order)),
+      with(Defaults,
+        { { "Variant", static_cast<double>(combination.variant) },
+          { "Order", static_cast<double>(combination.order) } }));
+  }
 }
 
 // Growth needs C_ec > exp(-C_ec) C_vs, (6.18): a warning where that does not hold, and only there.

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Promise: a value out of its range is clamped, with one warning that names the property, the value
-// and the range; NaN changes nothing; a value in its range is taken without a word.
+// and the range; NaN changes nothing; a value in its range is taken without a word. So it is with every
+// property that the headers declare with a range, in every class that has it.
 #include "FilterTesting.h"
 
 #include "vtkNeuralMesh.h"
 #include "vtkNeuralMeshComparison.h"
+#include "vtkNeuralMeshEnsemble.h"
+#include "vtkNeuralMeshFileSampler.h"
+#include "vtkNeuralMeshScan.h"
+#include "vtkNeuralMeshStream.h"
+#include "vtkPNeuralMesh.h"
+#include "vtkPNeuralMeshEnsemble.h"
 
 #include <limits>
+#include <map>
 #include <sstream>
-#include <type_traits>
 
 namespace
 {
@@ -76,46 +83,32 @@ int CheckPreset()
 
 int TestNeuralMeshClamping(int, char*[])
 {
-  vtkNew<vtkNeuralMesh> mesh;
-  vtkNew<vtkNeuralMeshComparison> comparison;
-#define CHECK_PROPERTY(filter, name)                                                               \
+  std::map<std::string, int> counts;
+#define CONCRETE_CLASS(FilterT) counts[#FilterT] = 0;
+#define CLAMPED_PROPERTY(FilterT, DeclaringT, name)                                                \
   {                                                                                                \
-    using FilterT = std::remove_pointer_t<decltype(filter.Get())>;                                 \
+    std::cout << #FilterT "::";                                                                    \
+    vtkNew<FilterT> filter;                                                                        \
     const Property<FilterT, decltype(filter->Get##name())> property{ #name, &FilterT::Set##name,   \
       &FilterT::Get##name, filter->Get##name##MinValue(), filter->Get##name##MaxValue() };         \
     CHECK(CheckProperty(property) == EXIT_SUCCESS);                                                \
+    ++counts[#FilterT];                                                                            \
   }
-  CHECK_PROPERTY(mesh, NumberOfVertices)
-  CHECK_PROPERTY(mesh, Seed)
-  CHECK_PROPERTY(mesh, Variant)
-  CHECK_PROPERTY(mesh, Order)
-  CHECK_PROPERTY(mesh, WinnerRate)
-  CHECK_PROPERTY(mesh, SmoothingRate)
-  CHECK_PROPERTY(mesh, SmoothingIterations)
-  CHECK_PROPERTY(mesh, CounterDecay)
-  CHECK_PROPERTY(mesh, CounterHalfLife)
-  CHECK_PROPERTY(mesh, NoiseTolerance)
-  CHECK_PROPERTY(mesh, NoiseWindow)
-  CHECK_PROPERTY(mesh, OutlierLimit)
-  CHECK_PROPERTY(mesh, OutlierLimitVertices)
-  CHECK_PROPERTY(mesh, SamplesPerAddition)
-  CHECK_PROPERTY(mesh, EarlyPatience)
-  CHECK_PROPERTY(mesh, EarlyVertices)
-  CHECK_PROPERTY(mesh, AdditionsPerRemoval)
-  CHECK_PROPERTY(mesh, RemovalPatience)
-  CHECK_PROPERTY(mesh, RemovalLimit)
-  CHECK_PROPERTY(mesh, BatchSize)
-  CHECK_PROPERTY(mesh, JumpFraction)
-  CHECK_PROPERTY(mesh, ListVertices)
-  CHECK_PROPERTY(mesh, MaximumIterations)
-  CHECK_PROPERTY(mesh, TargetSampleDistance)
-  CHECK_PROPERTY(mesh, TargetCloudDistance)
-  CHECK_PROPERTY(mesh, TimeLimit)
-  CHECK_PROPERTY(mesh, StallPatience)
-  CHECK_PROPERTY(mesh, NumberOfThreads)
-  CHECK_PROPERTY(mesh, OutputPointsPrecision)
-  CHECK_PROPERTY(comparison, NumberOfSamples)
-  CHECK_PROPERTY(comparison, Seed)
-#undef CHECK_PROPERTY
+#define SWITCH_PROPERTY(FilterT, DeclaringT, name)
+#define PRINTED_PROPERTY(FilterT, name)
+#include "FilterProperties.inc"
+#undef CONCRETE_CLASS
+#undef CLAMPED_PROPERTY
+#undef SWITCH_PROPERTY
+#undef PRINTED_PROPERTY
+  // The list of them is not empty by mistake.
+  CHECK(counts.size() >= 8);
+  for (const auto& [name, count] : counts)
+  {
+    std::cout << name << ": " << count << std::endl;
+    CHECK(count >= 2);
+  }
+  CHECK(counts["vtkPNeuralMeshEnsemble"] > counts["vtkPNeuralMesh"]);
+  CHECK(counts["vtkPNeuralMesh"] == counts["vtkNeuralMesh"]);
   return CheckPreset();
 }

@@ -318,7 +318,8 @@ class Panel(unittest.TestCase):
         self.assertLessEqual({(key, "TopologyLearning") for key in only_with_topology}, found)
         self.assertNotIn("NumberOfVertices", hidden)
 
-    # Promise: the filters are in the menu, and the outputs have names and views.
+    # Promise: the filters are in the menu, and the outputs have names and views. The learning curve has
+    # none until it is asked for, and then a representation of its own; its icon tells of the chart.
     def test_hints(self):
         for name in CLASSES:
             hints = prototype(name).GetHints()
@@ -329,8 +330,15 @@ class Panel(unittest.TestCase):
             for name in CLASSES
             for view in elements_with_name(prototype(name).GetHints(), "View")
         }
-        self.assertEqual(views["NeuralMesh", "1"], "XYChartView")
-        self.assertEqual(views["NeuralMeshEnsemble", "1"], "XYChartView")
+        for name in ("NeuralMesh", "NeuralMeshEnsemble"):
+            self.assertEqual(views[name, "1"], "None")
+            (chart,) = elements_with_name(prototype(name).GetHints(), "Representation")
+            self.assertEqual((chart.GetAttribute("view"), chart.GetAttribute("port")),
+                             ("XYChartView", "1"))
+            self.assertEqual(chart.GetAttribute("type"), "NeuralMeshLearningCurve")
+            (icon,) = elements_with_name(prototype(name).GetHints(), "PipelineIcon")
+            self.assertEqual((icon.GetAttribute("name"), icon.GetAttribute("port")),
+                             ("XYChartView", "1"))
         self.assertEqual(views["NeuralMeshComparison", "2"], "SpreadSheetView")
         for name, cls in CLASSES.items():
             proxy = servermanager.ProxyManager().NewProxy(group_of(name), name)

@@ -24,10 +24,15 @@ VERTICES = (
     f"{PANEL}/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame"
     "/ProxyPanel/NumberOfVertices/LineEdit0"
 )
-VIEW = (
-    "centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget/MultiViewWidget1"
-    "/Container/Frame.1/CentralWidgetFrame/Viewport"
+FRAMES = (
+    "centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget/MultiViewWidget1/Container"
 )
+LINE_CHART = (
+    f"{FRAMES}/Frame.2/CentralWidgetFrame/EmptyView/scrollArea/qt_scrollarea_viewport"
+    "/widgetFoo/ConvertActionsFrame/XYChartView"
+)
+PIPELINE = "pipelineBrowserDock/pipelineBrowser"
+LEARNING_CURVE = "/0:0/0:0/0:0/1:1"
 RESOLUTION = (
     "SaveScreenshotDialog/scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/ImageResolution"
 )
@@ -35,6 +40,12 @@ CONSOLE = "pythonShellDock/pythonShell/consoleWidget"
 
 # What is typed into the Python Shell, as a trace is.
 START_TRACE = "from paraview import smtrace; smtrace.start_trace()"
+# A line for each frame of the layout: the view in it, and what is shown there.
+WRITE_VIEWS = (
+    "from paraview import simple; print(*["
+    "' '.join([view.GetXMLName()] + [r.GetXMLName() for r in view.Representations if r.Visibility])"
+    " for view in simple.GetViewsInLayout()], sep='\\n', file=open({path!r}, 'w'), flush=True)"
+)
 STOP_TRACE = "print(smtrace.stop_trace(), file=open({path!r}, 'w'), flush=True)"
 
 
@@ -60,11 +71,14 @@ def run_python(text):
     return [(CONSOLE, "executeCommand", text)]
 
 
-def make_active(view):
-    return [
-        (view, "mousePress", "(0.5,0.5,1,1,0)"),
-        (view, "mouseRelease", "(0.5,0.5,1,0,0)"),
-    ]
+def open_line_chart():
+    """Beside the mesh, and empty at first."""
+    return click(f"{FRAMES}/Frame.0/TitleBar/SplitHorizontal") + click(LINE_CHART)
+
+
+def click_eye(output):
+    return [(PIPELINE, "mousePress", f"1,1,0,0,0,{output}"),
+            (PIPELINE, "mouseRelease", f"1,0,0,0,0,{output}")]  # fmt: skip
 
 
 def look_along_y():
@@ -93,13 +107,15 @@ def session(folder):
         *choose(MENU, "NeuralMesh"),
         *enter(VERTICES, "350"),
         *apply,
-        # The learning curve has opened beside it.
-        *make_active(VIEW),
+        *run_python(WRITE_VIEWS.format(path=str(folder / "applied.txt"))),
         *enter("representationToolbar/displayRepresentation/comboBox", "Surface With Edges"),
         *save_screenshot(str(folder / "other.png")),
         *enter(VERTICES, "300"),
         *apply,
         *save_screenshot(str(folder / "mesh.png")),
+        *open_line_chart(),
+        *click_eye(LEARNING_CURVE),
+        *run_python(WRITE_VIEWS.format(path=str(folder / "chosen.txt"))),
         *run_python(STOP_TRACE.format(path=str(folder / "trace.py"))),
     ]
 
@@ -182,6 +198,18 @@ class Window(unittest.TestCase):
         for name in ("other.png", "scan.png"):
             with self.subTest(name):
                 self.assertGreater(difference(self.folder / name, BASELINE), 1.5 * TOLERANCE)
+
+    # Promise: when the filter is applied, its mesh has the view of the scan, and no other view opens.
+    def test_views_when_applied(self):
+        views = (self.folder / "applied.txt").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(views, ["RenderView GeometryRepresentation"])
+
+    # Promise: the learning curve is there by choice: its eye shows it in a line chart that has been
+    # opened, over the number of vertices.
+    def test_learning_curve_by_choice(self):
+        views = (self.folder / "chosen.txt").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(sorted(views), ["RenderView GeometryRepresentation",
+                                         "XYChartView NeuralMeshLearningCurve"])  # fmt: skip
 
     # Promise: a trace that was recorded meanwhile does it all again, with each number of vertices, and
     # opens the learning curve as the window has.

@@ -36,6 +36,9 @@ BAD = {
     '{"scans": ["a.xyz"], "matrix": [1]}': ("matrix: must be an object",),
     '{"scans": ["a.xyz"], "matrix": {"vertice": 100}}': ('there is no "vertice"', "vertices"),
     '{"scans": ["a.xyz"], "matrix": {"progress": 1}}': ('matrix: there is no "progress"',),
+    '{"scans": ["a.xyz"], "matrix": {"xyzzy": 1}}': (
+        'matrix: there is no "xyzzy"; help(neuralmesh.reconstruct) lists them all\n',
+    ),
     '{"scans": ["a.xyz"], "matrix": {"vertices": []}}': ("matrix.vertices: the list is empty",),
     '{"scans": ["a.xyz"], "matrix": {"vertices": [100, 3]}}': (
         "matrix.vertices[1]: vertices must be an integer from 4 to 1000000000, not 3",

@@ -113,13 +113,29 @@ class Errors(unittest.TestCase):
                     reconstruct(**parameters)
                 self.assertEqual(str(caught.exception), message)
 
-    # Promise: an unknown name is a TypeError, as in any call, and tells the names that are near.
+    # Promise: an unknown name is a TypeError, as in any call; a short one, which tells the names that
+    # are near and where all of them are told.
     def test_unknown_names(self):
-        for wrong, right in {"winer_rate": "winner_rate", "edge_flip": "edge_flips"}.items():
-            with self.assertRaisesRegex(TypeError, f"'{wrong}'.*{right}"):
-                reconstruct(**{wrong: 1})
-        with self.assertRaisesRegex(TypeError, "'xyzzy'.*batch_size.*winner_rate"):
-            reconstruct(xyzzy=1)
+        near = {
+            "winer_rate": "did you mean winner_rate? ",
+            "WinnerRate": "did you mean winner_rate? ",
+            "edge_flip": "did you mean edge_flips? ",
+            "ensmble": "did you mean ensemble? ",
+            "xyzzy": "",
+        }
+        for wrong, hint in near.items():
+            with self.subTest(wrong):
+                with self.assertRaises(TypeError) as caught:
+                    reconstruct(**{wrong: 1})
+                self.assertEqual(
+                    str(caught.exception),
+                    f"reconstruct() got an unexpected keyword argument '{wrong}'; "
+                    f"{hint}help(neuralmesh.reconstruct) lists them all",
+                )
+        with self.assertRaisesRegex(TypeError, "'vertice'; did you mean vertices or .*[?] help"):
+            reconstruct(vertice=1)
+        with self.assertRaisesRegex(TypeError, r"'xyzzy'; help\(neuralmesh.stream\) lists them all$"):
+            neuralmesh.stream(xyzzy=1)
         # Properties of VTK's own classes are none of ours.
         with self.assertRaises(TypeError):
             reconstruct(abort_execute=1)

@@ -5,10 +5,11 @@ from __future__ import annotations
 
 import difflib
 import functools
+import inspect
 import numbers
 import re
 from dataclasses import dataclass
-from typing import Any, Mapping
+from typing import Any, Callable, Mapping
 
 import numpy as np
 
@@ -110,19 +111,22 @@ def assign(vtk_object: Any, name: str, value: Any, shown_name: str = "") -> None
     parameter.assign(vtk_object, value)
 
 
-def refuse_unknown(function: str, names: Any, known: Any) -> None:
+def refuse_unknown(function: Callable[..., Any], names: Any, known: Any) -> None:
     """Raise TypeError for the first of the names that is not known, with those that are near."""
     for name in names:
         if name not in known:
+            near = hint(name, [*inspect.signature(function).parameters, *known])
+            advice = f"{near} help(neuralmesh.{function.__name__}) lists them all".lstrip()
             raise TypeError(
-                f"{function}() got an unexpected keyword argument '{name}'; "
-                f"is it one of these: {', '.join(near_names(name, known))}?"
+                f"{function.__name__}() got an unexpected keyword argument '{name}'; {advice}"
             )
 
 
-def near_names(name: str, known: Any) -> list[str]:
-    """Those of the known names that are like this one, or all of them."""
-    return difflib.get_close_matches(name, known) or sorted(known)
+def hint(name: str, known: Any) -> str:
+    """A question for those of the known names that are like this one; empty if there are none."""
+    by_lower_case = {other.lower(): other for other in known}
+    near = difflib.get_close_matches(name.lower(), by_lower_case)
+    return f"did you mean {' or '.join(by_lower_case[other] for other in near)}?" if near else ""
 
 
 def table(parameters: Mapping[str, Parameter]) -> str:

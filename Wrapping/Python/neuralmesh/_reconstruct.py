@@ -153,7 +153,7 @@ def make_filter(
 ) -> vtkNeuralMesh:
     """The filter that reconstruct() executes, without input; the same errors."""
     known = PARAMETERS if ensemble is None else ENSEMBLE_PARAMETERS
-    refuse_unknown("reconstruct", parameters, known)
+    refuse_unknown(reconstruct, parameters, known)
     mesh = vtkNeuralMesh() if ensemble is None else vtkNeuralMeshEnsemble()
     if ensemble is not None:
         assign(mesh, "number_of_members", ensemble, shown_name="ensemble")

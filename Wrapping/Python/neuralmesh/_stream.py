@@ -146,7 +146,7 @@ def stream(
         ...     stream.learn()
         >>> mesh = stream.mesh()
     """
-    refuse_unknown("stream", parameters, PARAMETERS)
+    refuse_unknown(stream, parameters, PARAMETERS)
     algorithm = vtkNeuralMeshStream()
     assign(algorithm, "number_of_vertices", vertices, shown_name="vertices")
     assign(algorithm, "seed", seed)

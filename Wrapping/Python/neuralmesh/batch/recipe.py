@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from .._execution import check_parameters
-from .._parameters import near_names
+from .._parameters import hint
 from .._reconstruct import ENSEMBLE_PARAMETERS, PARAMETERS, make_filter, require_one_start
 from .meshes import WRITERS
 
@@ -115,7 +115,7 @@ def _scans(patterns: Any, folder: Path) -> list[Path]:
 
 def _matrix(content: Any) -> dict[str, list]:
     """The values of each parameter."""
-    _require_object(content, "matrix", _KNOWN)
+    _require_object(content, "matrix", _KNOWN, "help(neuralmesh.reconstruct) lists them all")
     matrix = {}
     for name, value in content.items():
         values = value if isinstance(value, list) else [value]
@@ -211,13 +211,14 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def _require_object(content: Any, place: str, known: Any) -> None:
+def _require_object(content: Any, place: str, known: Any, otherwise: str = "") -> None:
+    """otherwise is what to say, in place of all the known names, where none is like a wrong one."""
     if not isinstance(content, dict):
         raise RecipeError(f"{place}: must be an object, not {_shown(content)}")
     for name in content:
         if name not in known:
-            near = ", ".join(near_names(name, known))
-            raise RecipeError(f"{place}: there is no {_shown(name)}; is it one of these: {near}?")
+            advice = hint(name, known) or otherwise or f"there are {', '.join(known)}"
+            raise RecipeError(f"{place}: there is no {_shown(name)}; {advice}")
 
 
 def _without_twins(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

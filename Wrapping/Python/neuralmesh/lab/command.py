@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 from .._command import add_processes_option, run_command
-from .._parameters import near_names
+from .._parameters import hint
 from ..batch.whole_file import alone_in, write_text
 from .catalogue import EXPERIMENTS
 from .experiment import Experiment, Run, Scale
@@ -77,8 +77,8 @@ def _named(names: list[str], parser: argparse.ArgumentParser) -> list[Experiment
     """The experiments, each once, in the order of the thesis."""
     for name in names:
         if name != "all" and name not in EXPERIMENTS:
-            near = ", ".join(near_names(name, EXPERIMENTS))
-            parser.error(f"there is no experiment {name}; is it one of these: {near}, all?")
+            advice = hint(name, EXPERIMENTS) or f"there are {', '.join(EXPERIMENTS)}, all"
+            parser.error(f"there is no experiment {name}; {advice}")
     return [e for name, e in EXPERIMENTS.items() if name in names or "all" in names]
 
 

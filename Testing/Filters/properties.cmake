@@ -1,0 +1,61 @@
+# neuralmesh_write_properties(FOLDER FILE): writes what the public headers in FOLDER declare into FILE,
+# to be included by tests, which define what they need of
+#   CONCRETE_CLASS(Class)
+#   CLAMPED_PROPERTY(Class, Declaring, Name)   a value with a range
+#   SWITCH_PROPERTY(Class, Declaring, Name)    on or off
+#   PRINTED_PROPERTY(Class, Name)              whatever PrintSelf() has to print
+# A line for each property of each class, inherited ones included; Declaring is the class with the
+# declaration. So a new property is in the tests without further ado.
+function (neuralmesh_write_properties folder file)
+  file(GLOB headers CONFIGURE_DEPENDS "${folder}/vtk*.h")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${headers})
+  set(classes "")
+  foreach (header IN LISTS headers)
+    file(READ "${header}" text)
+    if (NOT text MATCHES "class [A-Z]+_EXPORT ([A-Za-z0-9]+) : public ([A-Za-z0-9]+)")
+      continue()
+    endif ()
+    set(class ${CMAKE_MATCH_1})
+    set(parent_of_${class} ${CMAKE_MATCH_2})
+    list(APPEND classes ${class})
+    string(FIND "${text}" "vtkAbstractTypeMacro" abstract_of_${class})
+    neuralmesh_names(clamped_of_${class} "${text}" "SetClampMacro\\([ \n]*")
+    neuralmesh_names(switches_of_${class} "${text}" "vtkBooleanMacro\\([ \n]*")
+    neuralmesh_names(printed_of_${class} "${text}"
+      "(Set|Get)[A-Za-z0-9]*Macro\\([ \n]*|const[ \n]*{[ \n]*return this->")
+  endforeach ()
+
+  set(lines "")
+  foreach (class IN LISTS classes)
+    if (NOT abstract_of_${class} EQUAL -1)
+      continue()
+    endif ()
+    string(APPEND lines "CONCRETE_CLASS(${class})\n")
+    set(declaring ${class})
+    while (declaring IN_LIST classes)
+      foreach (name IN LISTS clamped_of_${declaring})
+        string(APPEND lines "CLAMPED_PROPERTY(${class}, ${declaring}, ${name})\n")
+      endforeach ()
+      foreach (name IN LISTS switches_of_${declaring})
+        string(APPEND lines "SWITCH_PROPERTY(${class}, ${declaring}, ${name})\n")
+      endforeach ()
+      foreach (name IN LISTS printed_of_${declaring})
+        string(APPEND lines "PRINTED_PROPERTY(${class}, ${name})\n")
+      endforeach ()
+      set(declaring ${parent_of_${declaring}})
+    endwhile ()
+  endforeach ()
+  file(CONFIGURE OUTPUT "${file}" CONTENT "${lines}" @ONLY)
+endfunction ()
+
+# The names that stand behind what matches `beginning` in `text`, each once.
+function (neuralmesh_names result text beginning)
+  string(REGEX MATCHALL "(${beginning})[A-Z][A-Za-z0-9]*" found "${text}")
+  set(names "")
+  foreach (match IN LISTS found)
+    string(REGEX REPLACE ".*[^A-Za-z0-9]" "" name "${match}")
+    list(APPEND names ${name})
+  endforeach ()
+  list(REMOVE_DUPLICATES names)
+  set(${result} ${names} PARENT_SCOPE)
+endfunction ()
