@@ -45,11 +45,13 @@ copy_sources()
     tar --extract --directory "$1/neuralmesh"
 }
 
-# in_debian FOLDER COMMAND...: runs it there, with plain VTK as NEURALMESH_VTK.
+# in_debian FOLDER COMMAND...: runs it there, with plain VTK as NEURALMESH_VTK, and the tests that are
+# wanted here.
 in_debian()
 {
   local debian=$1
   shift
-  env -i CI=true NEURALMESH_VTK=plain PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
-    TMPDIR=/tmp DEBIAN_FRONTEND=noninteractive chroot "$debian" "$@"
+  env -i CI=true NEURALMESH_VTK=plain \
+    NEURALMESH_TEST_LABELS="${NEURALMESH_TEST_LABELS:-}" \
+    PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 TMPDIR=/tmp DEBIAN_FRONTEND=noninteractive chroot "$debian" "$@"
 }

@@ -95,7 +95,10 @@ step_packages()
 }
 
 # Those of the night, too.
-step_vtk91() { bash Utilities/test_with_vtk91.sh "$debian" -L 'fast|full|nightly'; }
+step_vtk91()
+{
+  NEURALMESH_TEST_LABELS='fast|full|nightly' bash Utilities/test_with_vtk91.sh "$debian"
+}
 
 if [ "${1:-}" = --list ]; then
   for step in "${steps[@]}"; do
