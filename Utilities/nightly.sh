@@ -12,15 +12,16 @@ export CI=true
 
 # For fuzzing: seconds for each target.
 fuzzing_seconds=${NEURALMESH_FUZZING_SECONDS:-600}
-# For all parameters at once: runs, and their first seed is another one each night.
-random_runs=${NEURALMESH_RANDOM_RUNS:-20000}
+# For all parameters at once: runs, and other ones each night.
+random_runs=${NEURALMESH_RANDOM_RUNS:-5000}
+random_first=${NEURALMESH_RANDOM_FIRST:-$(($(date +%s) / 86400 * 1000000))}
 debian=$PWD/build-vtk91
 
 steps=(style tests random sweep address thread coverage fuzzing laboratory packages vtk91)
 declare -A what=(
   [style]="clang-format, cppcheck, and clang-tidy of every source"
   [tests]="the tests that have the label nightly"
-  [random]="$random_runs runs with all parameters by chance"
+  [random]="$random_runs runs of each kind, all parameters by chance, from number $random_first on"
   [sweep]="every method, order, jump and topology on real scans"
   [address]="all tests with the address and undefined-behaviour sanitizers"
   [thread]="all tests of core and filters with the thread sanitizer"
@@ -48,7 +49,7 @@ step_tests()
 step_random()
 {
   build_for_tests
-  NEURALMESH_RANDOM_RUNS=$random_runs ctest --test-dir build -R '^Core\.RandomRuns\.' \
+  NEURALMESH_RANDOM_RUNS=$random_runs NEURALMESH_RANDOM_FIRST=$random_first ctest --test-dir build -R '^Core\.RandomRuns\.' \
     --output-on-failure --no-tests=error
 }
 
@@ -119,7 +120,7 @@ for step in "${steps[@]}"; do
   result=passed
   # In a shell of its own: a command that fails ends the step, and -e holds within it.
   set +e
-  { time bash -euo pipefail -c "$(declare -p fuzzing_seconds random_runs debian build_packages \
+  { time bash -euo pipefail -c "$(declare -p fuzzing_seconds random_runs random_first debian build_packages \
     test_packages); $(declare -f); step_$step" > "nightly/$step.log" 2>&1; } 2> nightly/time.txt
   ended=$?
   set -e
