@@ -16,11 +16,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
+#include <set>
+#include <span>
 #include <sstream>
 #include <string>
 
