@@ -136,12 +136,7 @@ void Finish::collapseDefects()
       }
     }
   }
-  std::vector<VertexIndex> origins;
-  for (const VertexIndex v : this->mesh_.dropErased())
-  {
-    origins.push_back(this->origins_[v]);
-  }
-  this->origins_ = std::move(origins);
+  this->dropErased();
   this->refineTo(count, [](double) { return true; });
 }
 
@@ -167,10 +162,21 @@ bool Finish::openGaps(const SurfaceFit& surfaceFit)
     return false;
   }
   this->report_.gapTriangles = gaps.triangles;
-  const std::size_t learnt = this->origins_.size();
-  this->origins_ = this->mesh_.dropErased();
-  this->refineTo(learnt, [](double) { return true; });
+  // With a single round the mesh is refined by now, and has more vertices than were learnt.
+  const std::size_t count = this->origins_.size();
+  this->dropErased();
+  this->refineTo(count, [](double) { return true; });
   return true;
+}
+
+void Finish::dropErased()
+{
+  std::vector<VertexIndex> origins;
+  for (const VertexIndex v : this->mesh_.dropErased())
+  {
+    origins.push_back(this->origins_[v]);
+  }
+  this->origins_ = std::move(origins);
 }
 
 bool Finish::refineTo(std::size_t count, const Progress& progress)

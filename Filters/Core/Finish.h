@@ -48,6 +48,8 @@ private:
   bool openGaps(const SurfaceFit& surfaceFit);
   void repair(const Progress& progress);
   void collapseDefects();
+  /// Closes the gaps in the numbers of the vertices, and in the origins with them.
+  void dropErased();
   bool refineTo(std::size_t count, const Progress& progress);
 
   const PointCloud& cloud_;

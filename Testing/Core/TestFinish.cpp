@@ -6,13 +6,17 @@
 #include "MeshBuilder.h"
 #include "MeshTools.h"
 #include "OpenShapes.h"
+#include "Reconstruction.h"
 #include "SphereRuns.h"
 #include "SurfaceReport.h"
 #include "TrueSurfaces.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <set>
+#include <utility>
 
 namespace neuralmesh::testing
 {
@@ -141,6 +145,70 @@ TEST(Finish, OriginsAreNear)
   {
     const Vector4 origin = before.position(finish.origins()[v]);
     EXPECT_LT((cloud.toInput(mesh.position(v)) - cloud.toInput(origin)).norm(), 0.4);
+  }
+}
+
+// So it is, too, where the only round of the fit is the first and the last one: then the mesh is
+// refined before its gaps are opened.
+TEST(Finish, OriginsAreLearntVerticesAfterASingleRound)
+{
+  const PointCloud cloud = noisySphere(0.002, 0., true);
+  Mesh mesh = learnt(cloud);
+  const Mesh before = mesh;
+  Parameters parameters;
+  parameters.fitRounds = 1;
+  Finish finish(cloud, mesh, parameters, BridgeWidth, 2 * Vertices);
+  ASSERT_TRUE(finish.run(goOn));
+  ASSERT_GT(finish.report().gapTriangles, 0u);
+  EXPECT_EQ(mesh.vertexCount(), 2 * Vertices);
+  EXPECT_EQ(defectOf(mesh), "");
+  expectOriginsInRange(finish, mesh);
+  // Across the gap the learnt mesh has few vertices, from which many are split.
+  std::size_t far = 0;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    const VertexIndex origin = std::min<VertexIndex>(finish.origins()[v], Vertices - 1);
+    far += (cloud.toInput(mesh.position(v)) - cloud.toInput(before.position(origin))).norm() > 0.4;
+  }
+  EXPECT_LT(far, Vertices / 20);
+}
+
+// With more vertices than can be learnt, and a gap in the data, each vertex of a run has the activity
+// and the feature strength of a vertex that was learnt, though the fit has a single round.
+TEST(Finish, ActivitiesAreThoseOfLearntVertices)
+{
+  CloudOptions options;
+  options.count = 4000;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
+  std::erase_if(points, [](const Eigen::Vector3d& point) { return point.z() > 0.97; });
+  const PointCloud cloud(points);
+  for (const bool computesFeatureStrength : { false, true })
+  {
+    Parameters parameters;
+    parameters.computeFeatureStrength = computesFeatureStrength;
+    parameters.numberOfVertices = 4000;
+    parameters.fitRounds = 1;
+    Parameters ofLearning = learnable(parameters, cloud);
+    ofLearning.fitRounds = 0;
+    const Reconstruction learnt = reconstruct(cloud, ofLearning, goOn);
+    const Reconstruction run = reconstruct(cloud, parameters, goOn);
+    ASSERT_LT(learnt.activities.size(), parameters.numberOfVertices);
+    ASSERT_TRUE(run.finish);
+    ASSERT_GT(run.finish->gapTriangles, 0u);
+    EXPECT_EQ(run.mesh.points.size(), parameters.numberOfVertices);
+    ASSERT_EQ(run.activities.size(), run.mesh.points.size());
+    ASSERT_EQ(run.featureStrengths.size(), computesFeatureStrength ? run.activities.size() : 0u);
+    const auto valuesOf = [&](const Reconstruction& of, std::size_t v)
+    { return std::pair(of.activities[v], computesFeatureStrength ? of.featureStrengths[v] : 0.); };
+    std::set<std::pair<double, double>> known;
+    for (std::size_t v = 0; v < learnt.activities.size(); ++v)
+    {
+      known.insert(valuesOf(learnt, v));
+    }
+    for (std::size_t v = 0; v < run.activities.size(); ++v)
+    {
+      ASSERT_TRUE(known.contains(valuesOf(run, v))) << v;
+    }
   }
 }
 

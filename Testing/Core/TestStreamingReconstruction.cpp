@@ -13,6 +13,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <set>
 
 namespace neuralmesh::testing
 {
@@ -157,6 +158,32 @@ TEST(StreamingReconstruction, VerticesWanderToDenserParts)
   EXPECT_EQ(stream.beginnings(), 1u);
   EXPECT_EQ(stream.vertexCount(), 3000u);
   EXPECT_GT(countDenser(result.mesh), 2 * before);
+}
+
+// With more vertices than can be learnt, and a gap in the data, each vertex of the finished mesh has
+// the activity of one that was learnt, though the fit has a single round.
+TEST(StreamingReconstruction, ActivitiesAreThoseOfLearntVertices)
+{
+  CloudOptions options;
+  options.count = 4000;
+  Points points = generateCloud(makeSphere(), options);
+  std::erase_if(points, [](const Eigen::Vector3d& point) { return point.z() > 0.97; });
+  Parameters parameters = wanted(4000);
+  parameters.fitRounds = 1;
+  StreamingReconstruction stream(parameters, 10000);
+  stream.addPoints(points);
+  stream.learn(400000, goOn);
+  const Reconstruction learnt = stream.mesh(false, goOn);
+  const std::set<double> known(learnt.activities.begin(), learnt.activities.end());
+  const Reconstruction finished = stream.mesh(true, goOn);
+  ASSERT_TRUE(finished.finish);
+  ASSERT_GT(finished.finish->gapTriangles, 0u);
+  EXPECT_EQ(finished.mesh.points.size(), parameters.numberOfVertices);
+  ASSERT_EQ(finished.activities.size(), finished.mesh.points.size());
+  for (const double activity : finished.activities)
+  {
+    ASSERT_TRUE(known.contains(activity)) << activity;
+  }
 }
 
 // The same calls give the same bytes, however points are grouped between two calls of learn(), and

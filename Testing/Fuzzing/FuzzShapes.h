@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "AnyParameters.h"
 #include "CloudGenerator.h"
 #include "FuzzInput.h"
 #include "ManifoldCheck.h"
 #include "Mesh.h"
 #include "MeshTools.h"
-#include "Parameters.h"
 #include "Shapes.h"
 #include "TriangleMesh.h"
 
@@ -147,68 +147,5 @@ inline TriangleMesh someTriangles(FuzzInput& input)
 }
 
 /// Values from all over the documented ranges, but for a run that ends soon.
-inline Parameters someParameters(FuzzInput& input)
-{
-  const auto preset = input.flag() ? Preset::Thesis : Preset::Default;
-  const auto variant = Variant(input.below(3));
-  Parameters parameters = Parameters::of(preset, variant, Order(input.below(2)));
-  parameters.seed = input.byte();
-  parameters.start = Start(input.below(2));
-  parameters.boundaries = Boundaries(input.below(2));
-  parameters.topologyLearning = input.flag();
-  parameters.topologyRules = TopologyRules(input.below(2));
-  parameters.jump = Jump(input.below(5));
-  parameters.additionOperation = AdditionOperation(input.below(2));
-  parameters.removalOperation = RemovalOperation(input.below(3));
-  parameters.computeFeatureStrength = input.flag();
-  parameters.edgeFlips = input.flag();
-  parameters.numberOfVertices = 4 + input.below(400);
-  parameters.maximumIterations = 1 + input.below(20000);
-  parameters.listVertices = 4 + int(input.below(200));
-  parameters.fitRounds = int(input.below(4));
-  // Each other value as it is, or from its range.
-  const auto vary = [&](auto& value, double low, double high)
-  {
-    if (input.below(4) == 0)
-    {
-      value = static_cast<std::remove_reference_t<decltype(value)>>(input.number(low, high));
-    }
-  };
-  vary(parameters.curvatureDensity, 0., 1.);
-  vary(parameters.winnerRate, 0., 1.);
-  vary(parameters.smoothingRate, 0., 1.);
-  vary(parameters.smoothingIterations, 0., 100.);
-  vary(parameters.counterDecay, 0.01, 1.);
-  vary(parameters.counterHalfLife, 0.01, 1e6);
-  vary(parameters.noiseTolerance, 0., 1000.);
-  vary(parameters.noiseWindow, 2., 1e6);
-  vary(parameters.outlierLimit, 0., 1e6);
-  vary(parameters.outlierLimitVertices, 4., 1e9);
-  vary(parameters.changeWindow, 2., 1e6);
-  vary(parameters.gainLimit, 0., 1e9);
-  vary(parameters.featureMemory, 0., 1.);
-  vary(parameters.featureSamples, 0., 1e6);
-  vary(parameters.samplesPerAddition, 1., 1e6);
-  vary(parameters.earlyPatience, 0.01, 1000.);
-  vary(parameters.earlyVertices, 0., 1e9);
-  vary(parameters.additionsPerRemoval, 1., 1e6);
-  vary(parameters.removalPatience, 0.01, 1e6);
-  vary(parameters.removalLimit, 0., 1000.);
-  vary(parameters.topologyPatience, 0.01, 1e6);
-  vary(parameters.triangleRemovalFactor, 1., 1e9);
-  vary(parameters.boundaryMergingFactor, 0., 1e9);
-  vary(parameters.jumpFraction, 0., 1.);
-  vary(parameters.constantWeight, 0., 1000.);
-  vary(parameters.normalWeight, 0., 1000.);
-  vary(parameters.areaWeight, 0., 1000.);
-  vary(parameters.volumeWeight, 0., 1000.);
-  vary(parameters.fitSmoothness, 0., 1e6);
-  vary(parameters.fitSamples, 1., 1000.);
-  vary(parameters.batchSize, 1., 1048576.);
-  vary(parameters.targetSampleDistance, 0., 1.);
-  vary(parameters.targetCloudDistance, 0., 1.);
-  vary(parameters.targetNormalChange, 0., 2.);
-  vary(parameters.stallPatience, 1., 1e9);
-  return parameters;
-}
+inline Parameters someParameters(FuzzInput& input) { return anyParameters(input, 4); }
 }
