@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs the tests, one for each core at a time, but for those of the
-# night: those whose label matches NEURALMESH_TEST_LABELS, if that is set. Options go to ctest.
+# Installs what is missing, builds, and runs the tests but for nightly ones, or, where
+# NEURALMESH_TEST_LABELS is set, those whose label matches it. Options go to ctest.
 set -euo pipefail
 cd "$(dirname "$0")"
 source Utilities/build.sh
 
 install_packages "${build_packages[@]}" "${test_packages[@]}"
 build build all -DNEURALMESH_BUILD_TESTING=ON -DNEURALMESH_WARNINGS_AS_ERRORS="${CI:+ON}"
-ctest --test-dir build -j "$(nproc)" -L "${NEURALMESH_TEST_LABELS:-fast|full}" \
+# One more at a time than there are cores: some wait for something else.
+ctest --test-dir build -j $(($(nproc) + 1)) -L "${NEURALMESH_TEST_LABELS:-fast|full}" \
   --output-on-failure --no-tests=error "$@"

@@ -3,12 +3,12 @@
 #
 #   Utilities/check_sanitizers.sh [address|thread] [--all] [CTEST-OPTION...]
 #
-# address: memory and undefined behaviour; the fast tests of the core, of the filters and of damaged
-#   files, and short campaigns of fuzzing.
-# thread: the tests of what has threads.
+# address: memory and undefined behaviour; the fast tests of the filters and of what in the core stands
+#   hostile data or any operation, and a short campaign of fuzzing.
+# thread: the fast tests of what has threads.
 #
-# With --all, which takes an hour: every test of these, nightly ones too; and all of the core's with the
-# thread sanitizer.
+# With --all, which takes an hour: address has every test of the core and the filters, of damaged files
+# and of fuzzing, and thread every test of the core and the filters.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source Utilities/build.sh
@@ -35,28 +35,32 @@ check()
   ctest --preset "$preset" -j "$(nproc)" --no-tests=error "$@"
 }
 
+# A sanitizer has memory of its own, of which this test would learn nothing; and a million operations on
+# one thread take long for nothing with that of threads.
+memory='^Filters\.TestNeuralMeshManyRuns$' million='^Core\.AnyOperation\.Million'
+programs='NeuralMeshCoreMemoryTests NeuralMeshCoreThreadTests NeuralMeshFilterTests
+  NeuralMeshFuzzEngineShortly'
+
 check_address()
 {
-  local tests='^(Core|Filters|Fuzzing)\.|^Applications\.(BadFiles|PointReader|MeshReader)\.'
-  local labels=fast
   if "$all"; then
-    labels='fast|full|nightly'
+    check sanitize "$programs NeuralMeshCoreTests NeuralMeshApplicationTests
+      NeuralMeshFuzzReadersShortly" \
+      -R '^(Core|Filters|Fuzzing)\.|^Applications\.(BadFiles|PointReader|MeshReader)\.' \
+      -E "$memory" "$@"
+  else
+    check sanitize "$programs" -R '^(Core|Filters|Fuzzing.Engine)' -L fast -E "$memory" "$@"
   fi
-  # The sanitizer keeps memory of its own, of which that test would learn nothing.
-  check sanitize 'NeuralMeshCoreTests NeuralMeshCoreThreadTests NeuralMeshFilterTests
-    NeuralMeshApplicationTests NeuralMeshFuzzEngineShortly NeuralMeshFuzzReadersShortly' \
-    -R "$tests" -L "$labels" -E '^Filters\.TestNeuralMeshManyRuns$' "$@"
 }
 
 check_thread()
 {
   if "$all"; then
-    # A million operations on one thread take too long for nothing.
-    check sanitize-threads 'NeuralMeshCoreTests NeuralMeshCoreThreadTests NeuralMeshFilterTests' \
-      -R '^(Core|Filters)\.' -E '^Core\.AnyOperation\.|^Filters\.TestNeuralMeshManyRuns$' "$@"
+    check sanitize-threads 'NeuralMeshCoreTests NeuralMeshCoreMemoryTests NeuralMeshCoreThreadTests
+      NeuralMeshFilterTests' -R '^(Core|Filters)\.' -E "$memory|$million" "$@"
   else
     check sanitize-threads 'NeuralMeshCoreThreadTests NeuralMeshFilterTests' \
-      -R '^(Core|Filters)\.' -L threads "$@"
+      -R '^(Core|Filters)\.' -L fast-threads "$@"
   fi
 }
 

@@ -61,15 +61,15 @@ int CheckSpheres()
   vtkNew<vtkSphereSource> inner, outer;
   for (vtkSphereSource* sphere : { inner.Get(), outer.Get() })
   {
-    sphere->SetThetaResolution(100);
-    sphere->SetPhiResolution(100);
+    sphere->SetThetaResolution(60);
+    sphere->SetPhiResolution(60);
   }
   inner->SetRadius(1.0);
   outer->SetRadius(1.1);
   vtkNew<vtkNeuralMeshComparison> filter;
   filter->SetReferenceConnection(inner->GetOutputPort());
   filter->SetInputConnection(outer->GetOutputPort());
-  filter->SetNumberOfSamples(10000);
+  filter->SetNumberOfSamples(2000);
   filter->Update();
   for (const int direction : { ToResult, ToReference })
   {
@@ -205,8 +205,8 @@ int CheckEquallyNear()
 {
   // From outside, the nearest point of many samples is on an edge or in a corner.
   vtkNew<vtkSphereSource> inner, outer;
-  inner->SetThetaResolution(100);
-  inner->SetPhiResolution(100);
+  inner->SetThetaResolution(50);
+  inner->SetPhiResolution(50);
   outer->SetRadius(0.55);
   std::vector<double> angles;
   for (int run = 0; run < 3; ++run)
