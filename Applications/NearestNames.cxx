@@ -67,6 +67,7 @@ std::vector<std::string> NearestNames(
   near.resize(std::min(near.size(), MostNames));
 
   std::vector<std::string> nearest;
+  nearest.reserve(near.size());
   for (const auto& [distance, name] : near)
   {
     nearest.push_back(name);

@@ -42,8 +42,8 @@ wanted_sources()
   changed_since "$commit" 'Filters/*.cpp' 'Filters/*.cxx' 'Applications/*.cxx'
   while read -r header; do
     # The first one that includes it shows it to clang-tidy.
-    git grep -lE "^#include \"([A-Za-z]+/)?$(basename "$header")\"" -- \
-      'Filters/*.cpp' 'Filters/*.cxx' 'Applications/*.cxx' | head -n 1
+    { git grep -lE "^#include \"([A-Za-z]+/)?$(basename "$header")\"" -- \
+      'Filters/*.cpp' 'Filters/*.cxx' 'Applications/*.cxx' || true; } | sed -n 1p
   done < <(changed_since "$commit" 'Filters/*.h' 'Applications/*.h')
 }
 
