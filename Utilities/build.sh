@@ -14,10 +14,11 @@ package_packages=(dpkg-dev file)
 # For the laboratory: what it draws with, and the models of its experiments.
 laboratory_packages=(python3-matplotlib libcgal-demo glmark2-data)
 test_packages=(libgtest-dev doxygen "${laboratory_packages[@]}" "${screen_packages[@]}"
-  chromium chromium-driver python3-selenium
   "${package_packages[@]}" python3-pip python3-venv man-db fish)
-# For the 3D views of galleries; npm may have come in another way than by this package.
-command -v npm > /dev/null || test_packages+=(npm)
+# For the nightly tests: the 3D views of galleries. npm brings four hundred packages, and may have come in
+# another way than by that of Debian.
+night_packages=(chromium chromium-driver python3-selenium)
+command -v npm > /dev/null || night_packages+=(npm)
 build_packages=(g++ cmake ninja-build "${vtk_packages[@]}" libcli11-dev
   nlohmann-json3-dev python3-numpy)
 

@@ -36,7 +36,7 @@ step_style() { bash Utilities/check_style.sh --all; }
 
 build_for_tests()
 {
-  install_packages "${build_packages[@]}" "${test_packages[@]}"
+  install_packages "${build_packages[@]}" "${test_packages[@]}" "${night_packages[@]}"
   build build all -DNEURALMESH_BUILD_TESTING=ON -DNEURALMESH_WARNINGS_AS_ERRORS=ON
 }
 
@@ -121,7 +121,7 @@ for step in "${steps[@]}"; do
   # In a shell of its own: a command that fails ends the step, and -e holds within it.
   set +e
   { time bash -euo pipefail -c "$(declare -p fuzzing_seconds random_runs random_first debian build_packages \
-    test_packages); $(declare -f); step_$step" > "nightly/$step.log" 2>&1; } 2> nightly/time.txt
+    test_packages night_packages); $(declare -f); step_$step" > "nightly/$step.log" 2>&1; } 2> nightly/time.txt
   ended=$?
   set -e
   [ "$ended" -eq 0 ] || { result="FAILED" status=1; tail -n 20 "nightly/$step.log"; }
