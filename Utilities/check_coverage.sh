@@ -10,7 +10,8 @@ source Utilities/build.sh
 limit=${1:-90}
 install_packages "${build_packages[@]}" libgtest-dev gcovr
 configure_preset coverage
-cmake --build --preset coverage --target NeuralMeshCoreTests
+cmake --build --preset coverage --target NeuralMeshCoreTests NeuralMeshCoreMemoryTests \
+  NeuralMeshCoreThreadTests
 find build-coverage -name '*.gcda' -delete
 ctest --preset coverage -R '^Core\.' -j "$(nproc)" --no-tests=error --quiet
 gcovr --root . --filter Filters/Core/ --exclude-throw-branches --print-summary \

@@ -49,7 +49,8 @@ check_address()
       -R '^(Core|Filters|Fuzzing)\.|^Applications\.(BadFiles|PointReader|MeshReader)\.' \
       -E "$memory" "$@"
   else
-    check sanitize "$programs" -R '^(Core|Filters|Fuzzing.Engine)' -L fast -E "$memory" "$@"
+    # What chooses parameters only calls what others test here.
+    check sanitize "$programs" -R '^(Core|Filters|Fuzzing.Engine)' -L fast -E 'Tuning|Automatic' "$@"
   fi
 }
 
@@ -59,7 +60,9 @@ check_thread()
     check sanitize-threads 'NeuralMeshCoreTests NeuralMeshCoreMemoryTests NeuralMeshCoreThreadTests
       NeuralMeshFilterTests' -R '^(Core|Filters)\.' -E "$memory|$million" "$@"
   else
-    check sanitize-threads 'NeuralMeshCoreThreadTests NeuralMeshFilterTests' \
+    # This sanitizer takes twenty times as long.
+    NEURALMESH_RANDOM_RUNS=12 \
+      check sanitize-threads 'NeuralMeshCoreThreadTests NeuralMeshFilterTests' \
       -R '^(Core|Filters)\.' -L fast-threads "$@"
   fi
 }
