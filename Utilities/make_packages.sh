@@ -13,6 +13,8 @@ source "$repository/Utilities/build.sh"
 make_package_here()
 {
   install_packages "${build_packages[@]}" "${package_packages[@]}"
+  # For the 3D views of galleries.
+  command -v npm > /dev/null || install_packages npm
   build build-package all
   (cd build-package && cpack -B "$repository/packages")
   rm -rf packages/_CPack_Packages

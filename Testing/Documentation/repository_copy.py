@@ -16,7 +16,7 @@ import subprocess
 import tempfile
 
 # In the root, beside build*; those of .gitignore.
-MADE_BY_SCRIPTS = {"demo", "laboratory", "out", "packages"}
+MADE_BY_SCRIPTS = {"demo", "laboratory", "nightly", "out", "packages"}
 
 
 def tracked_files(root):

@@ -6,7 +6,7 @@ set -euo pipefail
 
 coproc server { exec Xvfb -displayfd 1 -screen 0 1280x1024x24 -noreset -nolisten tcp 2> /dev/null; }
 # After its end the shell forgets the number.
-number=$server_PID
+number=${server_PID:-}
 trap 'kill "$number" 2> /dev/null || true' EXIT
-read -r screen <&"${server[0]}" || { echo "$0: Xvfb does not start" >&2; exit 1; }
+read -r screen <&"${server[0]:-}" || { echo "$0: Xvfb does not start" >&2; exit 1; }
 DISPLAY=:$screen "$@"

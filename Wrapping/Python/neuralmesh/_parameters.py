@@ -115,11 +115,17 @@ def refuse_unknown(function: Callable[..., Any], names: Any, known: Any) -> None
     """Raise TypeError for the first of the names that is not known, with those that are near."""
     for name in names:
         if name not in known:
-            near = hint(name, [*inspect.signature(function).parameters, *known])
+            near = hint(name, [*_named(function), *known])
             advice = f"{near} help(neuralmesh.{function.__name__}) lists them all".lstrip()
             raise TypeError(
                 f"{function.__name__}() got an unexpected keyword argument '{name}'; {advice}"
             )
+
+
+def _named(function: Callable[..., Any]) -> list[str]:
+    """The names of its arguments, but for that which takes all others."""
+    parameters = inspect.signature(function).parameters.values()
+    return [parameter.name for parameter in parameters if parameter.kind is not parameter.VAR_KEYWORD]
 
 
 def hint(name: str, known: Any) -> str:
