@@ -53,5 +53,6 @@ in_debian()
   shift
   env -i CI=true NEURALMESH_VTK=plain \
     NEURALMESH_TEST_LABELS="${NEURALMESH_TEST_LABELS:-}" \
-    PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 TMPDIR=/tmp DEBIAN_FRONTEND=noninteractive chroot "$debian" "$@"
+    PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 TMPDIR=/tmp \
+    DEBIAN_FRONTEND=noninteractive chroot "$debian" "$@"
 }
