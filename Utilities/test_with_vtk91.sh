@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs the tests, those whose label matches NEURALMESH_TEST_LABELS, against Debian's plain VTK 9.1. It
-# cannot be installed beside ParaView's: in a Debian 12 of its own, made by debootstrap. Root, about 3 GB and, the first time, some minutes.
+# cannot be installed beside ParaView's: in a Debian 12 of its own, made by debootstrap.
+# Root, about 3 GB and, the first time, some minutes.
 #
 #   Utilities/test_with_vtk91.sh [FOLDER] [CTEST-OPTION...]
 #
