@@ -121,6 +121,7 @@ class Errors(unittest.TestCase):
             "WinnerRate": "did you mean winner_rate? ",
             "edge_flip": "did you mean edge_flips? ",
             "ensmble": "did you mean ensemble? ",
+            "parameter": "",
             "xyzzy": "",
         }
         for wrong, hint in near.items():
