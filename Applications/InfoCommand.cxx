@@ -3,7 +3,7 @@
 
 #include "MeshReader.h"
 
-#include "SurfaceReport.h"
+#include "mesh/SurfaceReport.h"
 #include "vtkTriangleMeshCollector.h"
 
 #include "vtkPolyData.h"

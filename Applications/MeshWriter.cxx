@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshWriter.h"
 
+#include "base/WholeFile.h"
 #include "ErrorCollector.h"
 #include "FileExtension.h"
-#include "WholeFile.h"
 #include "WrittenMesh.h"
 
 #include "vtkDataArray.h"

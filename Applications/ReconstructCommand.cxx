@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReconstructCommand.h"
 
+#include "base/WholeFile.h"
 #include "ErrorCollector.h"
 #include "FileExtension.h"
 #include "Interruption.h"
@@ -11,7 +12,6 @@
 #include "ProgressBar.h"
 #include "RunEstimate.h"
 #include "TableWriter.h"
-#include "WholeFile.h"
 
 #include "vtkNeuralMesh.h"
 #include "vtkNeuralMeshEnsemble.h"

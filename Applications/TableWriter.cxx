@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TableWriter.h"
 
+#include "base/WholeFile.h"
 #include "FileExtension.h"
-#include "WholeFile.h"
 
 #include "vtkDelimitedTextWriter.h"
 #include "vtkNew.h"

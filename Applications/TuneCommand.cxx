@@ -3,9 +3,9 @@
 
 #include "PointReader.h"
 
-#include "PointCloud.h"
-#include "ThreadPool.h"
-#include "Tuning.h"
+#include "base/ThreadPool.h"
+#include "cloud/PointCloud.h"
+#include "run/Tuning.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkPointCloudCollector.h"
 

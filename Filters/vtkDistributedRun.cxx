@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDistributedRun.h"
 
-#include "CloudSelection.h"
-#include "StoppingRules.h"
+#include "cloud/CloudSelection.h"
+#include "learn/StoppingRules.h"
 #include "vtkNeuralMesh.h"
 #include "vtkPointDataCarrier.h"
 

@@ -9,7 +9,7 @@
 #ifndef vtkFilePoints_h
 #define vtkFilePoints_h
 
-#include "PointFile.h"
+#include "cloud/PointFile.h"
 
 #include "vtkSmartPointer.h"
 

@@ -9,9 +9,9 @@
 #ifndef vtkMeasuredSurface_h
 #define vtkMeasuredSurface_h
 
-#include "Random.h"
-#include "SurfaceSampler.h"
-#include "TriangleMesh.h"
+#include "base/Random.h"
+#include "mesh/SurfaceSampler.h"
+#include "mesh/TriangleMesh.h"
 
 #include "vtkNew.h"
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMesh.h"
 
-#include "MeshBuilder.h"
-#include "Reconstruction.h"
-#include "ThreadPool.h"
-#include "Tuning.h"
+#include "base/ThreadPool.h"
+#include "base/WholeFile.h"
+#include "cloud/MeshBuilder.h"
+#include "run/Reconstruction.h"
+#include "run/Tuning.h"
 #include "vtkFilePoints.h"
 #include "vtkMeshArrays.h"
 #include "vtkNeuralMeshGrowth.h"
@@ -13,7 +14,6 @@
 #include "vtkPointCloudCollector.h"
 #include "vtkPointDataCarrier.h"
 #include "vtkTriangleMeshCollector.h"
-#include "WholeFile.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMeshAlgorithm.h"
 
-#include "Parameters.h"
+#include "learn/Parameters.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMeshEnsemble.h"
 
-#include "Ensemble.h"
-#include "MeshBuilder.h"
-#include "Simplification.h"
+#include "cloud/MeshBuilder.h"
+#include "mesh/Simplification.h"
+#include "run/Ensemble.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkTriangleMeshCollector.h"
 

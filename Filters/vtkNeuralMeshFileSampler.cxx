@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMeshFileSampler.h"
 
-#include "PointFile.h"
-#include "Reconstruction.h"
+#include "cloud/PointFile.h"
+#include "run/Reconstruction.h"
 #include "vtkFilePoints.h"
 #include "vtkNeuralMeshRun.h"
 

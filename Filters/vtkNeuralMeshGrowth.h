@@ -9,7 +9,7 @@
 #ifndef vtkNeuralMeshGrowth_h
 #define vtkNeuralMeshGrowth_h
 
-#include "GrowthWatch.h"
+#include "learn/GrowthWatch.h"
 
 #include "vtkDataObject.h"
 #include "vtkSmartPointer.h"

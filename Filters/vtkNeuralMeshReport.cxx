@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMeshReport.h"
 
-#include "Reconstruction.h"
-#include "Tuning.h"
+#include "run/Reconstruction.h"
+#include "run/Tuning.h"
 #include "vtkMeshArrays.h"
 
 #include "vtkDoubleArray.h"

@@ -9,7 +9,7 @@
 #ifndef vtkNeuralMeshReport_h
 #define vtkNeuralMeshReport_h
 
-#include "LearningCurve.h"
+#include "learn/LearningCurve.h"
 
 #include <vector>
 

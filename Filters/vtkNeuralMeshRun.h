@@ -9,10 +9,10 @@
 #ifndef vtkNeuralMeshRun_h
 #define vtkNeuralMeshRun_h
 
-#include "Executor.h"
-#include "Mesh.h"
-#include "Parameters.h"
-#include "PointCloud.h"
+#include "base/Executor.h"
+#include "cloud/PointCloud.h"
+#include "learn/Parameters.h"
+#include "mesh/Mesh.h"
 
 #include <chrono>
 #include <optional>

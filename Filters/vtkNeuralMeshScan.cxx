@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMeshScan.h"
 
-#include "CloudGenerator.h"
+#include "cloud/CloudGenerator.h"
 #include "vtkMeasuredSurface.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkTriangleMeshCollector.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMeshStream.h"
 
-#include "Parameters.h"
-#include "StreamingReconstruction.h"
+#include "learn/Parameters.h"
+#include "run/StreamingReconstruction.h"
 #include "vtkMeshArrays.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkPointCloudCollector.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPointDataCarrier.h"
 
-#include "AttributeFit.h"
-#include "AttributeVote.h"
+#include "cloud/AttributeFit.h"
+#include "cloud/AttributeVote.h"
 #include "vtkPointCloudCollector.h"
 
 #include "vtkDataArray.h"

@@ -9,7 +9,7 @@
 #ifndef vtkPointDataCarrier_h
 #define vtkPointDataCarrier_h
 
-#include "CloudPlaces.h"
+#include "cloud/CloudPlaces.h"
 
 #include "vtkType.h"
 

@@ -9,7 +9,7 @@
 #ifndef vtkTriangleMeshCollector_h
 #define vtkTriangleMeshCollector_h
 
-#include "TriangleMesh.h"
+#include "mesh/TriangleMesh.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Includes run one way: Applications -> Filters -> Filters/Core. Fails with the lines that do not.
+# Includes run one way: Applications -> Filters -> Filters/Core, and between the rooms of the core. Fails
+# with the lines that do not.
 set -euo pipefail
 cd "$1"
 
@@ -15,7 +16,25 @@ forbid()
   fi
 }
 
-forbid 'vtk|pq|paraview' Filters/Core/*.h Filters/Core/*.cpp
+forbid 'vtk|pq|paraview' Filters/Core/*/*.h Filters/Core/*/*.cpp
+# A room knows itself and those before it.
+rooms=(base mesh cloud learn fit start run)
+for ((room = 0; room < ${#rooms[@]}; ++room)); do
+  later=$(IFS='|'; echo "${rooms[*]:room + 1}")
+  files=(Filters/Core/"${rooms[room]}"/*.h Filters/Core/"${rooms[room]}"/*.cpp)
+  forbid "(${later:-nothing})/" "${files[@]}"
+  # Whoever reads an include sees the room.
+  if grep -nE '^ *# *include +"' "${files[@]}" | grep -vE "\"($(IFS='|'; echo "${rooms[*]}"))/"; then
+    failed=1
+  fi
+done
+# Fit and start are sisters of learning: they are given the values that they need.
+forbid 'learn/' Filters/Core/{fit,start}/*.h Filters/Core/{fit,start}/*.cpp
+if [ "$(find Filters/Core -mindepth 1 -type d | wc -l)" -ne ${#rooms[@]} ] ||
+  find Filters/Core -maxdepth 1 -name '*.h' -o -maxdepth 1 -name '*.cpp' | grep .; then
+  echo "there is something in Filters/Core that is in no room"
+  failed=1
+fi
 forbid 'vtkPV|vtkSM([^P]|P[^T])|vtkSI|pq|CLI/|ErrorCollector|LearningParameters|MeshWriter|PointReader' \
   Filters/*.h Filters/*.cxx
 # The header of a public class is installed; the core is not.

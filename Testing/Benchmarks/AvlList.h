@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Ring.h"
+#include "mesh/Ring.h"
 
 #include <cstddef>
 #include <map>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ActivityList.h"
 #include "AvlList.h"
-#include "ExactOrder.h"
-#include "Random.h"
+#include "base/Random.h"
+#include "learn/ActivityList.h"
+#include "learn/ExactOrder.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CloudGenerator.h"
-#include "Morton.h"
-#include "PointCloud.h"
-#include "SampleStream.h"
+#include "base/Morton.h"
+#include "cloud/CloudGenerator.h"
+#include "cloud/PointCloud.h"
+#include "cloud/SampleStream.h"
+#include "cloud/VertexGrid.h"
 #include "Shapes.h"
-#include "VertexGrid.h"
 
 #include <benchmark/benchmark.h>
 

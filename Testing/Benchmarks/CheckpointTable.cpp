@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Prints, as a table in Markdown, what checkpoints cost: the size of the file, and the time that it
 // takes to write it and to go on from it.
-#include "Checkpoint.h"
-#include "CloudGenerator.h"
-#include "Refinement.h"
+#include "cloud/CloudGenerator.h"
+#include "mesh/Refinement.h"
+#include "run/Checkpoint.h"
 #include "Shapes.h"
 
 #include <chrono>

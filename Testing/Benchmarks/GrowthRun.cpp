@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grows a mesh on a torus to the given number of vertices and prints how many samples that took:
 // what the instruction counter is run on.
-#include "CloudGenerator.h"
-#include "Learner.h"
+#include "cloud/CloudGenerator.h"
+#include "learn/Learner.h"
 #include "Shapes.h"
 
 #include <cstdio>

@@ -2,9 +2,9 @@
 // Prints, as a table in Markdown, what growth costs: for each size the time of a sample there and
 // the time of the whole run up to there, with our order and with a naive one, which is given up
 // once it has taken too long.
-#include "CloudGenerator.h"
-#include "ExactOrder.h"
-#include "Learner.h"
+#include "cloud/CloudGenerator.h"
+#include "learn/ExactOrder.h"
+#include "learn/Learner.h"
 #include "NaiveOrder.h"
 #include "Shapes.h"
 

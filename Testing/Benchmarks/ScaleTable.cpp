@@ -2,10 +2,10 @@
 // Prints, as a table in Markdown, whole runs of up to a million vertices: what a sample costs, how
 // much memory a vertex takes beyond the cloud, and how good the mesh is. Sizes in thousands of
 // vertices are arguments.
-#include "CloudGenerator.h"
-#include "Reconstruction.h"
+#include "base/ThreadPool.h"
+#include "cloud/CloudGenerator.h"
+#include "run/Reconstruction.h"
 #include "Shapes.h"
-#include "ThreadPool.h"
 
 #include <unistd.h>
 

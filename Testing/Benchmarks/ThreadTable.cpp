@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Prints, as a table in Markdown, how much faster two threads are than one, for the parts that run
 // beside each other and for the whole run. The best of several rounds, one and two threads by turns.
-#include "CloudGenerator.h"
-#include "CloudPlaces.h"
-#include "Reconstruction.h"
+#include "base/ThreadPool.h"
+#include "cloud/CloudGenerator.h"
+#include "cloud/CloudPlaces.h"
+#include "fit/SurfaceFit.h"
+#include "run/Reconstruction.h"
 #include "Shapes.h"
-#include "SurfaceFit.h"
-#include "ThreadPool.h"
 
 #include <algorithm>
 #include <array>

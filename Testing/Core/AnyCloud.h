@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "CloudGenerator.h"
+#include "base/Random.h"
+#include "cloud/CloudGenerator.h"
 #include "Clusters.h"
 #include "OpenShapes.h"
-#include "Random.h"
 #include "Shapes.h"
 
 #include <cmath>

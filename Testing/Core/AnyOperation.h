@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "BoundaryFilling.h"
-#include "BoundaryMerging.h"
-#include "EdgeFlips.h"
-#include "Mesh.h"
-#include "Orientation.h"
-#include "Refinement.h"
-#include "Simplification.h"
-#include "TriangleRemoval.h"
-#include "VertexRemoval.h"
-#include "VertexSplit.h"
+#include "learn/TriangleRemoval.h"
+#include "mesh/BoundaryFilling.h"
+#include "mesh/BoundaryMerging.h"
+#include "mesh/EdgeFlips.h"
+#include "mesh/Mesh.h"
+#include "mesh/Orientation.h"
+#include "mesh/Refinement.h"
+#include "mesh/Simplification.h"
+#include "mesh/VertexRemoval.h"
+#include "mesh/VertexSplit.h"
 
 #include <algorithm>
 #include <array>

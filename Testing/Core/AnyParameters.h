@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "ParameterNames.h"
+#include "learn/ParameterNames.h"
 
 #include <algorithm>
 #include <array>

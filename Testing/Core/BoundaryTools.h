@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "BoundaryManager.h"
+#include "learn/TriangleRemoval.h"
+#include "mesh/BoundaryManager.h"
 #include "MeshTools.h"
-#include "TriangleRemoval.h"
 
 #include <cstdint>
 #include <functional>

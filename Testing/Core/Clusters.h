@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Random.h"
+#include "base/Random.h"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Parameters.h"
+#include "learn/Parameters.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Random.h"
 #include "ManifoldCheck.h"
-#include "Mesh.h"
-#include "Random.h"
+#include "mesh/Mesh.h"
 
 #include <Eigen/Geometry>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "CloudGenerator.h"
-#include "Parameters.h"
-#include "PointCloud.h"
+#include "cloud/CloudGenerator.h"
+#include "cloud/PointCloud.h"
+#include "learn/Parameters.h"
 #include "Shapes.h"
 
 #include <cmath>

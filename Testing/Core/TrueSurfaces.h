@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "CloudDistance.h"
-#include "CloudGenerator.h"
-#include "Random.h"
+#include "base/Random.h"
+#include "cloud/CloudDistance.h"
+#include "cloud/CloudGenerator.h"
+#include "mesh/SurfaceSampler.h"
 #include "Shapes.h"
-#include "SurfaceSampler.h"
 
 #include <algorithm>
 #include <cmath>

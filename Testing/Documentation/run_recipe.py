@@ -33,7 +33,7 @@ def main():
         run(["patch", "-p1"], input="".join(patches), cwd=folder)
         for name, text in files.items():
             (core / name).write_text(text, encoding="utf-8")
-        names = sorted(path.name for path in core.glob("*.cpp"))
+        names = sorted(str(path.relative_to(core)) for path in core.rglob("*.cpp"))
         # In one go: most of the time goes into the headers.
         (core / "All.cpp").write_text("".join(f'#include "{name}"\n' for name in names), encoding="utf-8")
         libraries = ["-lgtest", "-lgtest_main", "-lpthread"]

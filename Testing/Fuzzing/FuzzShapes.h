@@ -2,13 +2,13 @@
 #pragma once
 
 #include "AnyParameters.h"
-#include "CloudGenerator.h"
+#include "cloud/CloudGenerator.h"
 #include "FuzzInput.h"
 #include "ManifoldCheck.h"
-#include "Mesh.h"
+#include "mesh/Mesh.h"
+#include "mesh/TriangleMesh.h"
 #include "MeshTools.h"
 #include "Shapes.h"
-#include "TriangleMesh.h"
 
 #include <cstdio>
 #include <cstdlib>

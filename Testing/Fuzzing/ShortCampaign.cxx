@@ -3,8 +3,8 @@
 //
 //   ShortCampaign COUNT           runs the seeds, and COUNT inputs made from them by chance
 //   ShortCampaign --write FOLDER  writes the seeds into a folder, for a fuzzer to begin with
+#include "base/Random.h"
 #include "FuzzTarget.h"
-#include "Random.h"
 
 #include <cstdio>
 #include <cstdlib>

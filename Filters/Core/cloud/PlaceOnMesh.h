@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cloud/PointCloud.h"
+#include "cloud/VertexGrid.h"
+#include "mesh/Mesh.h"
+
+#include <algorithm>
+
+namespace neuralmesh
+{
+/// A place on the surface of a mesh.
+struct PlaceOnMesh
+{
+  Triangle triangle{ NoVertex, NoVertex, NoVertex };
+  Vector4 weights;             ///< barycentric coordinates
+  float squaredDistance = 0.f; ///< of the point that it is the closest place to
+};
+
+/// The place that is closest to a point, looked for on the triangles of the closest vertex: where
+/// the mesh follows the points, hardly any other triangle is closer.
+PlaceOnMesh closestPlace(Vector4 point, const Mesh& mesh, const VertexGrid& grid);
+
+/// The same, beginning at a vertex near by: goes from vertex to vertex as long as that is closer.
+PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near);
+
+/// Whether the place lies on the boundary.
+bool isOnBoundary(const PlaceOnMesh& place, const Mesh& mesh);
+
+/// All vertices, for closestPlace(), in a grid over the bulk of the cloud.
+VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud);
+
+/// Points farther from the mesh than five median distances are outliers, but none closer than so
+/// many mean edges: without noise the median tells nothing of where the mesh does not fit (yet).
+inline float outlierDistance(float medianDistance, double meanEdge, float edges = 0.5f)
+{
+  constexpr float Medians = 5.f;
+  return std::max(edges * float(meanEdge), Medians * medianDistance);
+}
+
+/// The point at a place, by the positions of the vertices.
+inline Vector4 pointAt(const PlaceOnMesh& place, std::span<const Vector4> positions)
+{
+  return place.weights[0] * positions[place.triangle[0]] +
+    place.weights[1] * positions[place.triangle[1]] +
+    place.weights[2] * positions[place.triangle[2]];
+}
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Executor.h"
+#include "base/LargePageAllocator.h"
+#include "base/Vector4.h"
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// The point cloud P, made ready for learning: without points that are not finite, moved and scaled
+/// so that its bulk has about unit size around the origin (whatever the units and the offset of the
+/// input are, single precision then resolves 10^-7 of the object), in Morton order.
+class PointCloud
+{
+public:
+  /// Points farther from the bulk of the cloud than this many times its size are dropped, too: no
+  /// arithmetic could take both in.
+  static constexpr double FarthestPoint = 1e6;
+
+  /// `weights` are those of the points, or none: then all weigh alike. Points whose weight is no
+  /// finite number above 0 are not there. With `keepsOrigins` the cloud knows origins().
+  explicit PointCloud(std::span<const Eigen::Vector3d> points, std::span<const double> weights = {},
+    bool keepsOrigins = false, const Executor& executor = Executor::sequential());
+
+  /// The cloud less those points for which `isLeftOut(point)`. Unit, diagonal and weights
+  /// stay as they are.
+  template <typename Condition>
+  PointCloud without(Condition isLeftOut) const;
+
+  std::span<const Vector4> points() const { return points_; }
+  /// Of the points, 1 on average; empty if all weigh alike.
+  std::span<const float> weights() const { return weights_; }
+  float weight(std::size_t point) const { return weights_.empty() ? 1.f : weights_[point]; }
+  /// For each point, its index in the input; empty unless it was asked for.
+  std::span<const std::uint32_t> origins() const { return origins_; }
+  std::size_t droppedCount() const { return droppedCount_; }
+  /// How many points there are that are apart from each other.
+  std::size_t differentCount() const;
+  /// Whether there are two points apart from each other.
+  bool hasExtent() const { return diagonal_ > 0.; }
+
+  /// Diagonal of the bounding box of all points, after the scaling.
+  double diagonal() const { return diagonal_; }
+  /// The box of the bulk: without the outermost points, enlarged.
+  Vector4 bulkMin() const { return bulkMin_; }
+  Vector4 bulkMax() const { return bulkMax_; }
+
+  /// To the units of the input and back.
+  Eigen::Vector3d toInput(Vector4 point) const { return center_ + size_ * point.toDouble(); }
+  Vector4 fromInput(const Eigen::Vector3d& point) const
+  {
+    return Vector4(Eigen::Vector3d((point - center_) / size_));
+  }
+  /// Whether a finite point is not so far off that it would be dropped.
+  bool takesIn(const Eigen::Vector3d& point) const
+  {
+    return ((point - center_) / size_).cwiseAbs().maxCoeff() <= FarthestPoint;
+  }
+  /// Length of the unit of this cloud in the units of the input.
+  double unit() const { return size_; }
+
+private:
+  void sort(const std::vector<Vector4>& points, std::vector<std::uint32_t> origins,
+    std::span<const double> weights, bool keepsOrigins, const Executor& executor);
+
+  LargeVector<Vector4> points_;
+  std::vector<float> weights_;
+  std::vector<std::uint32_t> origins_;
+  std::size_t droppedCount_ = 0;
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
+  double size_ = 1.;
+  double diagonal_ = 0.;
+  Vector4 bulkMin_;
+  Vector4 bulkMax_;
+};
+
+template <typename Condition>
+PointCloud PointCloud::without(Condition isLeftOut) const
+{
+  PointCloud result = *this;
+  std::size_t kept = 0;
+  Vector4 low = bulkMax_, high = bulkMin_;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+  {
+    if (isLeftOut(points_[i]))
+    {
+      continue;
+    }
+    result.points_[kept] = points_[i];
+    if (!weights_.empty())
+    {
+      result.weights_[kept] = weights_[i];
+    }
+    if (!origins_.empty())
+    {
+      result.origins_[kept] = origins_[i];
+    }
+    low = min(low, points_[i]);
+    high = max(high, points_[i]);
+    ++kept;
+  }
+  result.bulkMin_ = max(result.bulkMin_, low);
+  result.bulkMax_ = min(result.bulkMax_, high);
+  result.points_.resize(kept);
+  result.weights_.resize(weights_.empty() ? 0 : kept);
+  result.origins_.resize(origins_.empty() ? 0 : kept);
+  return result;
+}
+}

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/DataGaps.h"
+
+#include "base/DisjointSets.h"
+#include "cloud/VertexGrid.h"
+#include "mesh/BoundaryFilling.h"
+#include "mesh/BoundaryManager.h"
+#include "mesh/BoundaryMerging.h"
+#include "mesh/NumberedTriangles.h"
+#include "mesh/SmallPieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace neuralmesh
+{
+namespace
+{
+/// A piece can be a gap if so many samples should lie in it.
+constexpr double LeastExpectedSamples = 10.;
+/// It is one if a triangle of it is so many times the distance between samples away from all
+/// points. Where points are spread by chance, such a place is one of e^28.
+constexpr double LeastSpacings = 3.;
+/// ... and so many times the median distance between samples and mesh: points with noise do not lie
+/// on it.
+constexpr double LeastMedians = 5.;
+/// With less samples, triangles without any are everywhere, and hang together. A triangle is empty
+/// then if it is so many times the distance between samples away from all points: one of e^7 is by
+/// chance.
+constexpr std::size_t LeastSamplesPerTriangle = 2;
+constexpr double LeastSpacingsIfEmpty = 1.5;
+
+double areaOf(const Mesh& mesh, const Triangle& triangle)
+{
+  const Vector4 a = mesh.position(triangle[0]);
+  return 0.5 *
+    std::sqrt(
+      double(squaredNorm(cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a))));
+}
+
+double areaOf(const Mesh& mesh)
+{
+  double area = 0.;
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+      area += areaOf(mesh, { a, b, c });
+    });
+  return area;
+}
+
+Vector4 centerOf(const Mesh& mesh, const Triangle& triangle)
+{
+  return 1.f / 3.f *
+    (mesh.position(triangle[0]) + mesh.position(triangle[1]) + mesh.position(triangle[2]));
+}
+
+/// A piece of triangles without samples.
+struct Piece
+{
+  std::vector<std::uint32_t> triangles;
+  double area = 0.;
+  double areaAround = 0.; ///< of the triangles that touch it
+  double samplesAround = 0.;
+  bool isAtBoundary = false;
+
+  double density() const { return areaAround > 0. ? samplesAround / areaAround : 0.; }
+};
+
+/// Finds pieces of those triangles that are empty, connected by vertices.
+std::vector<Piece> findPieces(const Mesh& mesh, const NumberedTriangles& triangles,
+  std::span<const std::uint32_t> samples, const std::vector<bool>& isEmpty)
+{
+  DisjointSets sets(samples.size());
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    const auto around = triangles.at(v);
+    const auto first =
+      std::find_if(around.begin(), around.end(), [&](std::uint32_t t) { return isEmpty[t]; });
+    for (const std::uint32_t t : around)
+    {
+      if (isEmpty[t])
+      {
+        sets.join(t, *first);
+      }
+    }
+  }
+  std::vector<Piece> pieces;
+  std::vector<std::uint32_t> pieceOf(samples.size(), 0);
+  const auto pieceWith = [&](std::uint32_t t) -> Piece&
+  {
+    std::uint32_t& number = pieceOf[sets.root(t)];
+    if (number == 0)
+    {
+      pieces.emplace_back();
+      number = std::uint32_t(pieces.size());
+    }
+    return pieces[number - 1];
+  };
+  for (std::uint32_t t = 0; t < samples.size(); ++t)
+  {
+    const double area = areaOf(mesh, triangles.all()[t]);
+    if (isEmpty[t])
+    {
+      Piece& piece = pieceWith(t);
+      piece.area += area;
+      piece.triangles.push_back(t);
+      const auto& corners = triangles.all()[t];
+      piece.isAtBoundary = piece.isAtBoundary ||
+        std::any_of(
+          corners.begin(), corners.end(), [&](VertexIndex v) { return mesh.isBoundary(v); });
+      continue;
+    }
+    std::vector<std::size_t> touched;
+    for (const VertexIndex v : triangles.all()[t])
+    {
+      for (const std::uint32_t other : triangles.at(v))
+      {
+        const std::size_t root = sets.root(other);
+        if (isEmpty[other] && std::find(touched.begin(), touched.end(), root) == touched.end())
+        {
+          touched.push_back(root);
+          Piece& piece = pieceWith(other);
+          piece.areaAround += area;
+          piece.samplesAround += samples[t];
+        }
+      }
+    }
+  }
+  return pieces;
+}
+
+/// Some points of a cloud, for the distance to the closest of them.
+class SomePoints
+{
+public:
+  SomePoints(const PointCloud& cloud, std::size_t count)
+  {
+    const std::size_t all = cloud.points().size();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      points_.push_back(cloud.points()[i * all / count]);
+    }
+    const Vector4 size = cloud.bulkMax() - cloud.bulkMin();
+    const float cell = 2.f * std::sqrt(squaredNorm(size) / float(count));
+    grid_.reset(cloud.bulkMin(), cloud.bulkMax(), cell, count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      grid_.insert(VertexIndex(i), points_[i]);
+    }
+  }
+
+  double distance(Vector4 point) const
+  {
+    const VertexIndex closest = grid_.closest(point, points_);
+    return std::sqrt(double(squaredNorm(points_[closest] - point)));
+  }
+
+private:
+  std::vector<Vector4> points_;
+  VertexGrid grid_;
+};
+}
+
+std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
+  std::span<const PlaceOnMesh> places, float medianDistance)
+{
+  const NumberedTriangles triangles(mesh);
+  std::vector<std::uint32_t> samples(triangles.all().size(), 0);
+  for (const PlaceOnMesh& place : places)
+  {
+    ++samples[triangles.number(place.triangle[0], place.triangle[1])];
+  }
+  std::optional<SomePoints> points;
+  const auto distance = [&](std::uint32_t t)
+  {
+    if (!points)
+    {
+      points.emplace(cloud, places.size());
+    }
+    return points->distance(centerOf(mesh, triangles.all()[t]));
+  };
+  const bool isFine = places.size() < LeastSamplesPerTriangle * triangles.all().size();
+  const double meanDensity = isFine ? double(places.size()) / areaOf(mesh) : 0.;
+  const double meanSpacing = isFine ? 1. / std::sqrt(meanDensity) : 0.;
+  std::vector<bool> isEmpty(samples.size());
+  for (std::uint32_t t = 0; t < samples.size(); ++t)
+  {
+    isEmpty[t] = samples[t] == 0 && (!isFine || distance(t) > LeastSpacingsIfEmpty * meanSpacing);
+  }
+  std::vector<Piece> pieces = findPieces(mesh, triangles, samples, isEmpty);
+  // Small triangles around a piece may have too few samples to tell.
+  const auto densityAt = [&](const Piece& piece)
+  { return isFine && piece.samplesAround < LeastExpectedSamples ? meanDensity : piece.density(); };
+  std::erase_if(pieces,
+    [&](const Piece& piece) { return piece.area * densityAt(piece) < LeastExpectedSamples; });
+  std::vector<Triangle> gaps;
+  for (const Piece& piece : pieces)
+  {
+    const double spacing = std::max(meanSpacing, 1. / std::sqrt(densityAt(piece)));
+    const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
+    const auto isFar = [&](std::uint32_t t) { return distance(t) > reach; };
+    if (piece.isAtBoundary || std::any_of(piece.triangles.begin(), piece.triangles.end(), isFar))
+    {
+      for (const std::uint32_t t : piece.triangles)
+      {
+        gaps.push_back(triangles.all()[t]);
+      }
+    }
+  }
+  return gaps;
+}
+
+OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const PlaceOnMesh> places,
+  float medianDistance, double bridgeWidth)
+{
+  OpenedGaps result;
+  const std::vector<Triangle> gaps = findDataGaps(cloud, mesh, places, medianDistance);
+  result.triangles = gaps.size();
+  mesh.removeTriangles(gaps);
+  if (!gaps.empty())
+  {
+    mesh.removeTriangles(findSmallPieces(mesh));
+  }
+  BoundaryManager boundaries(mesh);
+  if (boundaries.loopCount() == 0)
+  {
+    return result;
+  }
+  result.joined = mergeBoundaries(mesh, boundaries, bridgeWidth, LoopDistance::Mean);
+  const SomePoints points(cloud, places.size());
+  const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
+  const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
+  result.filled = fillBoundaries(mesh, boundaries, bridgeWidth,
+    [&](const Triangle& triangle) { return points.distance(centerOf(mesh, triangle)) <= reach; });
+  return result;
+}
+}

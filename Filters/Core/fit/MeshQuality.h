@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cloud/PointCloud.h"
+#include "mesh/Mesh.h"
+#include "mesh/SurfaceReport.h"
+
+namespace neuralmesh
+{
+/// How well a mesh stands for its cloud, and what it is by itself.
+struct MeshQuality
+{
+  /// Distance of the points that are held out of the fit to the mesh, without outliers: root of the
+  /// mean square, in units of the input.
+  double residual = 0.;
+  double outlierShare = 0.; ///< of these points
+  SurfaceReport surface;
+};
+
+/// `triangles` are those of the mesh. Of very many points only some are measured.
+MeshQuality measureQuality(
+  const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles);
+}

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/SurfaceFit.h"
+
+#include "base/Median.h"
+#include "cloud/VertexGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+/// What a distance along the surface counts, against one across it.
+constexpr double Slip = 0.01;
+/// In the first round samples are no outliers up to so many edges: the mesh does not fit yet.
+constexpr float FirstOutlierEdges = 1.f;
+constexpr float LaterOutlierEdges = 0.5f;
+constexpr std::size_t SamplesPerAbortCheck = 65536;
+// Parts for the executor.
+constexpr std::size_t FitSamplesPerRange = 1024;
+constexpr std::size_t FitVerticesPerRange = 4096;
+/// Of the residual of the equations, against the largest at the start of a round.
+constexpr double Tolerance = 1e-3;
+/// While lambda is chosen, against that at the start.
+constexpr double ToleranceOfChoice = 1e-2;
+
+// The pull inwards at boundaries
+/// Chance at which a strip along a boundary has no sample although there is data.
+constexpr double ChanceOfEmptyStrip = 0.05;
+/// Where a whole triangle is without, how far its edge goes towards the corner within.
+constexpr double RetreatOfEmpty = 0.5;
+
+// The choice of lambda
+constexpr double FirstSmoothness = 1000.;
+constexpr double MostSmoothness = 1e4;
+/// A bit more: too rough a surface would follow the noise all the way.
+constexpr double SmoothnessFactor = 1.1;
+constexpr int MostChoices = 8;
+/// It is found if it changes by no more than that.
+constexpr double NearPart = 0.85;
+/// Of the time of moveVertices().
+constexpr double PartOfChoice = 0.6;
+
+Vector4 normalAt(const PlaceOnMesh& place, std::span<const Vector4> positions)
+{
+  const Vector4 a = positions[place.triangle[0]];
+  return cross(positions[place.triangle[1]] - a, positions[place.triangle[2]] - a);
+}
+
+bool isOpen(const Mesh& mesh)
+{
+  VertexIndex v = 0;
+  while (v < mesh.indexEnd() && !mesh.isBoundary(v))
+  {
+    ++v;
+  }
+  return v < mesh.indexEnd();
+}
+}
+
+SurfaceFit::SurfaceFit(
+  const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount, const Executor& executor)
+  : cloud_(cloud)
+  , mesh_(mesh)
+  , executor_(executor)
+{
+  const std::size_t all = cloud.points().size();
+  const std::size_t fitted = all - all / HeldOutStride;
+  const std::size_t count = std::min(fitted, sampleCount);
+  samples_.reserve(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::size_t chosen = i * fitted / count;
+    // One is passed over behind each group of those that are fitted.
+    const std::size_t point = chosen + chosen / (HeldOutStride - 1);
+    samples_.push_back(cloud.points()[point]);
+    if (!cloud.weights().empty())
+    {
+      weights_.push_back(cloud.weights()[point]);
+    }
+  }
+  places_.resize(count);
+}
+
+bool SurfaceFit::findPlaces(const Progress& progress)
+{
+  const VertexGrid grid = hasPlaces_ ? VertexGrid() : gridOf(mesh_, cloud_);
+  std::vector<float> distances(samples_.size());
+  const std::size_t count = samples_.size();
+  for (std::size_t first = 0; first < count; first += SamplesPerAbortCheck)
+  {
+    if (!progress(double(first) / double(count)))
+    {
+      return false;
+    }
+    executor_.forEachRange(std::min(SamplesPerAbortCheck, count - first), FitSamplesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = first + begin; i < first + end; ++i)
+        {
+          PlaceOnMesh& place = places_[i];
+          place = hasPlaces_ ? closestPlaceFrom(samples_[i], mesh_, place.triangle[0])
+                             : closestPlace(samples_[i], mesh_, grid);
+          distances[i] = place.squaredDistance;
+        }
+      });
+  }
+  const float edges = hasPlaces_ ? LaterOutlierEdges : FirstOutlierEdges;
+  hasPlaces_ = true;
+  medianDistance_ = std::sqrt(medianOf(distances, executor_));
+  outlierDistance_ = neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(), edges);
+  fillSystem();
+  return true;
+}
+
+void SurfaceFit::fillSystem()
+{
+  // Anew, as edges may have been flipped.
+  system_.emplace(mesh_, Slip, executor_);
+  forEachRows([this](const FitSystem::Rows& rows) { fillRows(rows); });
+  usedCount_ = std::size_t(executor_.sum(places_.size(), FitSamplesPerRange,
+    [this](std::size_t i) { return isUsed(places_[i]) ? 1. : 0.; }));
+  if (isOpen(mesh_))
+  {
+    pullBoundariesIn();
+  }
+}
+
+/// Each part goes through all samples for its rows: so these add up in the same order however many
+/// parts there are.
+template <typename Body>
+void SurfaceFit::forEachRows(const Body& body) const
+{
+  const std::size_t parts = executor_.threadCount(), rows = mesh_.indexEnd();
+  executor_.forEachPart(parts,
+    [&](std::size_t part)
+    {
+      body(FitSystem::Rows{
+        VertexIndex(part * rows / parts), VertexIndex((part + 1) * rows / parts) });
+    });
+}
+
+void SurfaceFit::fillRows(const FitSystem::Rows& rows)
+{
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+  {
+    const PlaceOnMesh& place = places_[i];
+    const auto& [a, b, c] = place.triangle;
+    if (isUsed(place) && (rows.has(a) || rows.has(b) || rows.has(c)))
+    {
+      // Beyond a boundary the distance along the surface counts in full: there is no other place.
+      const Vector4 normal =
+        isOnBoundary(place, mesh_) ? Vector4() : normalAt(place, mesh_.positions());
+      system_->add(place, samples_[i], normal, weight(i), rows);
+    }
+  }
+}
+
+/// Samples beyond a boundary pull it outwards, but where it is beyond the samples there are none to
+/// pull it back. So from each triangle at a boundary that has no samples in a strip along it, one is
+/// added for the edge, where the samples begin.
+void SurfaceFit::pullBoundariesIn()
+{
+  /// Samples on the triangle at a boundary edge.
+  struct Strip
+  {
+    std::uint32_t samples = 0;
+    float width = 1.f; ///< without samples, against the height of the triangle
+  };
+  const Mesh& mesh = mesh_;
+  std::vector<Strip> strips(mesh.indexEnd()); // of the edges to the first neighbour
+  const auto measure = [&](const PlaceOnMesh& place, const FitSystem::Rows& rows)
+  {
+    for (unsigned i = 0; i < 3; ++i)
+    {
+      const VertexIndex from = place.triangle[(i + 1) % 3], to = place.triangle[(i + 2) % 3];
+      if (rows.has(from) && mesh.isBoundary(from) && mesh.ring(from).front() == to)
+      {
+        Strip& strip = strips[from];
+        ++strip.samples;
+        strip.width = std::min(strip.width, place.weights[int(i)]);
+      }
+    }
+  };
+  forEachRows(
+    [&](const FitSystem::Rows& rows)
+    {
+      for (const PlaceOnMesh& place : places_)
+      {
+        if (isUsed(place))
+        {
+          measure(place, rows);
+        }
+      }
+    });
+  const double samplesPerTriangle = double(usedCount_) / (2. * double(mesh.vertexCount()));
+  const double logarithm = std::log(ChanceOfEmptyStrip);
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    if (!mesh.isBoundary(v))
+    {
+      continue;
+    }
+    const double samples = strips[v].samples, width = strips[v].width;
+    double retreat = 0.;
+    if (samples > 0. && 2. * samples * std::log(1. - width) < logarithm)
+    {
+      // What the strip would be on average if the edge were where the data ends.
+      retreat = width - 1. / (2. * samples + 1.);
+    }
+    else if (samples == 0. && -samplesPerTriangle < logarithm)
+    {
+      retreat = RetreatOfEmpty;
+    }
+    if (retreat > 0.)
+    {
+      const Ring& ring = mesh.ring(v);
+      const PlaceOnMesh place{ { v, ring[0], ring[1] }, Vector4(0.5f, 0.5f, 0.f), 0.f };
+      const Vector4 edge = pointAt(place, mesh.positions());
+      system_->add(place, edge + float(retreat) * (mesh.position(ring[1]) - edge), Vector4(),
+        float(std::max(1., samples)));
+    }
+  }
+}
+
+bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
+{
+  smoothness_ = lambda;
+  const double choice = lambda > 0. ? 0. : PartOfChoice;
+  if (lambda <= 0. && !chooseSmoothness(partOf(progress, 0., choice)))
+  {
+    return false;
+  }
+  std::vector<Vector4> positions(mesh_.positions().begin(), mesh_.positions().end());
+  if (!system_->solve(smoothness_, Tolerance, scale_, positions, partOf(progress, choice, 1.)))
+  {
+    return false;
+  }
+  noise_ = std::sqrt(residualVariance(positions, smoothness_));
+  for (VertexIndex v = 0; v < positions.size(); ++v)
+  {
+    mesh_.setPosition(v, positions[v]);
+  }
+  return true;
+}
+
+/// With Gaussian noise of variance s^2 and a surface whose L x has the variance r^2 across it, the
+/// most probable positions are those for lambda = s^2 / r^2. Both are measured, beginning with a
+/// smooth surface: on a rough one, noise would pass for shape.
+bool SurfaceFit::chooseSmoothness(const Progress& progress)
+{
+  smoothness_ = FirstSmoothness;
+  std::vector<Vector4> positions(mesh_.positions().begin(), mesh_.positions().end());
+  for (int i = 0; i < MostChoices; ++i)
+  {
+    double scale = 0.;
+    if (!system_->solve(smoothness_, ToleranceOfChoice, scale, positions,
+          partOf(progress, double(i) / MostChoices, double(i + 1) / MostChoices)))
+    {
+      return false;
+    }
+    const double rough = roughness(positions);
+    const double ratio =
+      rough > 0. ? residualVariance(positions, smoothness_) / rough : MostSmoothness;
+    const double before = smoothness_;
+    const double next = SmoothnessFactor * ratio;
+    const bool isNear = next > NearPart * before;
+    // From far away it falls further yet.
+    smoothness_ =
+      std::clamp(isNear ? next : next * std::sqrt(next / before), LeastSmoothness, MostSmoothness);
+    if (isNear)
+    {
+      break;
+    }
+  }
+  return true;
+}
+
+double SurfaceFit::residualVariance(std::span<const Vector4> positions, double lambda) const
+{
+  const auto squaredDistance = [&](std::size_t i)
+  {
+    const PlaceOnMesh& place = places_[i];
+    if (!isUsed(place))
+    {
+      return 0.;
+    }
+    const Vector4 normal = normalAt(place, positions);
+    const Vector4 offset = samples_[i] - positions[place.triangle[0]];
+    const float across = dot(offset, normal);
+    const float squared = squaredNorm(normal);
+    return double(weight(i)) *
+      (squared > 0.f ? double(across * across / squared) : double(squaredNorm(offset)));
+  };
+  const double sum = executor_.sum(samples_.size(), FitSamplesPerRange, squaredDistance);
+  // Vertices follow noise, the less the smoother they are held: so many of them do (a curve through
+  // traces of the solution, measured for 2 to 20 samples a vertex).
+  const auto vertices = double(positions.size());
+  const auto samples = double(std::max<std::size_t>(1, usedCount_));
+  const double followers = vertices / (1. + std::pow(2. * lambda * vertices / samples, 0.75));
+  return sum / std::max(0.25 * samples, samples - followers);
+}
+
+double SurfaceFit::roughness(std::span<const Vector4> positions) const
+{
+  std::vector<Vector4> laplacian(positions.size());
+  system_->applyLaplacian(positions, laplacian);
+  const auto squaredAcross = [&](std::size_t vertex)
+  {
+    const auto v = VertexIndex(vertex);
+    const Ring& ring = mesh_.ring(v);
+    Vector4 normal;
+    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+    {
+      normal += cross(
+        positions[ring[slot]] - positions[v], positions[ring[ring.after(slot)]] - positions[v]);
+    }
+    const float across = dot(laplacian[v], normal);
+    const float squared = squaredNorm(normal);
+    return squared > 0.f ? double(across * across / squared) : 0.;
+  };
+  return executor_.sum(positions.size(), FitVerticesPerRange, squaredAcross) /
+    double(positions.size());
+}
+
+double SurfaceFit::distanceEvenness() const
+{
+  double sum = 0., squares = 0., count = 0.;
+  for (const PlaceOnMesh& place : places_)
+  {
+    if (isUsed(place) && !isOnBoundary(place, mesh_))
+    {
+      sum += std::sqrt(double(place.squaredDistance));
+      squares += double(place.squaredDistance);
+      count += 1.;
+    }
+  }
+  return squares > 0. ? sum / std::sqrt(count * squares) : 0.;
+}
+
+double SurfaceFit::outlierShare() const
+{
+  return 1. - double(usedCount_) / double(samples_.size());
+}
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Executor.h"
+#include "base/Progress.h"
+#include "cloud/PlaceOnMesh.h"
+#include "cloud/PointCloud.h"
+#include "fit/FitSystem.h"
+#include "mesh/Mesh.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace neuralmesh
+{
+/// Of so many points in the order of the cloud, the fit leaves out the last: they tell how well it
+/// went.
+constexpr std::size_t HeldOutStride = 20;
+
+/// Moves all vertices of a mesh to where the surface is closest to its cloud: to the positions x
+/// that minimise
+///
+///   sum over samples p of w_p |p - b_p x|^2  +  lambda sum over vertices |L x|^2
+///
+/// where b_p x is the place on the mesh that is closest to p, w_p is the weight of the point (0 for
+/// outliers), and L is the umbrella Laplacian. A distance along the surface counts little, as another
+/// place is then closer. Places change with the positions, so that it takes rounds of finding places
+/// and solving for positions. The topology stays as it is.
+class SurfaceFit
+{
+public:
+  /// The least lambda that is worth trying: with less, triangles would fold.
+  static constexpr double LeastSmoothness = 0.03;
+
+  /// Takes so many points of the cloud, evenly picked but for those held out, as samples. No vertex
+  /// may be erased. Cloud, mesh and executor must outlive the fit.
+  SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount,
+    const Executor& executor = Executor::sequential());
+
+  /// Finds the places of the samples on the mesh as it is now. Returns false if it was ended before.
+  bool findPlaces(const Progress& progress);
+  /// Moves the vertices. With `lambda` 0 chooses it first. Returns false, and moves none, if it was
+  /// ended before.
+  bool moveVertices(double lambda, const Progress& progress);
+  /// The lambda of the last moveVertices().
+  double smoothness() const { return smoothness_; }
+
+  /// Of samples in use, to the planes of their triangles, root of the mean square, with what the
+  /// vertices have followed of it added: the noise of the cloud, and what the triangles are too
+  /// coarse for.
+  double noise() const { return noise_; }
+  /// Part of the samples that are outliers.
+  double outlierShare() const;
+  /// Beyond this distance a sample is an outlier.
+  float outlierDistance() const { return outlierDistance_; }
+  /// Mean over root mean square of the distances of samples to the mesh: 0.8 for noise, 1 if all are
+  /// as far away.
+  double distanceEvenness() const;
+  /// Of the samples to the mesh.
+  float medianDistance() const { return medianDistance_; }
+  /// Of the samples, at the last findPlaces().
+  std::span<const PlaceOnMesh> places() const { return places_; }
+
+private:
+  bool isUsed(const PlaceOnMesh& place) const
+  {
+    return place.squaredDistance <= outlierDistance_ * outlierDistance_;
+  }
+  float weight(std::size_t sample) const { return weights_.empty() ? 1.f : weights_[sample]; }
+  void fillSystem();
+  template <typename Body>
+  void forEachRows(const Body& body) const;
+  void fillRows(const FitSystem::Rows& rows);
+  void pullBoundariesIn();
+  bool chooseSmoothness(const Progress& progress);
+  double residualVariance(std::span<const Vector4> positions, double lambda) const;
+  double roughness(std::span<const Vector4> positions) const;
+
+  const PointCloud& cloud_;
+  Mesh& mesh_;
+  const Executor& executor_;
+  std::optional<FitSystem> system_;
+  std::vector<Vector4> samples_;
+  std::vector<float> weights_; ///< of the samples; empty if all weigh alike
+  std::vector<PlaceOnMesh> places_;
+  bool hasPlaces_ = false;
+  std::size_t usedCount_ = 0;
+  float outlierDistance_ = 0.f;
+  float medianDistance_ = 0.f;
+  double smoothness_ = 0.;
+  double scale_ = 0.; ///< of the residual of the equations
+  double noise_ = 0.;
+};
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "learn/Parameters.h"
+
+#include <cmath>
+
+namespace neuralmesh
+{
+Parameters Parameters::of(Preset preset, Variant variant, Order order)
+{
+  Parameters parameters;
+  parameters.variant = variant;
+  parameters.order = order;
+  if (preset == Preset::Thesis)
+  {
+    parameters.start = Start::Tetrahedron;
+    parameters.curvatureDensity = 0.;
+    parameters.fitRounds = 0;
+    parameters.smoothingRate = order == Order::List ? 0.2 : 0.05;
+    parameters.smoothingIterations =
+      variant != Variant::NoiseFiltering && order == Order::Exact ? 5 : 1;
+    parameters.outlierLimit = 0.;
+    parameters.earlyPatience = 1.;
+    parameters.additionsPerRemoval = 125;
+    parameters.removalLimit = 0.;
+    parameters.edgeFlips = false;
+    parameters.topologyRules = TopologyRules::Thesis;
+    parameters.batchSize = 1;
+  }
+  return parameters;
+}
+
+std::vector<std::string> Parameters::errors() const
+{
+  std::vector<std::string> errors;
+  if (jump != Jump::Constant && order == Order::Exact)
+  {
+    errors.push_back(
+      "Jump tells how far winners jump in the activity list, and with exact counters "
+      "there is none. What goes together: any jump with the order list; the order "
+      "exact with the jump constant.");
+  }
+  const double weights = constantWeight + normalWeight + areaWeight + volumeWeight;
+  if (jump == Jump::Weighted && weights <= 0.)
+  {
+    errors.push_back("The weighted jump needs a weight above 0: ConstantWeight, NormalWeight, "
+                     "AreaWeight or VolumeWeight.");
+  }
+  if (topologyLearning && variant == Variant::NormalBased)
+  {
+    errors.push_back("Topology learning takes large triangles for openings, and the normal-based "
+                     "variant makes them where the surface is flat. What goes together: topology "
+                     "learning with the variants noise_filtering and basic.");
+  }
+  return errors;
+}
+
+std::vector<std::string> Parameters::warnings(std::size_t pointCount) const
+{
+  std::vector<std::string> warnings;
+  // (6.18)
+  const double expansion = std::exp(-removalPatience) * samplesPerAddition;
+  if (removalPatience <= expansion)
+  {
+    warnings.push_back("The mesh may not grow: RemovalPatience (C_ec) should exceed "
+                       "exp(-C_ec) * SamplesPerAddition = " +
+      std::to_string(expansion) + ", as (6.18) demands.");
+  }
+  if (numberOfVertices > pointCount)
+  {
+    warnings.push_back(std::to_string(numberOfVertices) + " vertices from " +
+      std::to_string(pointCount) + " points: beyond one vertex a point there is nothing to learn.");
+  }
+  return warnings;
+}
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/BoundaryFilling.h"
+
+#include <algorithm>
+#include <queue>
+
+namespace neuralmesh
+{
+namespace
+{
+/// A corner of a boundary, and the square of the edge with which a triangle would close it.
+struct RimCorner
+{
+  float squaredEdge;
+  VertexIndex vertex;
+  auto operator<=>(const RimCorner&) const = default;
+};
+
+RimCorner cornerAt(const Mesh& mesh, VertexIndex v)
+{
+  const Ring& ring = mesh.ring(v);
+  return { squaredNorm(mesh.position(ring.front()) - mesh.position(ring.back())), v };
+}
+
+/// Fills a loop corner by corner; leaves it as it was if it cannot be filled wholly.
+bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLongestEdge,
+  const std::function<bool(const Triangle&)>& isAllowed)
+{
+  const auto isTooLong = [&](VertexIndex v)
+  {
+    const Vector4 edge = mesh.position(mesh.ring(v).back()) - mesh.position(v);
+    return squaredNorm(edge) >= squaredLongestEdge;
+  };
+  if (std::any_of(loop.begin(), loop.end(), isTooLong))
+  {
+    return false;
+  }
+  std::priority_queue<RimCorner, std::vector<RimCorner>, std::greater<>> corners;
+  const auto consider = [&](VertexIndex v)
+  {
+    const RimCorner corner = cornerAt(mesh, v);
+    if (corner.squaredEdge < squaredLongestEdge)
+    {
+      corners.push(corner);
+    }
+  };
+  std::for_each(loop.begin(), loop.end(), consider);
+
+  std::vector<Triangle> filled;
+  while (!corners.empty() && filled.size() + 2 < loop.size())
+  {
+    const RimCorner corner = corners.top();
+    const VertexIndex v = corner.vertex;
+    corners.pop();
+    // Corners change with their neighbours: then they are in the queue again.
+    if (mesh.isBoundary(v) && corner == cornerAt(mesh, v) && mesh.canFill(v))
+    {
+      const Triangle triangle{ mesh.ring(v).front(), v, mesh.ring(v).back() };
+      if (isAllowed && !isAllowed(triangle))
+      {
+        break;
+      }
+      mesh.fill(v);
+      filled.push_back(triangle);
+      if (mesh.isBoundary(triangle[0]))
+      {
+        consider(triangle[0]);
+        consider(triangle[2]);
+      }
+    }
+  }
+  if (filled.size() + 2 == loop.size())
+  {
+    return true;
+  }
+  mesh.removeTriangles(filled);
+  return false;
+}
+}
+
+std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longestEdge,
+  const std::function<bool(const Triangle&)>& isAllowed)
+{
+  std::size_t filled = 0;
+  for (BoundaryManager::LoopIndex index = 0; index < boundaries.loops().size(); ++index)
+  {
+    const std::vector<VertexIndex> loop = boundaries.vertices(mesh, index);
+    if (!loop.empty() && fillLoop(mesh, loop, float(longestEdge * longestEdge), isAllowed))
+    {
+      boundaries.retrace(mesh, loop);
+      ++filled;
+    }
+  }
+  return filled;
+}
+}

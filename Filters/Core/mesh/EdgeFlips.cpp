@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/EdgeFlips.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Cosine of the angle between two normals from which on a flip may not bend the surface more.
+constexpr float CosineOfBend = 0.5f;
+/// Cosine of the angle between two normals below which an edge is a rim of two sheets.
+constexpr float CosineOfRim = -0.5f;
+/// Triangles lower than a thousandth of their edge have no normal to speak of.
+constexpr float SquaredHeightOfSliver = 1e-6f;
+constexpr int MaximumPasses = 4;
+
+/// By how much a flip of a-b to c-d lowers the sum of squared excesses of valence.
+int valenceGain(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
+{
+  return 2 *
+    (mesh.valenceExcess(a) + mesh.valenceExcess(b) - mesh.valenceExcess(c) -
+      mesh.valenceExcess(d)) -
+    4;
+}
+
+float cosine(Vector4 a, Vector4 b)
+{
+  const float lengths = std::sqrt(squaredNorm(a) * squaredNorm(b));
+  return lengths > 0.f ? dot(a, b) / lengths : -1.f;
+}
+
+bool keepsShape(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
+{
+  const Vector4 pa = mesh.position(a), pb = mesh.position(b);
+  const Vector4 pc = mesh.position(c), pd = mesh.position(d);
+  const Vector4 old1 = cross(pb - pa, pc - pa), old2 = cross(pa - pb, pd - pb);
+  const Vector4 new1 = cross(pd - pa, pc - pa), new2 = cross(pc - pb, pd - pb);
+  const Vector4 old = old1 + old2;
+  return dot(new1, old) > 0.f && dot(new2, old) > 0.f &&
+    cosine(new1, new2) >= std::min(CosineOfBend, cosine(old1, old2));
+}
+
+/// Whether a-b is the rim at which two sheets lie back to back, and c-d is shorter. Such sheets
+/// span gaps between parts of the surface that the mesh has learnt as one: no sample comes there,
+/// so nothing moves them. Flip by flip their rim retracts.
+bool isRimOfSheets(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
+{
+  const Vector4 pa = mesh.position(a), pb = mesh.position(b);
+  const Vector4 pc = mesh.position(c), pd = mesh.position(d);
+  const Vector4 normal1 = cross(pb - pa, pc - pa), normal2 = cross(pa - pb, pd - pb);
+  const float length = squaredNorm(pb - pa);
+  const float sliver = SquaredHeightOfSliver * length * length;
+  return squaredNorm(pd - pc) < length && squaredNorm(normal1) > sliver &&
+    squaredNorm(normal2) > sliver && cosine(normal1, normal2) < CosineOfRim;
+}
+
+bool isMoreRegular(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
+{
+  return valenceGain(mesh, a, b, c, d) > 0 && keepsShape(mesh, a, b, c, d);
+}
+
+/// Flips a-b if that is legal and the edge between the opposite vertices is better: for the
+/// valences, or to retract a rim.
+bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims)
+{
+  const Ring& ring = mesh.ring(a);
+  const unsigned slot = ring.find(b);
+  if (slot == ring.size())
+  {
+    return false;
+  }
+  const VertexIndex c = ring.next(slot);
+  const VertexIndex d = ring.previous(slot);
+  if (c == NoVertex || d == NoVertex)
+  {
+    return false;
+  }
+  const bool isBetter =
+    isMoreRegular(mesh, a, b, c, d) || (retractsRims && isRimOfSheets(mesh, a, b, c, d));
+  if (!isBetter || !mesh.canFlip(a, b))
+  {
+    return false;
+  }
+  mesh.flip(a, b);
+  return true;
+}
+}
+
+bool flipIfMoreRegular(Mesh& mesh, VertexIndex a, VertexIndex b)
+{
+  return flipIfBetter(mesh, a, b, false);
+}
+
+unsigned flipEdgesAround(Mesh& mesh, VertexIndex v)
+{
+  unsigned flips = 0;
+  bool improved = true;
+  for (int pass = 0; improved && pass < MaximumPasses; ++pass)
+  {
+    improved = false;
+    const Ring before = mesh.ring(v);
+    for (unsigned slot = 0; slot < before.size(); ++slot)
+    {
+      const VertexIndex neighbor = before[slot];
+      const VertexIndex next = before.next(slot);
+      const bool opposite = next != NoVertex && mesh.ring(neighbor).contains(next) &&
+        flipIfBetter(mesh, neighbor, next, true);
+      const bool spoke = mesh.ring(v).contains(neighbor) && flipIfBetter(mesh, v, neighbor, true);
+      flips += unsigned(opposite) + unsigned(spoke);
+      improved = improved || opposite || spoke;
+    }
+  }
+  return flips;
+}
+
+void flipEdges(Mesh& mesh)
+{
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    if (mesh.isAlive(v))
+    {
+      flipEdgesAround(mesh, v);
+    }
+  }
+}
+}

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/Mesh.h"
+
+#include "mesh/Renumbering.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace neuralmesh
+{
+Mesh::Mesh(LargeVector<Vector4> positions, LargeVector<Ring> rings)
+  : rings_(std::move(rings))
+  , positions_(std::move(positions))
+  , vertexCount_(rings_.size())
+{
+  assert(positions_.size() == vertexCount_);
+}
+
+Mesh Mesh::tetrahedron(Vector4 center, float radius)
+{
+  const float r = radius / std::sqrt(3.f);
+  Mesh mesh;
+  for (const Vector4& corner :
+    { Vector4(r, r, r), Vector4(r, -r, -r), Vector4(-r, r, -r), Vector4(-r, -r, r) })
+  {
+    mesh.newVertex(center + corner);
+  }
+  mesh.rings_[0].assign(std::array<VertexIndex, 3>{ 1, 2, 3 }, false);
+  mesh.rings_[1].assign(std::array<VertexIndex, 3>{ 0, 3, 2 }, false);
+  mesh.rings_[2].assign(std::array<VertexIndex, 3>{ 0, 1, 3 }, false);
+  mesh.rings_[3].assign(std::array<VertexIndex, 3>{ 0, 2, 1 }, false);
+  return mesh;
+}
+
+bool Mesh::isBoundaryEdge(VertexIndex a, VertexIndex b) const
+{
+  const Ring& ring = rings_[a];
+  return ring.isOpen() && (ring.front() == b || ring.back() == b);
+}
+
+Vector4 Mesh::normal(VertexIndex v) const
+{
+  const Ring& ring = rings_[v];
+  const Vector4 center = position(v);
+  Vector4 sum;
+  Vector4 previous = position(ring.isOpen() ? ring.front() : ring.back()) - center;
+  for (const VertexIndex neighbor : ring)
+  {
+    const Vector4 current = position(neighbor) - center;
+    sum += crossBeforeRotation(previous, current);
+    previous = current;
+  }
+  return rotated(sum);
+}
+
+double Mesh::meanEdge() const
+{
+  double sum = 0.;
+  std::size_t count = 0;
+  for (VertexIndex v = 0; v < indexEnd(); ++v)
+  {
+    for (const VertexIndex neighbor : ring(v))
+    {
+      sum += double(std::sqrt(squaredNorm(position(neighbor) - position(v))));
+      ++count;
+    }
+  }
+  return sum / double(count);
+}
+
+std::size_t Mesh::triangleCount() const
+{
+  std::size_t corners = 0;
+  for (const Ring& ring : rings_)
+  {
+    corners += ring.isEmpty() ? 0 : ring.triangleCount();
+  }
+  return corners / 3;
+}
+
+bool Mesh::contains(const Triangle& triangle) const
+{
+  const Ring& ring = rings_[triangle[0]];
+  const unsigned slot = ring.find(triangle[1]);
+  return slot < ring.size() && ring.next(slot) == triangle[2];
+}
+
+bool Mesh::canSplit(VertexIndex v, unsigned first, unsigned steps) const
+{
+  const Ring& ring = rings_[v];
+  const unsigned size = ring.size();
+  if (steps < 1 || steps >= size || first >= size)
+  {
+    return false;
+  }
+  if (ring.isOpen())
+  {
+    const unsigned last = first + steps;
+    const bool alongBoundary = (first == 0 && last < size) || last + 1 == size;
+    if (!alongBoundary)
+    {
+      return false;
+    }
+    const VertexIndex inner = first == 0 ? ring[last] : ring[first];
+    return valence(inner) < Ring::Capacity && steps + 2 <= Ring::Capacity;
+  }
+  return size + 2 - steps <= Ring::Capacity && steps + 2 <= Ring::Capacity &&
+    valence(ring[first]) < Ring::Capacity &&
+    valence(ring[ring.after(first, steps)]) < Ring::Capacity;
+}
+
+VertexIndex Mesh::split(VertexIndex v, unsigned first, unsigned steps, Vector4 position)
+{
+  assert(canSplit(v, first, steps));
+  const VertexIndex added = newVertex(position);
+  const Ring old = rings_[v];
+  const bool open = old.isOpen();
+  const bool startsAtBoundary = open && first == 0;
+  const bool endsAtBoundary = open && !startsAtBoundary;
+
+  std::array<VertexIndex, Ring::Capacity> taken{};
+  for (unsigned i = 0; i <= steps; ++i)
+  {
+    taken[i] = old[old.after(first, i)];
+  }
+  const VertexIndex start = taken[0];
+  const VertexIndex end = taken[steps];
+
+  // The new ring: the neighbours taken over, and v between the last and the first of them.
+  Ring& addedRing = rings_[added];
+  addedRing.assign(std::span(taken).first(steps + 1), open);
+  addedRing.insert(endsAtBoundary ? 0 : steps + 1, v);
+
+  // What v keeps: from the end of the part taken over around to its start, and the new vertex.
+  const unsigned kept = old.size() - steps + 1 - (open ? 1 : 0);
+  std::array<VertexIndex, Ring::Capacity> rest{};
+  const unsigned restBegin = endsAtBoundary ? 0 : old.after(first, steps);
+  for (unsigned i = 0; i < kept; ++i)
+  {
+    rest[i] = old[old.after(restBegin, i)];
+  }
+  Ring& ring = rings_[v];
+  ring.assign(std::span(rest).first(kept), open);
+  ring.insert(startsAtBoundary ? 0 : kept, added);
+
+  for (unsigned i = 0; i <= steps; ++i)
+  {
+    Ring& neighborRing = rings_[taken[i]];
+    const unsigned slot = neighborRing.find(v);
+    if (taken[i] == start && !startsAtBoundary)
+    {
+      neighborRing.insert(slot, added);
+    }
+    else if (taken[i] == end && !endsAtBoundary)
+    {
+      neighborRing.insert(slot + 1, added);
+    }
+    else
+    {
+      neighborRing.replace(slot, added);
+    }
+  }
+  return added;
+}
+
+bool Mesh::canCollapse(VertexIndex removed, VertexIndex kept) const
+{
+  const Ring& ring = rings_[removed];
+  const Ring& keptRing = rings_[kept];
+  const unsigned slot = ring.find(kept);
+  if (slot == ring.size())
+  {
+    return false;
+  }
+  const VertexIndex left = ring.next(slot);
+  const VertexIndex right = ring.previous(slot);
+  const bool boundaryEdge = left == NoVertex || right == NoVertex;
+  if (ring.isOpen() && !boundaryEdge)
+  {
+    return false;
+  }
+  // The opposite vertices lose an edge.
+  for (const VertexIndex opposite : { left, right })
+  {
+    if (opposite != NoVertex && valence(opposite) <= (isBoundary(opposite) ? 2u : 3u))
+    {
+      return false;
+    }
+  }
+  const unsigned valence = ring.size() + keptRing.size() - (boundaryEdge ? 3 : 4);
+  if (valence > Ring::Capacity || valence < (keptRing.isOpen() ? 2u : 3u))
+  {
+    return false;
+  }
+  // Link condition: no common neighbours other than the opposite vertices.
+  return std::none_of(ring.begin(), ring.end(),
+    [&](VertexIndex neighbor)
+    { return neighbor != left && neighbor != right && keptRing.contains(neighbor); });
+}
+
+void Mesh::collapse(VertexIndex removed, VertexIndex kept)
+{
+  assert(canCollapse(removed, kept));
+  const Ring ring = rings_[removed];
+  Ring& keptRing = rings_[kept];
+  const unsigned slot = ring.find(kept);
+  const VertexIndex left = ring.next(slot);
+  const VertexIndex right = ring.previous(slot);
+
+  // In the ring of the kept vertex the removed one gives way to its other neighbours: from behind
+  // the left opposite vertex around to before the right one.
+  const unsigned opposites = (left == NoVertex ? 0u : 1u) + (right == NoVertex ? 0u : 1u);
+  const unsigned inheritedCount = ring.size() - 1 - opposites;
+  const unsigned inheritedBegin = left == NoVertex ? 0 : ring.after(slot, 2);
+  unsigned place = keptRing.find(removed);
+  keptRing.erase(place);
+  for (unsigned i = 0; i < inheritedCount; ++i)
+  {
+    const VertexIndex inherited = ring[ring.after(inheritedBegin, i)];
+    keptRing.insert(place++, inherited);
+    Ring& inheritedRing = rings_[inherited];
+    inheritedRing.replace(inheritedRing.find(removed), kept);
+  }
+  for (const VertexIndex opposite : { left, right })
+  {
+    if (opposite != NoVertex)
+    {
+      Ring& oppositeRing = rings_[opposite];
+      oppositeRing.erase(oppositeRing.find(removed));
+    }
+  }
+  eraseVertex(removed);
+}
+
+bool Mesh::canFlip(VertexIndex a, VertexIndex b) const
+{
+  const Ring& ring = rings_[a];
+  const unsigned slot = ring.find(b);
+  if (slot == ring.size())
+  {
+    return false;
+  }
+  const VertexIndex c = ring.next(slot);
+  const VertexIndex d = ring.previous(slot);
+  if (c == NoVertex || d == NoVertex)
+  {
+    return false;
+  }
+  const auto canLoseEdge = [this](VertexIndex v) { return valence(v) > (isBoundary(v) ? 2u : 3u); };
+  return canLoseEdge(a) && canLoseEdge(b) && valence(c) < Ring::Capacity &&
+    valence(d) < Ring::Capacity && !rings_[c].contains(d);
+}
+
+void Mesh::flip(VertexIndex a, VertexIndex b)
+{
+  assert(canFlip(a, b));
+  Ring& ringA = rings_[a];
+  Ring& ringB = rings_[b];
+  const unsigned slot = ringA.find(b);
+  const VertexIndex c = ringA.next(slot);
+  const VertexIndex d = ringA.previous(slot);
+  ringA.erase(slot);
+  ringB.erase(ringB.find(a));
+  Ring& ringC = rings_[c];
+  ringC.insert(ringC.find(a) + 1, d);
+  Ring& ringD = rings_[d];
+  ringD.insert(ringD.find(b) + 1, c);
+}
+
+void Mesh::reserve(std::size_t count)
+{
+  rings_.reserve(count);
+  positions_.reserve(count);
+  erased_.reserve(count);
+  reusable_.reserve(count);
+}
+
+void Mesh::releaseErased()
+{
+  reusable_.insert(reusable_.end(), erased_.begin(), erased_.end());
+  erased_.clear();
+}
+
+std::vector<VertexIndex> Mesh::dropErased()
+{
+  std::vector<VertexIndex> alive;
+  alive.reserve(vertexCount());
+  for (VertexIndex v = 0; v < indexEnd(); ++v)
+  {
+    if (isAlive(v))
+    {
+      alive.push_back(v);
+    }
+  }
+  renumber(alive);
+  return alive;
+}
+
+void Mesh::renumber(std::span<const VertexIndex> order)
+{
+  assert(order.size() == vertexCount());
+  const std::vector<VertexIndex> newIndex = newIndices(order);
+  LargeVector<Ring> rings(order.size());
+  LargeVector<Vector4> positions(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    rings[i] = rings_[order[i]];
+    for (unsigned slot = 0; slot < rings[i].size(); ++slot)
+    {
+      rings[i].replace(slot, newIndex[rings[i][slot]]);
+    }
+    positions[i] = positions_[order[i]];
+  }
+  rings_ = std::move(rings);
+  positions_ = std::move(positions);
+  erased_.clear();
+  reusable_.clear();
+}
+
+void Mesh::reverseOrientation(std::span<const VertexIndex> component)
+{
+  for (const VertexIndex v : component)
+  {
+    const Ring old = ring(v);
+    for (unsigned slot = 0; slot < old.size(); ++slot)
+    {
+      rings_[v].replace(slot, old[old.size() - 1 - slot]);
+    }
+  }
+}
+
+VertexIndex Mesh::newVertex(Vector4 position)
+{
+  ++vertexCount_;
+  if (!reusable_.empty())
+  {
+    const VertexIndex v = reusable_.back();
+    reusable_.pop_back();
+    positions_[v] = position;
+    return v;
+  }
+  rings_.emplace_back();
+  positions_.push_back(position);
+  return VertexIndex(rings_.size() - 1);
+}
+
+void Mesh::eraseVertex(VertexIndex v)
+{
+  rings_[v].clear();
+  erased_.push_back(v);
+  --vertexCount_;
+}
+}

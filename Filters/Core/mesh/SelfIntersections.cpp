@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/SelfIntersections.h"
+
+#include "mesh/BoxTree.h"
+#include "mesh/TriangleIntersection.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace neuralmesh
+{
+namespace
+{
+const double FoldCosine = std::cos(150. * std::numbers::pi / 180.);
+
+/// Brings the corners that `other` has, too, to the front; returns how many there are.
+unsigned sharedToFront(Triangle& triangle, const Triangle& other)
+{
+  unsigned shared = 0;
+  for (VertexIndex& v : triangle)
+  {
+    if (v == other[0] || v == other[1] || v == other[2])
+    {
+      std::swap(triangle[shared++], v);
+    }
+  }
+  return shared;
+}
+
+Corners cornersOf(const Mesh& mesh, const Triangle& triangle)
+{
+  return { mesh.position(triangle[0]).toDouble(), mesh.position(triangle[1]).toDouble(),
+    mesh.position(triangle[2]).toDouble() };
+}
+
+bool doIntersect(const Mesh& mesh, Triangle first, Triangle second)
+{
+  const unsigned shared = sharedToFront(first, second);
+  sharedToFront(second, first);
+  if (shared == 2 && first[0] != second[0])
+  {
+    std::swap(second[0], second[1]);
+  }
+  const Corners a = cornersOf(mesh, first), b = cornersOf(mesh, second);
+  switch (shared)
+  {
+    case 0:
+      return intersect(a, b);
+    case 1:
+      return intersectBesidesFirstCorner(a, b);
+    case 2:
+      return lieOnEachOther(a, b);
+    default:
+      return true;
+  }
+}
+
+/// The triangles of a mesh, and which of them to ask for.
+class Candidates
+{
+public:
+  Candidates(const Mesh& mesh, const std::vector<bool>& isAsked)
+  {
+    const std::size_t expected = 2 * mesh.vertexCount();
+    triangles_.reserve(expected);
+    boxes_.reserve(expected);
+    isAsked_.reserve(expected);
+    mesh.forEachTriangle(
+      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+      {
+        triangles_.push_back({ a, b, c });
+        Box& box = boxes_.emplace_back();
+        box.extend(mesh.position(a));
+        box.extend(mesh.position(b));
+        box.extend(mesh.position(c));
+        isAsked_.push_back(isAsked[a] || isAsked[b] || isAsked[c]);
+      });
+  }
+
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+  /// Calls `use(i, j)` for the indices of every two triangles whose boxes overlap.
+  template <typename Use>
+  void forEachPair(Use use) const
+  {
+    BoxTree(boxes_, isAsked_).forEachOverlap(use);
+  }
+
+private:
+  std::vector<Triangle> triangles_;
+  std::vector<Box> boxes_;
+  std::vector<bool> isAsked_;
+};
+}
+
+std::vector<Triangle> intersectingTriangles(const Mesh& mesh)
+{
+  return intersectingTriangles(mesh, std::vector<bool>(mesh.indexEnd(), true));
+}
+
+std::vector<Triangle> intersectingTriangles(const Mesh& mesh, const std::vector<bool>& isAsked)
+{
+  const Candidates candidates(mesh, isAsked);
+  const std::vector<Triangle>& all = candidates.triangles();
+  std::vector<bool> isFound(all.size(), false);
+  candidates.forEachPair(
+    [&](std::uint32_t i, std::uint32_t j)
+    {
+      // Nothing is to be learnt of two that are found.
+      if (!(isFound[i] && isFound[j]) && doIntersect(mesh, all[i], all[j]))
+      {
+        isFound[i] = true;
+        isFound[j] = true;
+      }
+    });
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (isFound[i])
+    {
+      triangles.push_back(all[i]);
+    }
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+std::vector<TrianglePair> intersectingPairs(const Mesh& mesh)
+{
+  return intersectingPairs(mesh, std::vector<bool>(mesh.indexEnd(), true));
+}
+
+std::vector<TrianglePair> intersectingPairs(const Mesh& mesh, const std::vector<bool>& isAsked)
+{
+  const Candidates candidates(mesh, isAsked);
+  const std::vector<Triangle>& all = candidates.triangles();
+  std::vector<TrianglePair> pairs;
+  candidates.forEachPair(
+    [&](std::uint32_t i, std::uint32_t j)
+    {
+      if (doIntersect(mesh, all[i], all[j]))
+      {
+        pairs.push_back({ std::min(all[i], all[j]), std::max(all[i], all[j]) });
+      }
+    });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::array<VertexIndex, 2> oppositeTo(const Mesh& mesh, const Edge& edge)
+{
+  const Ring& ring = mesh.ring(edge[0]);
+  const unsigned slot = ring.find(edge[1]);
+  return { ring.next(slot), ring.previous(slot) };
+}
+
+bool isFolded(const Mesh& mesh, const Edge& edge)
+{
+  const auto [next, previous] = oppositeTo(mesh, edge);
+  if (next == NoVertex || previous == NoVertex)
+  {
+    return false;
+  }
+  const Eigen::Vector3d a = mesh.position(edge[0]).toDouble();
+  const Eigen::Vector3d along = mesh.position(edge[1]).toDouble() - a;
+  const Eigen::Vector3d left = along.cross(mesh.position(next).toDouble() - a);
+  const Eigen::Vector3d right = (mesh.position(previous).toDouble() - a).cross(along);
+  return left.dot(right) < FoldCosine * left.norm() * right.norm();
+}
+
+std::vector<Edge> foldedEdges(const Mesh& mesh)
+{
+  return foldedEdges(mesh, std::vector<bool>(mesh.indexEnd(), true));
+}
+
+std::vector<Edge> foldedEdges(const Mesh& mesh, const std::vector<bool>& isAsked)
+{
+  std::vector<Edge> edges;
+  const auto isAskedVertex = [&](VertexIndex v) { return v != NoVertex && isAsked[v]; };
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    const Ring& ring = mesh.ring(v);
+    for (unsigned slot = 0; slot < ring.size(); ++slot)
+    {
+      const VertexIndex neighbor = ring[slot];
+      if (v < neighbor &&
+        (isAsked[v] || isAsked[neighbor] || isAskedVertex(ring.next(slot)) ||
+          isAskedVertex(ring.previous(slot))) &&
+        isFolded(mesh, { v, neighbor }))
+      {
+        edges.push_back({ v, neighbor });
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+}

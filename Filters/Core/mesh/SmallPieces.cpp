@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/SmallPieces.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr double LeastPart = 0.02;
+}
+
+std::vector<Triangle> findSmallPieces(const Mesh& mesh)
+{
+  std::vector<std::uint32_t> pieceOf(mesh.indexEnd(), 0);
+  std::vector<std::size_t> sizes{ 0 };
+  std::vector<VertexIndex> open;
+  for (VertexIndex first = 0; first < mesh.indexEnd(); ++first)
+  {
+    if (!mesh.isAlive(first) || pieceOf[first] != 0)
+    {
+      continue;
+    }
+    const auto piece = std::uint32_t(sizes.size());
+    sizes.push_back(0);
+    open.assign(1, first);
+    pieceOf[first] = piece;
+    while (!open.empty())
+    {
+      const VertexIndex v = open.back();
+      open.pop_back();
+      ++sizes[piece];
+      for (const VertexIndex neighbor : mesh.ring(v))
+      {
+        if (pieceOf[neighbor] == 0)
+        {
+          pieceOf[neighbor] = piece;
+          open.push_back(neighbor);
+        }
+      }
+    }
+  }
+  const auto largest = double(*std::max_element(sizes.begin(), sizes.end()));
+  std::vector<Triangle> result;
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    {
+      if (double(sizes[pieceOf[a]]) < LeastPart * largest)
+      {
+        result.push_back({ a, b, c });
+      }
+    });
+  return result;
+}
+}

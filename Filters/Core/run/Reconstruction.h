@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Executor.h"
+#include "base/Progress.h"
+#include "fit/Finish.h"
+#include "fit/MeshQuality.h"
+#include "learn/GrowthWatch.h"
+#include "learn/LearningCurve.h"
+#include "learn/StoppingRules.h"
+#include "mesh/TriangleMesh.h"
+#include "run/Checkpoint.h"
+
+#include <optional>
+#include <vector>
+
+namespace neuralmesh
+{
+/// What a run gives, in the coordinates of the input.
+struct Reconstruction
+{
+  /// Whether the run came to its end: it was not cancelled, and there was time for all of it.
+  bool isComplete() const
+  {
+    return stopReason != StopReason::Cancelled && stopReason != StopReason::TimeLimit;
+  }
+
+  TriangleMesh mesh;
+  Mesh surface; ///< the same mesh, in the coordinates of the cloud
+  std::vector<Eigen::Vector3d> normals;
+  std::vector<double> activities;
+  std::vector<double> featureStrengths; ///< empty unless they were asked for
+  RunCounts counts;
+  LearningCurve curve;
+  StopReason stopReason = StopReason::None;
+  std::uint64_t resumedIterations = 0; ///< those of the checkpoint from which the run went on
+  /// Nothing if the mesh was not finished.
+  std::optional<FinishReport> finish;
+  /// Nothing if the run was cancelled.
+  std::optional<MeshQuality> quality;
+  // CPU seconds of the process
+  double startSeconds = 0.;
+  double learningSeconds = 0.;
+  double finishSeconds = 0.;
+};
+
+/// A mesh that is finished learns no more vertices than there is something to learn for.
+Parameters learnable(Parameters parameters, const PointCloud& cloud);
+/// Vertices of the first surface: a part of all, but enough for a shape, if all are twice as many.
+std::size_t firstVertices(std::uint64_t vertices);
+
+/// CPU seconds that the process has used so far.
+double cpuSeconds();
+
+// Where the parts of a run begin and end, as fractions of its progress.
+inline constexpr double StartOfLearning = 0.15;
+inline constexpr double EndOfLearning = 0.65;
+
+/// Grows a mesh over a cloud that has an extent: from `first`, or what the parameters have it start
+/// from if there is none, until a stopping rule is met. Then finishes it, unless there is no time
+/// left, or nothing was learnt; and orients it outwards. Snapshots of the growth go to `watch`. The
+/// run goes on from the checkpoint that `plan` names, if there is one, and leaves one there: in the
+/// end, too, for what becomes of the result is not known here. Throws as Checkpoint does.
+Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
+  const Progress& progress, const std::optional<Mesh>& first = {}, const GrowthWatch& watch = {},
+  const CheckpointPlan& plan = {}, const Executor& executor = Executor::sequential());
+}

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/StreamingReconstruction.h"
+
+#include "cloud/MeshBuilder.h"
+#include "mesh/Orientation.h"
+#include "start/FirstSurface.h"
+#include "start/OccupiedVoxels.h"
+#include "start/OutlierClusters.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+/// With fewer there is nothing to see yet.
+constexpr std::size_t LeastPointsToMesh = 100;
+constexpr std::uint64_t SamplesBetweenChecks = 4096;
+
+/// The mesh is begun anew if so much more of the occupied space is away from it than when it was
+/// begun ...
+constexpr double MostUncovered = 0.02;
+/// ... or if there are so many times the points that it was begun with.
+constexpr std::size_t MorePoints = 2;
+
+/// Voxels to see that by are about an edge wide, but wide enough that so many points are in one, and
+/// within these resolutions.
+constexpr double PointsPerVoxel = 36.;
+constexpr double CoarsestCover = 4., FinestCover = 32.;
+
+/// The part of the space occupied by a cloud that is farther than a voxel from all vertices of a
+/// mesh, in the coordinates of another cloud.
+double uncoveredPart(const PointCloud& cloud, const Mesh& mesh, const PointCloud& ofMesh)
+{
+  const double edge = mesh.meanEdge() * ofMesh.unit() / cloud.unit();
+  const double wanted =
+    std::min(1. / edge, std::sqrt(double(cloud.points().size()) / PointsPerVoxel));
+  const OccupiedVoxels voxels =
+    occupiedVoxels(cloud, unsigned(std::clamp(wanted, CoarsestCover, FinestCover)));
+  const VoxelGrid& grid = voxels.grid;
+  std::vector<std::uint8_t> isCovered(grid.size() + 1, 0); // the last one for all places outside
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    if (!mesh.isAlive(v))
+    {
+      continue;
+    }
+    const Eigen::Vector3d place = cloud.fromInput(ofMesh.toInput(mesh.position(v))).toDouble();
+    for (int x = -1; x <= 1; ++x)
+    {
+      for (int y = -1; y <= 1; ++y)
+      {
+        for (int z = -1; z <= 1; ++z)
+        {
+          isCovered[grid.voxelAt(place + grid.width * Eigen::Vector3d(x, y, z))] = 1;
+        }
+      }
+    }
+  }
+  double occupied = 0., uncovered = 0.;
+  for (std::size_t voxel = 0; voxel < grid.size(); ++voxel)
+  {
+    occupied += voxels.isOccupied[voxel] ? 1. : 0.;
+    uncovered += voxels.isOccupied[voxel] && !isCovered[voxel] ? 1. : 0.;
+  }
+  return occupied > 0. ? uncovered / occupied : 0.;
+}
+}
+
+StreamingReconstruction::StreamingReconstruction(
+  const Parameters& parameters, std::size_t reservoirSize)
+  : parameters_(parameters)
+  , reservoir_(reservoirSize, parameters.seed)
+{
+}
+
+void StreamingReconstruction::addPoints(std::span<const Eigen::Vector3d> points)
+{
+  for (const Eigen::Vector3d& point : points)
+  {
+    if (point.allFinite())
+    {
+      reservoir_.add(point);
+    }
+    else
+    {
+      ++droppedCount_;
+    }
+  }
+}
+
+std::uint64_t StreamingReconstruction::sampleCount() const
+{
+  return earlierSamples_ + (learner_ ? learner_->counts().iterations : 0);
+}
+
+std::size_t StreamingReconstruction::vertexCount() const
+{
+  return learner_ ? learner_->mesh().vertexCount() : 0;
+}
+
+std::uint64_t StreamingReconstruction::learn(std::uint64_t samples, const Progress& progress)
+{
+  if (!takeInPoints(progress))
+  {
+    return 0;
+  }
+  Learner& learner = *learner_;
+  const std::uint64_t begin = learner.counts().iterations;
+  for (std::uint64_t learnt = 0; learnt < samples && progress(double(learnt) / double(samples));
+       learnt = learner.counts().iterations - begin)
+  {
+    learner.learn(std::min<std::uint64_t>(
+      samples - learnt, std::max<std::uint64_t>(SamplesBetweenChecks, learner.batchSize())));
+  }
+  return learner.counts().iterations - begin;
+}
+
+/// Has the mesh learn from the points that have come. False if there is no mesh then.
+bool StreamingReconstruction::takeInPoints(const Progress& progress)
+{
+  if (takenIn_ == reservoir_.seen() || reservoir_.points().size() < LeastPointsToMesh)
+  {
+    return hasMesh();
+  }
+  auto cloud = std::make_unique<PointCloud>(reservoir_.points());
+  if (!cloud->hasExtent())
+  {
+    return hasMesh();
+  }
+  if (auto cleaned = withoutClusters(*cloud))
+  {
+    *cloud = std::move(*cleaned);
+  }
+  Parameters parameters = learnable(parameters_, *cloud);
+  parameters.seed += clouds_++;
+  if (mustBegin(*cloud))
+  {
+    if (!begin(*cloud, parameters, progress))
+    {
+      return false;
+    }
+  }
+  else
+  {
+    learner_->changeCloud(*cloud_, *cloud, parameters);
+    if (bridgeWidth_)
+    {
+      *bridgeWidth_ *= cloud_->unit() / cloud->unit();
+    }
+  }
+  cloud_ = std::move(cloud);
+  takenIn_ = reservoir_.seen();
+  return true;
+}
+
+bool StreamingReconstruction::mustBegin(const PointCloud& cloud) const
+{
+  return !learner_ || cloud.points().size() >= MorePoints * pointsAtBeginning_ ||
+    uncoveredPart(cloud, learner_->mesh(), *cloud_) > uncoveredAtBeginning_ + MostUncovered;
+}
+
+/// False if that was ended; then all is as before.
+bool StreamingReconstruction::begin(
+  const PointCloud& cloud, const Parameters& parameters, const Progress& progress)
+{
+  bool isEnded = false;
+  std::optional<FirstSurface> surface;
+  if (parameters.start == Start::OccupiedSpace)
+  {
+    surface = firstSurface(cloud, firstVertices(parameters.numberOfVertices), parameters.boundaries,
+      [&](double) { return !isEnded && !(isEnded = !progress(0.)); });
+  }
+  if (isEnded)
+  {
+    return false;
+  }
+  earlierSamples_ = sampleCount();
+  bridgeWidth_.reset();
+  if (surface)
+  {
+    learner_.emplace(cloud, parameters, surface->mesh);
+    if (parameters.boundaries == Boundaries::Keep)
+    {
+      bridgeWidth_ = surface->bridgeWidth;
+    }
+  }
+  else
+  {
+    learner_.emplace(cloud, parameters);
+  }
+  learner_->letWander();
+  pointsAtBeginning_ = cloud.points().size();
+  uncoveredAtBeginning_ = uncoveredPart(cloud, learner_->mesh(), cloud);
+  ++beginnings_;
+  return true;
+}
+
+Reconstruction StreamingReconstruction::mesh(bool isFinished, const Progress& progress) const
+{
+  Reconstruction result;
+  const Learner& learner = *learner_;
+  Mesh mesh = learner.mesh();
+  const std::vector<VertexIndex> learnt = mesh.dropErased();
+  result.counts = learner.counts();
+  result.counts.iterations = sampleCount();
+  Finish finish(*cloud_, mesh, parameters_, bridgeWidth_,
+    learner.hasAllVertices() ? std::size_t(parameters_.numberOfVertices) : learnt.size());
+  if (isFinished && parameters_.fitRounds > 0)
+  {
+    if (finish.run(progress))
+    {
+      result.finish = finish.report();
+    }
+    else
+    {
+      result.stopReason = StopReason::Cancelled;
+    }
+  }
+  orientOutwards(mesh);
+  result.mesh = trianglesOf(mesh, *cloud_);
+  result.normals = pointNormals(result.mesh);
+  for (const VertexIndex origin : finish.origins())
+  {
+    result.activities.push_back(learner.order().activity(learnt[origin]));
+  }
+  if (result.finish)
+  {
+    result.quality = measureQuality(*cloud_, mesh, result.mesh);
+  }
+  result.surface = std::move(mesh);
+  return result;
+}
+}

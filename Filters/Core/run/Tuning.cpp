@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/Tuning.h"
+
+#include "base/Median.h"
+#include "fit/SurfaceFit.h"
+#include "run/Reconstruction.h"
+#include "run/TuningPatch.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <span>
+#include <sstream>
+#include <thread>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr std::size_t LeastProbes = 1000;
+constexpr std::array RoundsToTry = { 6, 10 };
+constexpr double LeastGain = 0.01;
+constexpr double LeastGainInDoubts = 3.;
+// Noise, in mean edge lengths.
+/// With more, bends cannot be told from it.
+constexpr double NoiseThatHidesBends = 0.25;
+/// With less there is nothing to smooth but edges.
+constexpr double NoiseToSmooth = 0.05;
+/// Lambda by the data, of patches.
+constexpr double MostSmoothnessOverLeast = 3.;
+
+std::string text(double value)
+{
+  std::ostringstream stream;
+  stream.precision(2);
+  stream << value;
+  return stream.str();
+}
+
+/// To two digits: what is told is what is used.
+double rounded(double value)
+{
+  const double unit = std::pow(10., std::floor(std::log10(value)) - 1.);
+  return unit * std::round(value / unit);
+}
+
+double meanOf(std::span<const double> values)
+{
+  double sum = 0.;
+  for (const double value : values)
+  {
+    sum += value;
+  }
+  return sum / double(values.size());
+}
+
+/// By how much squared distances are less than those before.
+struct Comparison
+{
+  double before = 0.;
+  double gain = 0.;
+  double doubt = 0.; ///< standard error of the gain
+};
+
+/// Points side by side have their distances in common, and where one of the meshes has a gap or a
+/// fold the other one is no better: so what is compared are the means of blocks of points, without
+/// the fifth of them that gain most and the fifth that lose most (a trimmed mean).
+Comparison compare(std::span<const double> before, std::span<const double> after)
+{
+  constexpr std::size_t Blocks = 100;
+  constexpr double FarthestMedians = 6.;
+  const double limit =
+    FarthestMedians * FarthestMedians * medianOf(std::vector<double>(before.begin(), before.end()));
+  if (!std::isfinite(limit))
+  {
+    return {};
+  }
+  std::vector<double> befores, gains;
+  for (std::size_t block = 0; block < Blocks; ++block)
+  {
+    double sum = 0., gain = 0., count = 0.;
+    for (std::size_t i = block * before.size() / Blocks; i < (block + 1) * before.size() / Blocks;
+         ++i)
+    {
+      if (before[i] <= limit && after[i] <= limit)
+      {
+        sum += before[i];
+        gain += before[i] - after[i];
+        ++count;
+      }
+    }
+    if (count > 0.)
+    {
+      befores.push_back(sum / count);
+      gains.push_back(gain / count);
+    }
+  }
+  if (gains.empty())
+  {
+    return {};
+  }
+  std::sort(gains.begin(), gains.end());
+  const std::size_t trimmed = gains.size() / 5;
+  const std::span<const double> middle(gains.data() + trimmed, gains.size() - 2 * trimmed);
+  const double mean = meanOf(middle);
+  double variance = 0.;
+  for (const double gain : gains)
+  {
+    const double apart = std::clamp(gain, middle.front(), middle.back()) - mean;
+    variance += apart * apart / double(gains.size());
+  }
+  const double kept = double(middle.size()) / double(gains.size());
+  return { meanOf(befores), mean, std::sqrt(variance / double(gains.size())) / kept };
+}
+
+/// Tries values one after the other.
+class Tuner
+{
+public:
+  Tuner(const PointCloud& cloud, const Parameters& wanted, const Progress& progress,
+    const Executor& executor)
+    : cloud_(cloud)
+    , progress_(progress)
+    , executor_(executor)
+    , patches_(TuningPatch::patchesOf(cloud, learnable(wanted, cloud)))
+    , smoothness_(patches_.size())
+  {
+    result_.parameters = wanted;
+  }
+
+  std::optional<Tuning> run()
+  {
+    // With another density all that comes is to be measured against that.
+    if (begin() && (!chooseDensity() || begin()))
+    {
+      chooseRounds();
+      chooseSmoothness();
+    }
+    return isCancelled_ ? std::nullopt : std::optional(std::move(result_));
+  }
+
+private:
+  /// Runs with the parameters as they are. Returns whether there is enough to measure by.
+  bool begin()
+  {
+    const std::vector<Reconstruction> runs = runAll(result_.parameters, 1.);
+    std::size_t probes = 0;
+    double noise = 0.;
+    for (std::size_t i = 0; i < runs.size() && !isCancelled_; ++i)
+    {
+      if (runs[i].finish)
+      {
+        smoothness_[i] = runs[i].finish->smoothness;
+        noise += runs[i].finish->noise / runs[i].surface.meanEdge() / double(runs.size());
+        patches_[i].aim(runs[i].surface);
+        probes += patches_[i].probeCount();
+      }
+    }
+    if (isCancelled_)
+    {
+      return false;
+    }
+    const bool areFinished =
+      std::all_of(runs.begin(), runs.end(), [](const auto& run) { return run.finish.has_value(); });
+    if (!areFinished || probes < LeastProbes)
+    {
+      result_.remarks.emplace_back("there are too few points to tell by them what is better");
+      return false;
+    }
+    noise_ = noise;
+    best_ = measure(runs);
+    return true;
+  }
+
+  /// Returns whether it is another one than before.
+  bool chooseDensity()
+  {
+    double& density = result_.parameters.curvatureDensity;
+    if (noise_ <= NoiseThatHidesBends || density == 0.)
+    {
+      return false;
+    }
+    result_.choices.push_back({ "CurvatureDensity", density, 0. });
+    result_.remarks.emplace_back("CurvatureDensity is 0, as bends cannot be told from noise of " +
+      text(noise_) + " edge lengths");
+    density = 0.;
+    return true;
+  }
+
+  void chooseRounds()
+  {
+    const int wanted = result_.parameters.fitRounds;
+    if (wanted < RoundsToTry.back() && hasGaps())
+    {
+      result_.remarks.emplace_back(
+        "no more FitRounds were tried, as the scan has gaps, whose rims they would draw back");
+      return;
+    }
+    for (const int rounds : RoundsToTry)
+    {
+      Parameters tried = result_.parameters;
+      tried.fitRounds = rounds;
+      const int before = result_.parameters.fitRounds;
+      if (rounds <= before)
+      {
+        continue;
+      }
+      if (!isBetter(tried, 1., { "FitRounds", double(before), double(rounds) }))
+      {
+        break;
+      }
+      result_.parameters = tried;
+    }
+    if (result_.parameters.fitRounds != wanted)
+    {
+      result_.choices.push_back(
+        { "FitRounds", double(wanted), double(result_.parameters.fitRounds) });
+    }
+  }
+
+  /// Whether a coarse mesh of the whole cloud ends anywhere.
+  bool hasGaps()
+  {
+    constexpr std::size_t PointsPerVertex = 20;
+    Parameters own = forTrial(result_.parameters);
+    if (own.boundaries == Boundaries::Close || own.start == Start::Tetrahedron)
+    {
+      return false;
+    }
+    own.numberOfVertices =
+      std::min<std::uint64_t>(own.numberOfVertices, TuningPatch::PatchVertices);
+    const std::size_t stride = std::max<std::size_t>(
+      1, cloud_.points().size() / (PointsPerVertex * std::size_t(own.numberOfVertices)));
+    std::size_t index = 0;
+    const PointCloud thinned = cloud_.without([&](Vector4) { return index++ % stride != 0; });
+    const Reconstruction run =
+      reconstruct(thinned, own, [this](double) { return !(isCancelled_ = !progress_(done())); });
+    return run.quality && run.quality->surface.boundaryLoops > 0;
+  }
+
+  /// Less than lambda by the data, or more.
+  void chooseSmoothness()
+  {
+    if (result_.parameters.fitSmoothness > 0.)
+    {
+      return;
+    }
+    const auto [least, most] = std::minmax_element(smoothness_.begin(), smoothness_.end());
+    if (*most > MostSmoothnessOverLeast * *least)
+    {
+      result_.remarks.emplace_back("no FitSmoothness was tried, as by the data it is " +
+        text(*least) + " at one place and " + text(*most) +
+        " at another: what is best for them is not for the whole");
+      return;
+    }
+    const double byData = medianOf(smoothness_);
+    double best = 1.;
+    const auto tryFactors = [&](double first, double second)
+    {
+      for (const double factor : { first, second })
+      {
+        if (factor * byData < SurfaceFit::LeastSmoothness ||
+          !isBetter(
+            result_.parameters, factor, { "FitSmoothness", best * byData, factor * byData }))
+        {
+          return;
+        }
+        best = factor;
+      }
+    };
+    tryFactors(0.5, 0.25);
+    if (best == 1. && noise_ > NoiseToSmooth)
+    {
+      tryFactors(2., 4.);
+    }
+    if (best != 1.)
+    {
+      const double chosen = rounded(best * byData);
+      result_.parameters.fitSmoothness = chosen;
+      result_.choices.push_back({ "FitSmoothness", 0., chosen });
+    }
+  }
+
+  /// The vertices alone end a trial.
+  static Parameters forTrial(Parameters parameters)
+  {
+    parameters.maximumIterations = 0;
+    parameters.targetSampleDistance = 0.;
+    parameters.targetCloudDistance = 0.;
+    parameters.targetNormalChange = 0.;
+    parameters.timeLimit = 0.;
+    return parameters;
+  }
+
+  /// Runs on all patches, with the lambda of each by the data times a factor.
+  std::vector<Reconstruction> runAll(const Parameters& parameters, double factor)
+  {
+    std::vector<Reconstruction> runs(patches_.size());
+    const std::thread::id asking = std::this_thread::get_id();
+    std::atomic<bool> isCancelled = isCancelled_;
+    executor_.forEachPart(runs.size(),
+      [&](std::size_t i)
+      {
+        Parameters own = forTrial(parameters);
+        own.numberOfVertices = patches_[i].vertices();
+        if (factor != 1.)
+        {
+          own.fitSmoothness = factor * smoothness_[i];
+        }
+        // Only the thread of the caller may tell him.
+        const Progress progress = [&](double)
+        {
+          if (std::this_thread::get_id() == asking && !progress_(done()))
+          {
+            isCancelled = true;
+          }
+          return !isCancelled;
+        };
+        runs[i] = reconstruct(patches_[i].cloud(), own, progress);
+      });
+    isCancelled_ = isCancelled;
+    ++runCount_;
+    return runs;
+  }
+
+  double done() const
+  {
+    constexpr double MostRuns = 6.;
+    return std::min(1., runCount_ / MostRuns);
+  }
+
+  std::vector<double> measure(const std::vector<Reconstruction>& runs) const
+  {
+    std::vector<double> squared;
+    for (std::size_t i = 0; i < runs.size(); ++i)
+    {
+      const std::vector<double> own = patches_[i].squaredDistances(runs[i].surface);
+      squared.insert(squared.end(), own.begin(), own.end());
+    }
+    return squared;
+  }
+
+  bool isBetter(const Parameters& parameters, double factor, TuningTrial trial)
+  {
+    if (isCancelled_)
+    {
+      return false;
+    }
+    const std::vector<Reconstruction> runs = runAll(parameters, factor);
+    if (isCancelled_)
+    {
+      return false;
+    }
+    const std::vector<double> squared = measure(runs);
+    const auto [before, gain, doubt] = compare(best_, squared);
+    trial.error = cloud_.unit() * std::sqrt(std::max(0., before - gain));
+    trial.gain = before > 0. ? gain / before : 0.;
+    trial.doubt = before > 0. ? doubt / before : 0.;
+    trial.isTaken = trial.gain > std::max(LeastGain, LeastGainInDoubts * trial.doubt);
+    result_.trials.push_back(trial);
+    if (trial.isTaken)
+    {
+      best_ = squared;
+    }
+    return trial.isTaken;
+  }
+
+  const PointCloud& cloud_;
+  const Progress& progress_;
+  const Executor& executor_;
+  std::vector<TuningPatch> patches_;
+  std::vector<double> smoothness_; ///< lambda by the data, of each patch
+  std::vector<double> best_;       ///< squared distances with the best parameters so far
+  double noise_ = 0.;              ///< of mean edges
+  int runCount_ = 0;
+  bool isCancelled_ = false;
+  Tuning result_;
+};
+}
+
+std::vector<std::string> Tuning::reasons() const
+{
+  std::vector<std::string> lines;
+  for (const TuningTrial& trial : trials)
+  {
+    lines.push_back(std::string(trial.parameter) + " " + text(trial.value) + " instead of " +
+      text(trial.before) + (trial.isTaken ? ": taken" : ": not taken") +
+      ", squares of held-out distances are " + text(100. * std::abs(trial.gain)) + " % " +
+      (trial.gain < 0. ? "more" : "less") + " (standard error " + text(100. * trial.doubt) + " %)");
+  }
+  lines.insert(lines.end(), remarks.begin(), remarks.end());
+  return lines;
+}
+
+std::optional<Tuning> tune(const PointCloud& cloud, const Parameters& wanted,
+  const Progress& progress, const Executor& executor)
+{
+  if (wanted.fitRounds == 0)
+  {
+    return Tuning{ wanted, {}, {}, { "without a fit there is nothing to choose" } };
+  }
+  return Tuner(cloud, wanted, progress, executor).run();
+}
+}

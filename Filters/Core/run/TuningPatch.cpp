@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/TuningPatch.h"
+
+#include "base/Median.h"
+#include "base/Random.h"
+#include "cloud/PlaceOnMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr std::size_t PatchCount = 4;
+constexpr std::size_t PointsPerHeldOut = 5;
+/// Different ones: around many points in one place there is no more to learn than there is of it.
+constexpr std::size_t LeastPointsOfPatch = 1000;
+/// Of the radius of a patch: what is beyond is not measured, as meshes have their rim there.
+constexpr float InnerPart = 0.8f;
+
+/// The radius of a ball that holds such a share of the points.
+float radiusOf(const PointCloud& cloud, Vector4 center, double share)
+{
+  constexpr std::size_t Enough = 50000;
+  const std::size_t stride = 1 + cloud.points().size() / Enough;
+  std::vector<float> squared;
+  squared.reserve(cloud.points().size() / stride + 1);
+  for (std::size_t i = 0; i < cloud.points().size(); i += stride)
+  {
+    squared.push_back(squaredNorm(cloud.points()[i] - center));
+  }
+  const auto rank = squared.begin() + std::ptrdiff_t(double(squared.size() - 1) * share);
+  std::nth_element(squared.begin(), rank, squared.end());
+  return std::sqrt(*rank);
+}
+
+Vector4 unitVector(Vector4 vector)
+{
+  const float squared = squaredNorm(vector);
+  return squared > 0.f ? (1.f / std::sqrt(squared)) * vector : vector;
+}
+
+/// Unit normals of the vertices, averaged over a few rings: they tell of the shape at large, and not
+/// of the roughness that one fit has and another one has not.
+std::vector<Vector4> normalsAtLarge(const Mesh& mesh)
+{
+  constexpr int Rounds = 10;
+  std::vector<Vector4> normals(mesh.indexEnd());
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    normals[v] = unitVector(mesh.normal(v));
+  }
+  for (int round = 0; round < Rounds; ++round)
+  {
+    std::vector<Vector4> next = normals;
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      const Ring& ring = mesh.ring(v);
+      for (unsigned slot = 0; slot < ring.size(); ++slot)
+      {
+        next[v] += normals[ring[slot]];
+      }
+      next[v] = unitVector(next[v]);
+    }
+    normals.swap(next);
+  }
+  return normals;
+}
+}
+
+TuningPatch::TuningPatch(
+  const PointCloud& cloud, Vector4 center, float radius, std::uint64_t vertices)
+  : cloud_(
+      cloud.without([&](Vector4 point) { return squaredNorm(point - center) > radius * radius; }))
+  , center_(center)
+  , radius_(radius)
+  , vertices_(vertices)
+{
+  std::size_t index = 0;
+  cloud_ = cloud_.without(
+    [&](Vector4 point)
+    {
+      const bool isHeldOut = index++ % PointsPerHeldOut == 0;
+      // In Morton order, equal ones are neighbours; each is evidence only once.
+      if (isHeldOut && (heldOut_.empty() || squaredNorm(point - heldOut_.back()) > 0.f))
+      {
+        heldOut_.push_back(point);
+      }
+      return isHeldOut;
+    });
+}
+
+std::vector<TuningPatch> TuningPatch::patchesOf(
+  const PointCloud& cloud, const Parameters& parameters)
+{
+  const double share = double(PatchVertices) / double(parameters.numberOfVertices);
+  std::vector<TuningPatch> patches;
+  const auto add = [&](Vector4 center, float radius, std::uint64_t vertices)
+  {
+    TuningPatch patch(cloud, center, radius, vertices);
+    if (patch.cloud().differentCount() >= LeastPointsOfPatch)
+    {
+      patches.push_back(std::move(patch));
+    }
+  };
+  if (share >= 0.5)
+  {
+    add(0.5f * (cloud.bulkMin() + cloud.bulkMax()), std::numeric_limits<float>::max(),
+      parameters.numberOfVertices);
+    return patches;
+  }
+  constexpr std::uint64_t Stream = 11;
+  constexpr float LargestOverMedian = 1.5f;
+  Random random(parameters.seed, Stream);
+  std::vector<std::pair<float, Vector4>> balls;
+  std::vector<float> radii;
+  for (std::size_t i = 0; i < 3 * PatchCount; ++i)
+  {
+    const Vector4 center = cloud.points()[random.below64(cloud.points().size())];
+    radii.push_back(radiusOf(cloud, center, share));
+    balls.emplace_back(radii.back(), center);
+  }
+  const float largest = LargestOverMedian * medianOf(radii);
+  for (const auto& [radius, center] : balls)
+  {
+    if (radius <= largest && patches.size() < PatchCount)
+    {
+      add(center, radius, PatchVertices);
+    }
+  }
+  return patches;
+}
+
+void TuningPatch::aim(const Mesh& mesh)
+{
+  probes_.clear();
+  if (heldOut_.empty() || mesh.vertexCount() == 0)
+  {
+    return;
+  }
+  const VertexGrid grid = gridOf(mesh, cloud_);
+  std::vector<PlaceOnMesh> places;
+  std::vector<float> squared;
+  for (const Vector4 point : heldOut_)
+  {
+    places.push_back(closestPlace(point, mesh, grid));
+    squared.push_back(places.back().squaredDistance);
+  }
+  const float farthest = outlierDistance(std::sqrt(medianOf(squared)), mesh.meanEdge());
+  const float inner = InnerPart * radius_;
+  const std::vector<Vector4> normals = normalsAtLarge(mesh);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const PlaceOnMesh& place = places[i];
+    const Vector4 point = heldOut_[i];
+    if (squared[i] > farthest * farthest || squaredNorm(point - center_) > inner * inner ||
+      isOnBoundary(place, mesh))
+    {
+      continue;
+    }
+    Vector4 direction{};
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      direction += place.weights[corner] * normals[place.triangle[std::size_t(corner)]];
+    }
+    probes_.push_back({ point, unitVector(direction), pointAt(place, mesh.positions()), farthest });
+  }
+}
+
+std::vector<double> TuningPatch::squaredDistances(const Mesh& mesh) const
+{
+  constexpr int Steps = 3;
+  // Triangles that are turned farther away count as if they were not.
+  constexpr float LeastCosine = 0.3f;
+  const VertexGrid grid = gridOf(mesh, cloud_);
+  std::vector<double> result;
+  result.reserve(probes_.size());
+  for (const Probe& probe : probes_)
+  {
+    // Where the line through the point meets the triangle that is closest to where it met the last.
+    Vector4 place = probe.foot;
+    double squared = 0.;
+    for (int step = 0; step < Steps; ++step)
+    {
+      const PlaceOnMesh closest = closestPlace(place, mesh, grid);
+      if (isOnBoundary(closest, mesh))
+      {
+        squared = std::numeric_limits<double>::infinity();
+        break;
+      }
+      const Vector4 corner = mesh.position(closest.triangle[0]);
+      const Vector4 normal = unitVector(cross(
+        mesh.position(closest.triangle[1]) - corner, mesh.position(closest.triangle[2]) - corner));
+      const float cosine = std::max(LeastCosine, dot(normal, probe.direction));
+      const float distance =
+        std::clamp(dot(normal, probe.point - corner) / cosine, -probe.farthest, probe.farthest);
+      place = probe.point - distance * probe.direction;
+      squared = double(distance) * double(distance);
+    }
+    result.push_back(squared);
+  }
+  return result;
+}
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Executor.h"
+#include "base/Progress.h"
+#include "cloud/PointCloud.h"
+#include "learn/Parameters.h"
+#include "mesh/Mesh.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace neuralmesh
+{
+/// A coarse surface of the topology of the shape, to start learning from.
+struct FirstSurface
+{
+  Mesh mesh;
+  unsigned resolution = 0; ///< of the grid that it comes from
+  long genus = 0;
+  std::size_t components = 0;
+  bool isOpen = false;
+  bool isCertain = false;    ///< whether the next coarser grid gives the same topology
+  double bridgeWidth = 0.;   ///< gaps up to about that were closed
+  float skinThickness = 0.f; ///< about, if it is a skin around points that enclose nothing
+};
+
+/// The surface of the space that the cloud occupies or encloses, from a grid: the finest one tried
+/// that does enclose something, and whose topology the next coarser one confirms. If no grid
+/// encloses anything the cloud is open, and it is one sheet. Then fitted to the cloud, and opened
+/// where there is no data, or closed.
+///
+/// Has at most so many vertices. Nothing if that is too few for the topology, or the cloud has too
+/// few points to tell.
+std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
+  Boundaries boundaries, const Progress& progress,
+  const Executor& executor = Executor::sequential());
+}

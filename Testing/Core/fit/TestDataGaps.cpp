@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/DataGaps.h"
+
+#include "base/Random.h"
+#include "cloud/MeshBuilder.h"
+#include "fit/SurfaceFit.h"
+#include "MeshTools.h"
+#include "SphereRuns.h"
+
+#include <gtest/gtest.h>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+constexpr std::size_t SamplesPerVertex = 10;
+
+Mesh sphereMesh(unsigned resolution, const PointCloud& cloud)
+{
+  return buildMesh(makeSphere(resolution), cloud);
+}
+
+std::vector<Triangle> gapsOf(const PointCloud& cloud, Mesh& mesh)
+{
+  SurfaceFit fit(cloud, mesh, SamplesPerVertex * mesh.vertexCount());
+  EXPECT_TRUE(fit.findPlaces(goOn));
+  return findDataGaps(cloud, mesh, fit.places(), fit.medianDistance());
+}
+
+OpenedGaps openedGaps(const PointCloud& cloud, Mesh& mesh, double bridgeWidth)
+{
+  SurfaceFit fit(cloud, mesh, SamplesPerVertex * mesh.vertexCount());
+  EXPECT_TRUE(fit.findPlaces(goOn));
+  return openDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), bridgeWidth);
+}
+
+/// Points of a unit sphere on circles around its axis, `spacing` apart, and by a part of that from
+/// each other.
+std::vector<Eigen::Vector3d> scanLines(double spacing, double part)
+{
+  std::vector<Eigen::Vector3d> points;
+  for (double latitude = -0.5 * std::numbers::pi; latitude < 0.5 * std::numbers::pi;
+       latitude += spacing)
+  {
+    const double radius = std::cos(latitude);
+    const auto count = int(std::ceil(2. * std::numbers::pi * radius / (part * spacing)));
+    for (int i = 0; i < count; ++i)
+    {
+      const double angle = 2. * std::numbers::pi * i / count;
+      points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), std::sin(latitude));
+    }
+  }
+  return points;
+}
+}
+
+// A full sphere has no gaps, however noisy the cloud is and however fine the mesh.
+TEST(DataGaps, NoneOnAFullSphere)
+{
+  for (const double noise : { 0., 0.002, 0.01, 0.03 })
+  {
+    for (const unsigned resolution : { 6u, 12u, 24u, 40u })
+    {
+      for (const std::uint64_t seed : { 1u, 2u })
+      {
+        SCOPED_TRACE(std::to_string(noise) + ", " + std::to_string(resolution));
+        CloudOptions options;
+        options.noise = noise;
+        options.seed = seed;
+        const PointCloud cloud(sphereCloud(options));
+        Mesh mesh = sphereMesh(resolution, cloud);
+        EXPECT_TRUE(gapsOf(cloud, mesh).empty());
+      }
+    }
+  }
+}
+
+// Outliers do not hide a hole, and are no reason to see one.
+TEST(DataGaps, OutliersMakeNone)
+{
+  CloudOptions options;
+  options.outliers = 0.1;
+  const PointCloud cloud(sphereCloud(options));
+  Mesh mesh = sphereMesh(16, cloud);
+  EXPECT_TRUE(gapsOf(cloud, mesh).empty());
+}
+
+// Of a sphere with a hole, all triangles within the hole are gaps, and none outside of it.
+TEST(DataGaps, HolesAreFound)
+{
+  for (const double noise : { 0., 0.003 })
+  {
+    for (const double height : { 0.9, 0.5, 0. })
+    {
+      for (const unsigned resolution : { 12u, 24u })
+      {
+        SCOPED_TRACE(std::to_string(noise) + ", above " + std::to_string(height) + ", " +
+          std::to_string(resolution));
+        CloudOptions options;
+        options.noise = noise;
+        std::vector<Eigen::Vector3d> points = sphereCloud(options);
+        std::erase_if(points, [&](const Eigen::Vector3d& point) { return point.z() > height; });
+        const PointCloud cloud(points);
+        Mesh mesh = sphereMesh(resolution, cloud);
+        const std::vector<Triangle> gaps = gapsOf(cloud, mesh);
+        const std::set<Triangle> isGap = [&]
+        {
+          const std::vector<Triangle> ordered = canonical(gaps);
+          return std::set<Triangle>(ordered.begin(), ordered.end());
+        }();
+        EXPECT_EQ(isGap.size(), gaps.size());
+        const double edge = 2. / resolution;
+        std::size_t inHole = 0;
+        for (const Triangle& triangle : canonical(trianglesOf(mesh)))
+        {
+          std::size_t above = 0, farBelow = 0;
+          for (const VertexIndex v : triangle)
+          {
+            const double z = cloud.toInput(mesh.position(v)).z();
+            above += z > height + 0.01 + 4. * noise * SphereDiagonal;
+            farBelow += z < height - edge;
+          }
+          if (above == 3)
+          {
+            ++inHole;
+            EXPECT_TRUE(isGap.contains(triangle));
+          }
+          EXPECT_FALSE(farBelow > 0 && isGap.contains(triangle));
+        }
+        EXPECT_GT(inHole, 5u);
+      }
+    }
+  }
+}
+
+// Scans in lines, whose points are closer along the lines than across, have no gaps between the
+// lines.
+TEST(DataGaps, NoneBetweenScanLines)
+{
+  for (const double spacing : { 0.03, 0.06, 0.12 })
+  {
+    for (const double part : { 0.25, 0.5 })
+    {
+      for (const unsigned resolution : { 6u, 12u, 24u, 40u })
+      {
+        SCOPED_TRACE(std::to_string(spacing) + ", " + std::to_string(part) + ", " +
+          std::to_string(resolution));
+        const PointCloud cloud(scanLines(spacing, part));
+        Mesh mesh = sphereMesh(resolution, cloud);
+        EXPECT_TRUE(gapsOf(cloud, mesh).empty());
+      }
+    }
+  }
+}
+
+// A mesh with a boundary has no gaps, however much finer than the cloud it is; where it goes on
+// beyond the points, with a boundary or without, it has.
+TEST(DataGaps, MeshesFinerThanTheCloud)
+{
+  std::vector<Eigen::Vector3d> points = sphereCloud(CloudOptions{ .count = 4000 });
+  std::erase_if(points, [](const Eigen::Vector3d& point) { return point.z() > 0.; });
+  const PointCloud cloud(points);
+  for (const unsigned resolution : { 16u, 24u, 32u, 48u })
+  {
+    for (const double height : { 0., 0.6, 1. })
+    {
+      SCOPED_TRACE(std::to_string(resolution) + ", " + std::to_string(height));
+      TriangleMesh open = makeSphere(resolution);
+      std::erase_if(open.triangles,
+        [&](const auto& triangle)
+        {
+          return std::any_of(triangle.begin(), triangle.end(),
+            [&](std::uint32_t v) { return open.points[v].z() > height; });
+        });
+      Mesh mesh = buildMesh(open, cloud);
+      EXPECT_EQ(gapsOf(cloud, mesh).empty(), height == 0.);
+    }
+  }
+}
+
+// A hole through a cube, with a web on both sides: the webs are cut, and their rims joined to a
+// handle. Farther from each other than bridges are wide, they stay open.
+TEST(DataGaps, WebsAcrossHandlesAreCut)
+{
+  constexpr double Radius = 0.2, Depth = 1.;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeCube(), CloudOptions{ .count = 60000 });
+  std::erase_if(points,
+    [](const Eigen::Vector3d& point)
+    { return std::abs(point.z()) > 0.499 && std::hypot(point.x(), point.y()) < Radius; });
+  Random random(1);
+  for (int i = 0; i < 10000; ++i)
+  {
+    const double angle = 2. * std::numbers::pi * random.uniform();
+    points.emplace_back(
+      Radius * std::cos(angle), Radius * std::sin(angle), Depth * (random.uniform() - 0.5));
+  }
+  const PointCloud cloud(points);
+  for (const double bridge : { 1.3, 0.7 })
+  {
+    const bool isJoined = bridge > Depth;
+    Mesh mesh = buildMesh(makeCube(20), cloud);
+    const OpenedGaps gaps = openedGaps(cloud, mesh, bridge * Depth / cloud.unit());
+    EXPECT_GT(gaps.triangles, 0u);
+    EXPECT_EQ(gaps.joined, isJoined ? 1u : 0u);
+    EXPECT_EQ(gaps.filled, 0u);
+    mesh.dropErased();
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(reportOf(mesh).boundaryLoops, isJoined ? 0u : 2u);
+    EXPECT_EQ(reportOf(mesh).genus(), isJoined ? 1 : 0);
+  }
+}
+
+// Where all of a slit lies close to points it is closed; where a part of the shape has no data, it
+// stays open.
+TEST(DataGaps, SlitsAreClosed)
+{
+  for (const bool isCut : { false, true })
+  {
+    std::vector<Eigen::Vector3d> points =
+      generateCloud(makeSphere(), CloudOptions{ .count = 60000 });
+    std::erase_if(points, [&](const Eigen::Vector3d& point) { return isCut && point.z() > 0.8; });
+    const PointCloud cloud(points);
+    TriangleMesh slit = makeSphere(16);
+    std::erase_if(slit.triangles,
+      [&](const auto& triangle)
+      {
+        const Eigen::Vector3d center =
+          (slit.points[triangle[0]] + slit.points[triangle[1]] + slit.points[triangle[2]]) / 3.;
+        return center.x() > 0.2 && center.z() > 0. && center.z() < 0.11;
+      });
+    Mesh mesh = buildMesh(slit, cloud);
+    ASSERT_EQ(reportOf(mesh).boundaryLoops, 1u);
+    const OpenedGaps gaps = openedGaps(cloud, mesh, 0.3 / cloud.unit());
+    EXPECT_EQ(gaps.filled, 1u);
+    EXPECT_EQ(gaps.triangles > 0, isCut);
+    mesh.dropErased();
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(reportOf(mesh).boundaryLoops, isCut ? 1u : 0u);
+    EXPECT_EQ(reportOf(mesh).genus(), 0);
+  }
+}
+}

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/Finish.h"
+
+#include "cloud/MeshBuilder.h"
+#include "fit/IntersectionRepair.h"
+#include "learn/Learner.h"
+#include "mesh/SurfaceReport.h"
+#include "MeshTools.h"
+#include "OpenShapes.h"
+#include "run/Reconstruction.h"
+#include "SphereRuns.h"
+#include "TrueSurfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+/// In units of the cloud, whose bulk is about 1.
+constexpr double BridgeWidth = 0.03;
+constexpr std::size_t Vertices = 1500;
+
+PointCloud noisySphere(double noise, double outliers, bool hasHole)
+{
+  CloudOptions options;
+  options.count = 40000;
+  options.noise = noise;
+  options.outliers = outliers;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
+  if (hasHole)
+  {
+    std::erase_if(points, [](const Eigen::Vector3d& point) { return point.z() > 0.6; });
+  }
+  return PointCloud(points);
+}
+
+/// A closed mesh that learning alone has made of a cloud, which lies all around a hole.
+Mesh learnt(const PointCloud& cloud)
+{
+  Parameters parameters = learningAlone();
+  parameters.numberOfVertices = Vertices;
+  Learner learner(cloud, parameters, buildMesh(makeSphere(8), cloud));
+  while (!learner.isComplete())
+  {
+    learner.learn(10000);
+  }
+  learner.renumber();
+  return learner.mesh();
+}
+
+double regularRatio(const Mesh& mesh, const PointCloud& cloud)
+{
+  return reportSurface(trianglesOf(mesh, cloud)).regularRatio;
+}
+
+void expectOriginsInRange(const Finish& finish, const Mesh& mesh)
+{
+  ASSERT_EQ(finish.origins().size(), mesh.vertexCount());
+  for (const VertexIndex origin : finish.origins())
+  {
+    EXPECT_LT(origin, Vertices);
+  }
+}
+}
+
+// A closed mesh keeps its vertices and its topology, and becomes no less regular; it comes closer to
+// the surface, and nothing in it intersects.
+TEST(Finish, ClosedMeshes)
+{
+  const TrueSurface sphere = trueSphere();
+  for (const double noise : { 0., 0.005 })
+  {
+    const PointCloud cloud = noisySphere(noise, 0., false);
+    Mesh mesh = learnt(cloud);
+    const Mesh before = mesh;
+    const Parameters parameters;
+    Finish finish(cloud, mesh, parameters, BridgeWidth, mesh.vertexCount());
+    ASSERT_TRUE(finish.run(goOn));
+    EXPECT_EQ(mesh.vertexCount(), Vertices);
+    EXPECT_EQ(mesh.indexEnd(), Vertices);
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_TRUE(reportOf(mesh).isClosed());
+    EXPECT_EQ(reportOf(mesh).genus(), 0);
+    EXPECT_GE(regularRatio(mesh, cloud), regularRatio(before, cloud));
+    EXPECT_LT(rmsDistance(sphere, trianglesOf(mesh, cloud)),
+      rmsDistance(sphere, trianglesOf(before, cloud)));
+    std::vector<VertexIndex> same(Vertices);
+    std::iota(same.begin(), same.end(), VertexIndex(0));
+    EXPECT_EQ(finish.origins(), same);
+    EXPECT_EQ(finish.report().gapTriangles, 0u);
+    EXPECT_EQ(finish.report().left.total(), 0u);
+    EXPECT_GT(finish.report().smoothness, 0.);
+    EXPECT_LT(finish.report().outlierShare, 0.02);
+  }
+}
+
+// Where there is no data the mesh is opened; its vertices are as many as before.
+TEST(Finish, GapsAreOpened)
+{
+  const PointCloud cloud = noisySphere(0.002, 0., true);
+  const Mesh before = learnt(cloud);
+  ASSERT_TRUE(reportOf(before).isClosed());
+  for (const bool opensGaps : { false, true })
+  {
+    Mesh mesh = before;
+    const Parameters parameters;
+    Finish finish(cloud, mesh, parameters, opensGaps ? std::optional(BridgeWidth) : std::nullopt,
+      mesh.vertexCount());
+    ASSERT_TRUE(finish.run(goOn));
+    EXPECT_EQ(mesh.vertexCount(), Vertices);
+    EXPECT_EQ(mesh.indexEnd(), Vertices);
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(reportOf(mesh).boundaryLoops, opensGaps ? 1u : 0u);
+    EXPECT_EQ(reportOf(mesh).components, 1u);
+    EXPECT_GE(regularRatio(mesh, cloud), regularRatio(before, cloud));
+    EXPECT_EQ(finish.report().gapTriangles > 0, opensGaps);
+    expectOriginsInRange(finish, mesh);
+    if (opensGaps)
+    {
+      // A zone of a sphere: its area goes with its height.
+      const double area = reportSurface(trianglesOf(mesh, cloud)).area;
+      EXPECT_NEAR(area, 2. * std::numbers::pi * 1.6, 0.05 * area);
+    }
+  }
+}
+
+// A vertex is near that of the learnt mesh that it is or was split from.
+TEST(Finish, OriginsAreNear)
+{
+  const PointCloud cloud = noisySphere(0.002, 0., true);
+  Mesh mesh = learnt(cloud);
+  const Mesh before = mesh;
+  const Parameters parameters;
+  Finish finish(cloud, mesh, parameters, BridgeWidth, mesh.vertexCount());
+  ASSERT_TRUE(finish.run(goOn));
+  ASSERT_GT(finish.report().gapTriangles, 0u);
+  ASSERT_EQ(finish.origins().size(), mesh.vertexCount());
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    const Vector4 origin = before.position(finish.origins()[v]);
+    EXPECT_LT((cloud.toInput(mesh.position(v)) - cloud.toInput(origin)).norm(), 0.4);
+  }
+}
+
+// So it is, too, where the only round of the fit is the first and the last one: then the mesh is
+// refined before its gaps are opened.
+TEST(Finish, OriginsAreLearntVerticesAfterASingleRound)
+{
+  const PointCloud cloud = noisySphere(0.002, 0., true);
+  Mesh mesh = learnt(cloud);
+  const Mesh before = mesh;
+  Parameters parameters;
+  parameters.fitRounds = 1;
+  Finish finish(cloud, mesh, parameters, BridgeWidth, 2 * Vertices);
+  ASSERT_TRUE(finish.run(goOn));
+  ASSERT_GT(finish.report().gapTriangles, 0u);
+  EXPECT_EQ(mesh.vertexCount(), 2 * Vertices);
+  EXPECT_EQ(defectOf(mesh), "");
+  expectOriginsInRange(finish, mesh);
+  // Across the gap the learnt mesh has few vertices, from which many are split.
+  std::size_t far = 0;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    const VertexIndex origin = std::min<VertexIndex>(finish.origins()[v], Vertices - 1);
+    far += (cloud.toInput(mesh.position(v)) - cloud.toInput(before.position(origin))).norm() > 0.4;
+  }
+  EXPECT_LT(far, Vertices / 20);
+}
+
+// With more vertices than can be learnt, and a gap in the data, each vertex of a run has the activity
+// and the feature strength of a vertex that was learnt, though the fit has a single round.
+TEST(Finish, ActivitiesAreThoseOfLearntVertices)
+{
+  CloudOptions options;
+  options.count = 4000;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
+  std::erase_if(points, [](const Eigen::Vector3d& point) { return point.z() > 0.97; });
+  const PointCloud cloud(points);
+  for (const bool computesFeatureStrength : { false, true })
+  {
+    Parameters parameters;
+    parameters.computeFeatureStrength = computesFeatureStrength;
+    parameters.numberOfVertices = 4000;
+    parameters.fitRounds = 1;
+    Parameters ofLearning = learnable(parameters, cloud);
+    ofLearning.fitRounds = 0;
+    const Reconstruction learnt = reconstruct(cloud, ofLearning, goOn);
+    const Reconstruction run = reconstruct(cloud, parameters, goOn);
+    ASSERT_LT(learnt.activities.size(), parameters.numberOfVertices);
+    ASSERT_TRUE(run.finish);
+    ASSERT_GT(run.finish->gapTriangles, 0u);
+    EXPECT_EQ(run.mesh.points.size(), parameters.numberOfVertices);
+    ASSERT_EQ(run.activities.size(), run.mesh.points.size());
+    ASSERT_EQ(run.featureStrengths.size(), computesFeatureStrength ? run.activities.size() : 0u);
+    const auto valuesOf = [&](const Reconstruction& of, std::size_t v)
+    { return std::pair(of.activities[v], computesFeatureStrength ? of.featureStrengths[v] : 0.); };
+    std::set<std::pair<double, double>> known;
+    for (std::size_t v = 0; v < learnt.activities.size(); ++v)
+    {
+      known.insert(valuesOf(learnt, v));
+    }
+    for (std::size_t v = 0; v < run.activities.size(); ++v)
+    {
+      ASSERT_TRUE(known.contains(valuesOf(run, v))) << v;
+    }
+  }
+}
+
+// The report tells the noise and the outliers of the cloud.
+TEST(Finish, ReportsTheCloud)
+{
+  const PointCloud cloud = noisySphere(0.005, 0.05, false);
+  Mesh mesh = learnt(cloud);
+  const Parameters parameters;
+  Finish finish(cloud, mesh, parameters, BridgeWidth, mesh.vertexCount());
+  ASSERT_TRUE(finish.run(goOn));
+  const double noise = 0.005 * SphereDiagonal;
+  EXPECT_NEAR(finish.report().noise * cloud.unit(), noise, 0.2 * noise);
+  EXPECT_GT(finish.report().outlierShare, 0.02);
+  EXPECT_LT(finish.report().outlierShare, 0.06);
+}
+
+// More vertices than were learnt are made by refinement: exactly as many as were asked for, of good
+// shape, and as close to the surface.
+TEST(Finish, RefinesToTheVertexCount)
+{
+  const PointCloud cloud = noisySphere(0., 0., false);
+  const TrueSurface sphere = trueSphere();
+  Mesh mesh = learnt(cloud), refined = mesh;
+  const Parameters parameters;
+  ASSERT_TRUE(Finish(cloud, mesh, parameters, BridgeWidth, Vertices).run(goOn));
+  Finish finish(cloud, refined, parameters, BridgeWidth, 3 * Vertices);
+  ASSERT_TRUE(finish.run(goOn));
+  EXPECT_EQ(refined.vertexCount(), 3 * Vertices);
+  EXPECT_EQ(defectOf(refined), "");
+  EXPECT_EQ(finish.origins().size(), 3 * Vertices);
+  expectOriginsInRange(finish, refined);
+  EXPECT_EQ(finish.report().left.total(), 0u);
+  EXPECT_GT(regularRatio(refined, cloud), 0.6);
+  EXPECT_LT(rmsDistance(sphere, trianglesOf(refined, cloud)),
+    1.1 * rmsDistance(sphere, trianglesOf(mesh, cloud)));
+}
+
+// Defects that moving vertices cannot mend are collapsed away; the vertices are as many as before.
+TEST(Finish, WhatCannotBeMendedIsCollapsed)
+{
+  const PointCloud cloud = noisySphere(0., 0., false);
+  Parameters parameters;
+  parameters.fitRounds = 0;
+  std::size_t leftByMoves = 0, left = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed)
+  {
+    Mesh mesh = buildMesh(makeGrid(20), cloud);
+    Random random(seed);
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      const float strength = mesh.isBoundary(v) ? 4.f * float(mesh.meanEdge()) : 0.f;
+      mesh.setPosition(v, mesh.position(v) + randomPoint(random, strength));
+    }
+    const std::size_t vertices = mesh.vertexCount();
+    Mesh moved = mesh;
+    leftByMoves += repairIntersections(moved).after.total();
+    Finish finish(cloud, mesh, parameters, {}, vertices);
+    ASSERT_TRUE(finish.run(goOn));
+    EXPECT_EQ(mesh.vertexCount(), vertices);
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(finish.origins().size(), vertices);
+    left += finish.report().left.total();
+  }
+  EXPECT_GT(leftByMoves, 0u);
+  EXPECT_LT(left, leftByMoves);
+}
+
+// Ended anywhere, it leaves a valid mesh.
+TEST(Finish, CanBeEnded)
+{
+  const PointCloud cloud = noisySphere(0.002, 0., true);
+  const Mesh before = learnt(cloud);
+  const Parameters parameters;
+  bool isDone = false;
+  int calls = 0;
+  for (; !isDone; calls += 5)
+  {
+    Mesh mesh = before;
+    Finish finish(cloud, mesh, parameters, BridgeWidth, mesh.vertexCount());
+    int left = calls;
+    isDone = finish.run([&](double) { return left-- > 0; });
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(mesh.vertexCount(), Vertices);
+    expectOriginsInRange(finish, mesh);
+  }
+  EXPECT_GT(calls, 10);
+}
+}

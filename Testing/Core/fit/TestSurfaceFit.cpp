@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/SurfaceFit.h"
+
+#include "cloud/MeshBuilder.h"
+#include "mesh/SurfaceReport.h"
+#include "MeshTools.h"
+#include "OpenShapes.h"
+#include "SphereRuns.h"
+#include "TrueSurfaces.h"
+
+#include <gtest/gtest.h>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+PointCloud noisySphere(double noise, double outliers = 0., std::size_t count = 60000)
+{
+  CloudOptions options;
+  options.count = count;
+  options.noise = noise;
+  options.outliers = outliers;
+  return PointCloud(generateCloud(makeSphere(), options));
+}
+
+/// A sphere whose points are moved at random, by this part of the radius at most along each axis.
+Mesh roughSphere(const PointCloud& cloud, double strength, unsigned resolution = 18)
+{
+  TriangleMesh sphere = makeSphere(resolution);
+  Random random(4);
+  for (Eigen::Vector3d& point : sphere.points)
+  {
+    point += randomPoint(random, float(strength)).toDouble();
+  }
+  return buildMesh(std::move(sphere), cloud);
+}
+
+constexpr std::size_t SamplesPerVertex = 10;
+constexpr int Rounds = 3;
+
+SurfaceFit fitted(const PointCloud& cloud, Mesh& mesh, double lambda)
+{
+  SurfaceFit fit(cloud, mesh, SamplesPerVertex * mesh.vertexCount());
+  for (int round = 0; round < Rounds; ++round)
+  {
+    EXPECT_TRUE(fit.findPlaces(goOn));
+    EXPECT_TRUE(fit.moveVertices(round == 0 ? lambda : fit.smoothness(), goOn));
+  }
+  return fit;
+}
+
+std::vector<Eigen::Vector3d> pointsOf(const Mesh& mesh)
+{
+  std::vector<Eigen::Vector3d> points;
+  for (const Vector4 position : mesh.positions())
+  {
+    points.push_back(position.toDouble());
+  }
+  return points;
+}
+}
+
+// A fit brings the surface to the cloud: from a rough mesh to at most a third of its distance.
+TEST(SurfaceFit, ComesCloser)
+{
+  const TrueSurface sphere = trueSphere();
+  for (const double lambda : { 0., 0.1 })
+  {
+    const PointCloud cloud = noisySphere(0.);
+    Mesh mesh = roughSphere(cloud, 0.02);
+    const TriangleMesh before = trianglesOf(mesh, cloud);
+    fitted(cloud, mesh, lambda);
+    const TriangleMesh after = trianglesOf(mesh, cloud);
+    EXPECT_LT(rmsDistance(sphere, after), rmsDistance(sphere, before) / 3.);
+    EXPECT_LT(largestDistance(sphere, after), largestDistance(sphere, before) / 3.);
+    EXPECT_EQ(after.triangles, before.triangles);
+  }
+}
+
+// A clean cloud is followed closely, a noisy one is smoothed: the more, the more noise there is.
+TEST(SurfaceFit, SmoothnessRisesWithNoise)
+{
+  double before = 0.;
+  for (const double noise : { 0., 0.0025, 0.005, 0.01 })
+  {
+    const PointCloud cloud = noisySphere(noise);
+    Mesh mesh = roughSphere(cloud, 0.01);
+    const double smoothness = fitted(cloud, mesh, 0.).smoothness();
+    EXPECT_GT(smoothness, before);
+    before = smoothness;
+  }
+}
+
+// The noise of a cloud is known within 15 %, whatever its outliers are.
+TEST(SurfaceFit, NoiseIsMeasured)
+{
+  for (const double noise : { 0.005, 0.01 })
+  {
+    for (const double outliers : { 0., 0.05 })
+    {
+      SCOPED_TRACE(std::to_string(noise) + ", outliers " + std::to_string(outliers));
+      const PointCloud cloud = noisySphere(noise, outliers);
+      Mesh mesh = roughSphere(cloud, 0.01);
+      const SurfaceFit fit = fitted(cloud, mesh, 0.);
+      const double truth = noise * SphereDiagonal;
+      EXPECT_NEAR(fit.noise() * cloud.unit(), truth, 0.15 * truth);
+    }
+  }
+}
+
+// With noise the chosen smoothness is better than hardly any.
+TEST(SurfaceFit, ChoiceIsBetterThanNone)
+{
+  const TrueSurface sphere = trueSphere();
+  const PointCloud cloud = noisySphere(0.005);
+  Mesh chosen = roughSphere(cloud, 0.01), rough = chosen;
+  fitted(cloud, chosen, 0.);
+  fitted(cloud, rough, 0.05);
+  EXPECT_LT(rmsDistance(sphere, trianglesOf(chosen, cloud)),
+    0.7 * rmsDistance(sphere, trianglesOf(rough, cloud)));
+}
+
+// A smoothness that is asked for is used.
+TEST(SurfaceFit, TakesTheGivenSmoothness)
+{
+  const PointCloud cloud = noisySphere(0.005);
+  Mesh mesh = roughSphere(cloud, 0.01);
+  EXPECT_EQ(fitted(cloud, mesh, 7.).smoothness(), 7.);
+}
+
+// Outliers are told from points of the surface: their share is right, and they do not pull.
+TEST(SurfaceFit, OutliersDoNotPull)
+{
+  const TrueSurface sphere = trueSphere();
+  const PointCloud cloud = noisySphere(0.001, 0.1);
+  Mesh mesh = roughSphere(cloud, 0.01);
+  const SurfaceFit fit = fitted(cloud, mesh, 0.);
+  // Of all points one in eleven is an outlier; some of these lie on the surface by chance.
+  EXPECT_GT(fit.outlierShare(), 0.06);
+  EXPECT_LT(fit.outlierShare(), 1. / 11. + 0.01);
+  EXPECT_LT(largestDistance(sphere, trianglesOf(mesh, cloud)), 0.005 * sphere.diagonal);
+}
+
+// A boundary ends up where the samples end, whether it was inside or far outside of them.
+TEST(SurfaceFit, BoundariesEndWhereSamplesEnd)
+{
+  CloudOptions options;
+  options.count = 40000;
+  const TriangleMesh square = makeGrid(20);
+  const PointCloud cloud(generateCloud(square, options));
+  for (const double size : { 0.97, 1.06 })
+  {
+    SCOPED_TRACE(size);
+    TriangleMesh scaled = square;
+    for (Eigen::Vector3d& point : scaled.points)
+    {
+      point = size * (point - Eigen::Vector3d(0.5, 0.5, 0.)) + Eigen::Vector3d(0.5, 0.5, 0.);
+    }
+    Mesh mesh = buildMesh(std::move(scaled), cloud);
+    fitted(cloud, mesh, 0.);
+    const double area = reportSurface(trianglesOf(mesh, cloud)).area;
+    EXPECT_NEAR(area, 1., 0.02);
+  }
+}
+
+// The places of samples lie on the triangles of the mesh, and the median distance is theirs.
+TEST(SurfaceFit, PlacesAreThoseOfSamples)
+{
+  const PointCloud cloud = noisySphere(0.005);
+  Mesh mesh = roughSphere(cloud, 0.01);
+  SurfaceFit fit(cloud, mesh, 5000);
+  ASSERT_TRUE(fit.findPlaces(goOn));
+  ASSERT_EQ(fit.places().size(), 5000u);
+  std::size_t closer = 0;
+  for (const PlaceOnMesh& place : fit.places())
+  {
+    ASSERT_TRUE(mesh.contains(place.triangle));
+    closer += std::sqrt(place.squaredDistance) < fit.medianDistance();
+  }
+  EXPECT_NEAR(double(closer), 2500., 1.);
+}
+
+// A run that is ended leaves all vertices where they are.
+TEST(SurfaceFit, EndedRunsMoveNothing)
+{
+  const PointCloud cloud = noisySphere(0.005);
+  Mesh mesh = roughSphere(cloud, 0.01);
+  SurfaceFit fit(cloud, mesh, SamplesPerVertex * mesh.vertexCount());
+  const std::vector<Eigen::Vector3d> before = pointsOf(mesh);
+  EXPECT_FALSE(fit.findPlaces([](double) { return false; }));
+  ASSERT_TRUE(fit.findPlaces(goOn));
+  int calls = 0;
+  for (bool isDone = false; !isDone; ++calls)
+  {
+    int left = calls;
+    isDone = fit.moveVertices(0., [&](double) { return left-- > 0; });
+    EXPECT_EQ(pointsOf(mesh) == before, !isDone);
+  }
+  EXPECT_GT(calls, 3);
+}
+}

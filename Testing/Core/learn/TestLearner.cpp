@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "AllocationCounter.h"
+#include "learn/ExactOrder.h"
+#include "learn/ListOrder.h"
+#include "LearnerSettings.h"
+#include "MeshTools.h"
+#include "run/Reconstruction.h"
+#include "SphereRuns.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+double volumeOf(const TriangleMesh& mesh)
+{
+  double volume = 0.;
+  for (const auto& [a, b, c] : mesh.triangles)
+  {
+    volume += mesh.points[a].dot(mesh.points[b].cross(mesh.points[c])) / 6.;
+  }
+  return volume;
+}
+
+/// The farthest that a vertex is from the unit sphere, and the mean distance.
+struct Deviation
+{
+  double mean = 0.;
+  double largest = 0.;
+};
+
+Deviation deviationFromSphere(const TriangleMesh& mesh)
+{
+  Deviation deviation;
+  for (const Eigen::Vector3d& point : mesh.points)
+  {
+    const double distance = std::abs(point.norm() - 1.);
+    deviation.mean += distance / double(mesh.points.size());
+    deviation.largest = std::max(deviation.largest, distance);
+  }
+  return deviation;
+}
+
+/// A learner that starts from the mesh that another has grown.
+Learner goOnWith(Learner& grown, const Parameters& parameters)
+{
+  grown.renumber();
+  const std::size_t count = grown.mesh().indexEnd();
+  std::unique_ptr<ActivityOrder> order = std::make_unique<ExactOrder>(count);
+  if (parameters.order == Order::List)
+  {
+    std::vector<VertexIndex> vertices(count);
+    std::iota(vertices.begin(), vertices.end(), VertexIndex(0));
+    order = std::make_unique<ListOrder>(vertices, parameters.jumpFraction, parameters.seed);
+  }
+  return { cleanSphere(), parameters, grown.mesh(), std::move(order) };
+}
+
+INSTANTIATE_TEST_SUITE_P(Learner, LearnerSettings, allSettings(), settingName);
+}
+
+// A sphere comes out with exactly the vertices asked for, closed, without handles, oriented
+// outwards, and as large as it is.
+TEST_P(LearnerSettings, SphereComesOut)
+{
+  const Reconstruction result = reconstruct(cleanSphere(), parameters(2000), goOn);
+  EXPECT_EQ(result.stopReason, StopReason::Vertices);
+  EXPECT_EQ(result.mesh.points.size(), 2000u);
+  const ManifoldReport report = checkManifold(result.mesh.points.size(), result.mesh.triangles);
+  EXPECT_EQ(report.defect, "");
+  EXPECT_EQ(report.usedPoints, 2000u);
+  EXPECT_TRUE(report.isClosed());
+  EXPECT_EQ(report.components, 1u);
+  EXPECT_EQ(report.genus(), 0);
+
+  double radius = 0.;
+  double outwards = 0.;
+  ASSERT_EQ(result.normals.size(), 2000u);
+  for (std::size_t i = 0; i < 2000; ++i)
+  {
+    radius += result.mesh.points[i].norm() / 2000.;
+    outwards += result.normals[i].dot(result.mesh.points[i].normalized()) / 2000.;
+  }
+  EXPECT_NEAR(radius, 1., 0.01);
+  EXPECT_GT(outwards, 0.99);
+  EXPECT_NEAR(volumeOf(result.mesh), SphereVolume, 0.02 * SphereVolume);
+  EXPECT_LT(deviationFromSphere(result.mesh).largest, 0.03);
+  EXPECT_EQ(result.activities.size(), 2000u);
+}
+
+// The same seed gives the same mesh to the last bit, another seed another one.
+TEST_P(LearnerSettings, SeedDecides)
+{
+  Parameters settings = parameters(600);
+  const Reconstruction first = reconstruct(cleanSphere(), settings, goOn);
+  const Reconstruction second = reconstruct(cleanSphere(), settings, goOn);
+  EXPECT_EQ(first.mesh.points, second.mesh.points);
+  EXPECT_EQ(first.mesh.triangles, second.mesh.triangles);
+  EXPECT_EQ(first.activities, second.activities);
+  settings.seed = 2;
+  const Reconstruction other = reconstruct(cleanSphere(), settings, goOn);
+  EXPECT_NE(first.mesh.points, other.mesh.points);
+  EXPECT_NE(first.mesh.triangles, other.mesh.triangles);
+}
+
+// A watch is told when a step begins: of each addition, of removals and topology learning, and of the
+// basic step after them. The mesh is the same as without it.
+TEST_P(LearnerSettings, StepsAreWatched)
+{
+  Parameters settings = parameters(600);
+  settings.topologyLearning = true;
+  Learner watched(cleanSphere(), settings);
+  std::map<Step, std::uint64_t> begun;
+  Step last = Step::TopologyLearning;
+  watched.watchSteps(
+    [&](Step step)
+    {
+      ++begun[step];
+      last = step;
+    });
+  Learner other(cleanSphere(), settings);
+  for (Learner* learner : { &watched, &other })
+  {
+    learner->learn(std::numeric_limits<std::uint32_t>::max());
+  }
+  EXPECT_EQ(begun[Step::NodeAddition], watched.counts().additions);
+  EXPECT_GE(begun[Step::NodeRemoval], 1u);
+  EXPECT_GE(begun[Step::TopologyLearning], 1u);
+  EXPECT_GE(begun[Step::Basic], begun[Step::NodeAddition]);
+  EXPECT_EQ(last, Step::Basic);
+  EXPECT_EQ(watched.counts().iterations, other.counts().iterations);
+  ASSERT_EQ(watched.mesh().indexEnd(), other.mesh().indexEnd());
+  for (VertexIndex v = 0; v < other.mesh().indexEnd(); ++v)
+  {
+    EXPECT_EQ(watched.mesh().position(v).toDouble(), other.mesh().position(v).toDouble());
+  }
+}
+
+// While the mesh grows it is a closed manifold all the time, and grid and order know its vertices.
+TEST_P(LearnerSettings, StructuresAgreeAllTheTime)
+{
+  Learner learner(cleanSphere(), parameters(800));
+  std::uint64_t iterations = 0;
+  while (!learner.hasAllVertices())
+  {
+    learner.learn(1111);
+    iterations += 1111;
+    ASSERT_LT(iterations, 5000000u);
+    const Mesh& mesh = learner.mesh();
+    ASSERT_EQ(defectOf(mesh), "");
+    ASSERT_TRUE(reportOf(mesh).isClosed());
+    EXPECT_TRUE(mesh.isAlive(learner.order().top()));
+    EXPECT_EQ(learner.counts().additions - learner.counts().removals + 4, mesh.vertexCount());
+    if (!learner.hasAllVertices())
+    {
+      EXPECT_EQ(learner.counts().iterations, iterations);
+    }
+    for (VertexIndex v = 0; v < mesh.indexEnd(); v += 7)
+    {
+      if (mesh.isAlive(v))
+      {
+        const VertexIndex closest = learner.grid().closest(mesh.position(v), mesh.positions());
+        ASSERT_NE(closest, NoVertex);
+        EXPECT_EQ(squaredNorm(mesh.position(closest) - mesh.position(v)), 0.f);
+        EXPECT_GE(learner.order().activity(v), 0.);
+      }
+    }
+  }
+}
+
+// Renumbering closes the gaps that removed vertices have left, and keeps the shape.
+TEST_P(LearnerSettings, RenumberKeepsTheShape)
+{
+  Learner learner(cleanSphere(), parameters(700));
+  learner.learn(5000000);
+  const auto shape = [&]
+  {
+    std::vector<std::array<double, 10>> result;
+    for (const Triangle& triangle : trianglesOf(learner.mesh()))
+    {
+      std::array<std::array<double, 3>, 3> corners{};
+      double activities = 0.;
+      for (unsigned k = 0; k < 3; ++k)
+      {
+        const Vector4 p = learner.mesh().position(triangle[k]);
+        corners[k] = { double(p[0]), double(p[1]), double(p[2]) };
+        activities += learner.order().activity(triangle[k]);
+      }
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      result.push_back({ corners[0][0], corners[0][1], corners[0][2], corners[1][0], corners[1][1],
+        corners[1][2], corners[2][0], corners[2][1], corners[2][2], std::round(1e6 * activities) });
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+  };
+  const auto before = shape();
+  learner.renumber();
+  EXPECT_EQ(learner.mesh().indexEnd(), 700u);
+  EXPECT_EQ(defectOf(learner.mesh()), "");
+  EXPECT_EQ(shape(), before);
+}
+
+// With the list, the counters count until the mesh is large enough, and positions from then on.
+TEST(Learner, EntersTheListInTime)
+{
+  Parameters parameters = small();
+  parameters.order = Order::List;
+  parameters.listVertices = 300;
+  Learner learner(cleanSphere(), parameters);
+  const auto highestActivity = [&] { return learner.order().activity(learner.order().top()); };
+  while (learner.mesh().vertexCount() < 290)
+  {
+    learner.learn(50);
+  }
+  EXPECT_GT(highestActivity(), 1.5);
+  while (learner.mesh().vertexCount() < 310)
+  {
+    learner.learn(50);
+  }
+  EXPECT_EQ(highestActivity(), 1.);
+}
+
+// The cloud's units and place do not matter.
+TEST(Learner, UnitsDoNotMatter)
+{
+  const std::vector<Eigen::Vector3d> points = sphereCloud();
+  for (const double scale : { 1e-20, 1., 1e20 })
+  {
+    const Eigen::Vector3d offset = scale * Eigen::Vector3d(100., -2000., 30.);
+    std::vector<Eigen::Vector3d> moved;
+    for (const Eigen::Vector3d& point : points)
+    {
+      moved.push_back(offset + scale * point);
+    }
+    Reconstruction result = reconstruct(PointCloud(moved), small(), goOn);
+    for (Eigen::Vector3d& point : result.mesh.points)
+    {
+      point = (point - offset) / scale;
+    }
+    EXPECT_LT(deviationFromSphere(result.mesh).mean, 0.01) << scale;
+    EXPECT_NEAR(volumeOf(result.mesh), SphereVolume, 0.05 * SphereVolume) << scale;
+  }
+}
+
+// Noise is filtered: the mesh is closer to the sphere than the points are.
+TEST(Learner, NoiseIsFiltered)
+{
+  CloudOptions options;
+  options.noise = 0.01;
+  const PointCloud cloud(sphereCloud(options));
+  Parameters parameters;
+  parameters.numberOfVertices = 2000;
+  const Reconstruction result = reconstruct(cloud, parameters, goOn);
+  EXPECT_EQ(result.stopReason, StopReason::Vertices);
+  const double sigma = 0.01 * SphereDiagonal;
+  EXPECT_LT(deviationFromSphere(result.mesh).mean, sigma);
+}
+
+// Outliers are left alone; without the limit the mesh grows to them.
+TEST(Learner, OutliersAreRejected)
+{
+  CloudOptions options;
+  options.outliers = 0.02;
+  const PointCloud cloud(sphereCloud(options));
+  Parameters parameters;
+  parameters.numberOfVertices = 6000;
+  parameters.start = Start::Tetrahedron;
+  parameters.fitRounds = 0;
+  const Reconstruction limited = reconstruct(cloud, parameters, goOn);
+  parameters.outlierLimit = 0.;
+  const Reconstruction unlimited = reconstruct(cloud, parameters, goOn);
+  EXPECT_GT(limited.counts.rejectedSamples, 100u);
+  EXPECT_EQ(unlimited.counts.rejectedSamples, 0u);
+  EXPECT_LT(deviationFromSphere(limited.mesh).largest, 0.1);
+  EXPECT_GT(deviationFromSphere(unlimited.mesh).largest, 0.1);
+}
+
+// --- Memory --------------------------------------------------------------------------------------
+
+// The learning loop allocates nothing: neither where the mesh only moves ...
+TEST_P(LearnerSettings, MovingAllocatesNothing)
+{
+  Learner grown(cleanSphere(), parameters(2000));
+  grown.learn(5000000);
+  ASSERT_EQ(grown.mesh().vertexCount(), 2000u);
+
+  Parameters moving = parameters(1000000);
+  moving.samplesPerAddition = 1000000000;
+  moving.removalPatience = 1e6;
+  Learner learner = goOnWith(grown, moving);
+  learner.learn(10000);
+  const std::size_t before = allocationCount();
+  learner.learn(100000);
+  EXPECT_EQ(allocationCount() - before, 0u);
+  EXPECT_EQ(learner.mesh().vertexCount(), 2000u);
+  EXPECT_EQ(learner.counts().iterations, 110000u);
+}
+
+// ... nor where vertices come and go at a steady size.
+class LearnerOrders : public ::testing::TestWithParam<Order>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Learner, LearnerOrders, ::testing::Values(Order::Exact, Order::List),
+  [](const auto& setting) { return setting.param == Order::List ? "List" : "Exact"; });
+
+TEST_P(LearnerOrders, SteadySizeAllocatesNothing)
+{
+  Parameters growing;
+  growing.numberOfVertices = 2000;
+  Learner grown(cleanSphere(), growing);
+  grown.learn(5000000);
+
+  Parameters steady;
+  steady.order = GetParam();
+  steady.numberOfVertices = 1000000;
+  steady.additionsPerRemoval = 1;
+  steady.removalPatience = 100.;
+  Learner learner = goOnWith(grown, steady);
+  learner.learn(20000);
+  const std::size_t before = allocationCount();
+  learner.learn(100000);
+  EXPECT_EQ(allocationCount() - before, 0u);
+  EXPECT_GT(learner.counts().additions, 1000u);
+  EXPECT_GT(learner.counts().removals, 1000u);
+  EXPECT_NEAR(double(learner.mesh().vertexCount()), 2000., 200.);
+}
+
+// Allocations are counted at all, where there are some.
+TEST(Learner, AllocationsAreCounted)
+{
+  const std::size_t before = allocationCount();
+  Learner learner(cleanSphere(), small());
+  EXPECT_GT(allocationCount(), before);
+}
+}

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "learn/ParameterNames.h"
+#include "learn/Parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+using Values = std::map<std::string, double>;
+
+/// All parameters on which a result depends.
+Values valuesOf(const Parameters& parameters)
+{
+  Values values;
+  forEachParameter(
+    [&](const char* name, auto place) { values[name] = static_cast<double>(parameters.*place); });
+  return values;
+}
+
+/// As they are documented: parameters of no preset, and the defaults of the others.
+const Values Defaults = {
+  { "Variant", 1 }, // noise filtering
+  { "Order", 0 },   // exact
+  { "Seed", 1 },
+  { "Start", 0 },      // occupied space
+  { "Boundaries", 0 }, // keep
+  { "CurvatureDensity", 0.5 },
+  { "WinnerRate", 0.1 },
+  { "SmoothingRate", 0.2 },
+  { "SmoothingIterations", 1 },
+  { "CounterDecay", 0.95 },
+  { "CounterHalfLife", 6 },
+  { "NoiseTolerance", 1 },
+  { "NoiseWindow", 1000 },
+  { "OutlierLimit", 5 },
+  { "OutlierLimitVertices", 1000 },
+  { "ChangeWindow", 1000 },
+  { "GainLimit", 10 },
+  { "ComputeFeatureStrength", 0 },
+  { "FeatureMemory", 0.995 },
+  { "FeatureSamples", 400 },
+  { "SamplesPerAddition", 50 },
+  { "EarlyPatience", 4 },
+  { "EarlyVertices", 1000 },
+  { "AdditionsPerRemoval", 10 },
+  { "RemovalPatience", 10 },
+  { "RemovalLimit", 0.5 },
+  { "EdgeFlips", 1 },
+  { "AdditionOperation", 0 }, // vertex split
+  { "RemovalOperation", 0 },  // half-edge collapse
+  { "TopologyLearning", 0 },
+  { "TopologyRules", 0 }, // mended
+  { "TopologyPatience", 10 },
+  { "TriangleRemovalFactor", 10 },
+  { "BoundaryMergingFactor", 2.576 },
+  { "Jump", 0 }, // constant
+  { "JumpFraction", 1. / 3. },
+  { "ConstantWeight", 1 },
+  { "NormalWeight", 1 },
+  { "AreaWeight", 1 },
+  { "VolumeWeight", 1 },
+  { "ListVertices", 1000 },
+  { "FitRounds", 3 },
+  { "FitSmoothness", 0 },
+  { "FitSamples", 10 },
+  { "BatchSize", 65536 },
+  { "NumberOfVertices", 20000 },
+  { "MaximumIterations", 0 },
+  { "TargetSampleDistance", 0 },
+  { "TargetCloudDistance", 0 },
+  { "TargetNormalChange", 0 },
+  { "StallPatience", 200 },
+};
+
+/// A copy of `values` with others for some names.
+Values with(Values values, const Values& others)
+{
+  for (const auto& [name, value] : others)
+  {
+    values.at(name) = value;
+  }
+  return values;
+}
+
+struct Combination
+{
+  Variant variant;
+  Order order;
+  double thesisSmoothingRate;
+  double thesisSmoothingIterations;
+};
+
+constexpr Combination Combinations[] = {
+  { Variant::Basic, Order::Exact, 0.05, 5 },
+  { Variant::Basic, Order::List, 0.2, 1 },
+  { Variant::NoiseFiltering, Order::Exact, 0.05, 1 },
+  { Variant::NoiseFiltering, Order::List, 0.2, 1 },
+  { Variant::NormalBased, Order::Exact, 0.05, 5 },
+  { Variant::NormalBased, Order::List, 0.2, 1 },
+};
+}
+
+// Parameters are by default what their documentation says.
+TEST(Parameters, Defaults)
+{
+  EXPECT_EQ(valuesOf(Parameters()), Defaults);
+  EXPECT_EQ(Parameters().timeLimit, 0.);
+}
+
+// The thesis preset is what the thesis lists, and has nothing that it lacks.
+TEST(Parameters, ThesisPreset)
+{
+  for (const auto& [variant, order, smoothingRate, smoothingIterations] : Combinations)
+  {
+    EXPECT_EQ(valuesOf(Parameters::of(Preset::Thesis, variant, order)),
+      with(Defaults,
+        {
+          { "Variant", static_cast<double>(variant) },
+          { "Order", static_cast<double>(order) },
+          { "Start", 1 }, // tetrahedron
+          { "CurvatureDensity", 0 },
+          { "SmoothingRate", smoothingRate },
+          { "SmoothingIterations", smoothingIterations },
+          { "OutlierLimit", 0 },
+          { "EarlyPatience", 1 },
+          { "AdditionsPerRemoval", 125 },
+          { "RemovalLimit", 0 },
+          { "EdgeFlips", 0 },
+          { "TopologyRules", 1 }, // thesis
+          { "FitRounds", 0 },
+          { "BatchSize", 1 },
+        }));
+  }
+}
+
+// The default preset is the defaults, whatever the variant and the order.
+TEST(Parameters, DefaultPreset)
+{
+  for (const Combination& combination : Combinations)
+  {
+    EXPECT_EQ(valuesOf(Parameters::of(Preset::Default, combination.variant, combination.order)),
+      with(Defaults,
+        { { "Variant", static_cast<double>(combination.variant) },
+          { "Order", static_cast<double>(combination.order) } }));
+  }
+}
+
+// Growth needs C_ec > exp(-C_ec) C_vs, (6.18): a warning where that does not hold, and only there.
+TEST(Parameters, WarnsWhereGrowthIsInDoubt)
+{
+  Parameters parameters;
+  EXPECT_TRUE(parameters.warnings(100000).empty());
+  for (const double patience : { 0.1, 1., 2., 2.8, 2.9, 5. })
+  {
+    parameters.removalPatience = patience;
+    const bool mayNotGrow = patience <= std::exp(-patience) * 50.;
+    EXPECT_EQ(parameters.warnings(100000).size(), mayNotGrow ? 1u : 0u) << patience;
+  }
+}
+
+// More vertices than points are allowed, but not without a warning.
+TEST(Parameters, WarnsAboutMoreVerticesThanPoints)
+{
+  Parameters parameters;
+  parameters.numberOfVertices = 1000;
+  EXPECT_TRUE(parameters.warnings(1000).empty());
+  EXPECT_EQ(parameters.warnings(999).size(), 1u);
+}
+}

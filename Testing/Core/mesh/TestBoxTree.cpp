@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/BoxTree.h"
+
+#include "base/Random.h"
+#include "MeshTools.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+using Overlaps = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+Overlaps found(const std::vector<Box>& boxes, const std::vector<bool>& isAsked)
+{
+  Overlaps overlaps;
+  BoxTree(boxes, isAsked)
+    .forEachOverlap([&](std::uint32_t i, std::uint32_t j)
+      { overlaps.emplace_back(std::min(i, j), std::max(i, j)); });
+  std::sort(overlaps.begin(), overlaps.end());
+  return overlaps;
+}
+
+Overlaps expected(const std::vector<Box>& boxes, const std::vector<bool>& isAsked)
+{
+  Overlaps overlaps;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i)
+  {
+    for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
+    {
+      bool overlap = isAsked[i] || isAsked[j];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        overlap = overlap &&
+          std::max(boxes[i].low[axis], boxes[j].low[axis]) <=
+            std::min(boxes[i].high[axis], boxes[j].high[axis]);
+      }
+      if (overlap)
+      {
+        overlaps.emplace_back(i, j);
+      }
+    }
+  }
+  return overlaps;
+}
+
+/// Boxes of very different sizes, some of them flat.
+std::vector<Box> randomBoxes(std::size_t count, Random& random)
+{
+  std::vector<Box> boxes(count);
+  for (Box& box : boxes)
+  {
+    const Vector4 center = randomPoint(random);
+    const auto size = float(std::pow(random.uniform(), 8.));
+    box.extend(center);
+    box.extend(center + size * randomPoint(random));
+  }
+  return boxes;
+}
+}
+
+// Every overlap is told, and once.
+TEST(BoxTree, FindsAllOverlaps)
+{
+  Random random(1);
+  for (const std::size_t count : { 0u, 1u, 2u, 5u, 37u, 700u })
+  {
+    const std::vector<Box> boxes = randomBoxes(count, random);
+    const std::vector<bool> all(count, true);
+    EXPECT_EQ(found(boxes, all), expected(boxes, all));
+  }
+}
+
+// Of the boxes that are not asked for, only overlaps with the others are told.
+TEST(BoxTree, FindsOverlapsOfSome)
+{
+  Random random(2);
+  const std::vector<Box> boxes = randomBoxes(500, random);
+  for (const double share : { 0., 0.01, 0.5 })
+  {
+    std::vector<bool> isAsked(boxes.size());
+    std::generate(isAsked.begin(), isAsked.end(), [&] { return random.uniform() < share; });
+    EXPECT_EQ(found(boxes, isAsked), expected(boxes, isAsked));
+  }
+}
+
+// Boxes that only touch overlap, and so do boxes on the same spot.
+TEST(BoxTree, TouchingBoxesOverlap)
+{
+  std::vector<Box> boxes(9);
+  for (Box& box : boxes)
+  {
+    box.extend(Vector4(0.f, 0.f, 0.f));
+  }
+  boxes.back().extend(Vector4(1.f, 1.f, 1.f));
+  EXPECT_EQ(found(boxes, std::vector<bool>(9, true)).size(), 36u);
+}
+}

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/Refinement.h"
+
+#include "cloud/MeshBuilder.h"
+#include "mesh/EdgeFlips.h"
+#include "mesh/SmallPieces.h"
+#include "mesh/SurfaceReport.h"
+#include "MeshTools.h"
+#include "OpenShapes.h"
+#include "SphereRuns.h"
+
+#include <gtest/gtest.h>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+Mesh meshOf(const TriangleMesh& triangles) { return buildMesh(triangles, cleanSphere()); }
+
+float longestEdge(const Mesh& mesh)
+{
+  float longest = 0.f;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    for (const VertexIndex neighbor : mesh.ring(v))
+    {
+      longest = std::max(longest, squaredNorm(mesh.position(neighbor) - mesh.position(v)));
+    }
+  }
+  return std::sqrt(longest);
+}
+
+/// Unit squares of so many quadrangles along a side each, beside each other.
+TriangleMesh makeGrids(const std::vector<unsigned>& sides)
+{
+  TriangleMesh grids;
+  for (const unsigned side : sides)
+  {
+    const TriangleMesh grid = makeGrid(side);
+    const auto first = std::uint32_t(grids.points.size());
+    const Eigen::Vector3d offset(2. * first, 0., 0.);
+    for (const Eigen::Vector3d& point : grid.points)
+    {
+      grids.points.emplace_back(point + offset);
+    }
+    for (const auto& [a, b, c] : grid.triangles)
+    {
+      grids.triangles.push_back({ a + first, b + first, c + first });
+    }
+  }
+  return grids;
+}
+
+int squaredExcesses(const Mesh& mesh)
+{
+  int sum = 0;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    sum += mesh.valenceExcess(v) * mesh.valenceExcess(v);
+  }
+  return sum;
+}
+}
+
+// The number of vertices is reached exactly, as a manifold of the same topology. With eight times
+// the vertices the longest edge is about half as long at most, and none is split out of turn, so
+// that valences stay low; on the boundary, too.
+TEST(Refinement, ReachesTheCount)
+{
+  for (const TriangleMesh& shape : { makeSphere(6), makeTorus(0.4, 10), makeGrid(8) })
+  {
+    const Mesh before = meshOf(shape);
+    const ManifoldReport topology = reportOf(before);
+    for (const std::size_t count : { before.vertexCount(), before.vertexCount() + 1,
+           2 * before.vertexCount(), 4 * before.vertexCount() })
+    {
+      Mesh mesh = before;
+      const std::vector<VertexIndex> origins = refine(mesh, count, goOn);
+      EXPECT_EQ(mesh.vertexCount(), count);
+      EXPECT_EQ(mesh.indexEnd(), count);
+      EXPECT_EQ(defectOf(mesh), "");
+      EXPECT_EQ(reportOf(mesh).genus(), topology.genus());
+      EXPECT_EQ(reportOf(mesh).boundaryLoops, topology.boundaryLoops);
+      ASSERT_EQ(origins.size(), count - before.vertexCount());
+      for (std::size_t i = 0; i < origins.size(); ++i)
+      {
+        EXPECT_LT(origins[i], before.vertexCount() + i);
+      }
+      for (VertexIndex v = 0; v < before.indexEnd(); ++v)
+      {
+        EXPECT_TRUE(isAt(mesh.position(v), before.position(v)));
+      }
+    }
+    Mesh fine = before;
+    refine(fine, 8 * before.vertexCount(), goOn);
+    EXPECT_LT(longestEdge(fine), 0.6f * longestEdge(before));
+    EXPECT_LE(highestValence(trianglesOf(fine)), 9u);
+  }
+}
+
+// The longest edge is halved first.
+TEST(Refinement, HalvesTheLongestEdge)
+{
+  Mesh mesh = meshOf(makeGrid(4));
+  mesh.setPosition(0, 8.f * mesh.position(0));
+  const float before = longestEdge(mesh);
+  const Vector4 corner = mesh.position(0);
+  const std::vector<VertexIndex> origins = refine(mesh, mesh.vertexCount() + 1, goOn);
+  ASSERT_EQ(origins.size(), 1u);
+  const Vector4 added = mesh.position(VertexIndex(mesh.indexEnd() - 1));
+  EXPECT_NEAR(std::sqrt(squaredNorm(added - corner)), 0.5f * before, 1e-4f * before);
+}
+
+// It can be ended, and leaves a valid mesh whose new vertices it tells.
+TEST(Refinement, CanBeEnded)
+{
+  Mesh mesh = meshOf(makeGrid(4));
+  const std::size_t before = mesh.vertexCount();
+  int calls = 0;
+  const auto origins = refine(mesh, 100000000, [&](double) { return ++calls < 5; });
+  EXPECT_EQ(calls, 5);
+  EXPECT_GT(origins.size(), 0u);
+  EXPECT_EQ(mesh.vertexCount(), before + origins.size());
+  EXPECT_EQ(defectOf(mesh), "");
+}
+
+// Pieces of less than 2 % of the vertices are small, others are not: every triangle of the ones, and
+// none of the others.
+TEST(SmallPieces, LessThanFiftieth)
+{
+  // 961 vertices, and 16, 25, 4.
+  Mesh mesh = meshOf(makeGrids({ 30, 3, 4, 1 }));
+  ASSERT_EQ(reportOf(mesh).components, 4u);
+  const std::size_t all = mesh.triangleCount();
+  const std::vector<Triangle> small = findSmallPieces(mesh);
+  EXPECT_EQ(small.size(), 2u * 9u + 2u);
+  mesh.removeTriangles(small);
+  EXPECT_EQ(mesh.triangleCount(), all - small.size());
+  mesh.dropErased();
+  EXPECT_EQ(mesh.vertexCount(), 961u + 25u);
+  EXPECT_EQ(reportOf(mesh).components, 2u);
+  EXPECT_TRUE(findSmallPieces(mesh).empty());
+}
+
+// A mesh in one piece has no small ones, be it as small as it may.
+TEST(SmallPieces, NoneOfOnePiece)
+{
+  EXPECT_TRUE(findSmallPieces(meshOf(makeSphere(4))).empty());
+  EXPECT_TRUE(findSmallPieces(meshOf(makeSquare())).empty());
+}
+
+// Flips bring valences closer to regular, of a mesh that random flips have made irregular; they keep
+// its vertices and its topology.
+TEST(EdgeFlips, MakeRegular)
+{
+  for (const TriangleMesh& shape : { makeSphere(12), makeTorus(0.4, 16), makeGrid(16) })
+  {
+    Mesh mesh = meshOf(shape);
+    const ManifoldReport topology = reportOf(mesh);
+    Random random(5);
+    for (int i = 0; i < 2000; ++i)
+    {
+      const VertexIndex v = random.below(std::uint32_t(mesh.indexEnd()));
+      const VertexIndex neighbor = mesh.ring(v)[random.below(mesh.valence(v))];
+      if (mesh.canFlip(v, neighbor) && mesh.valence(v) > 4 && mesh.valence(neighbor) > 4)
+      {
+        mesh.flip(v, neighbor);
+      }
+    }
+    const int before = squaredExcesses(mesh);
+    const std::vector<Vector4> positions(mesh.positions().begin(), mesh.positions().end());
+    flipEdges(mesh);
+    EXPECT_LT(squaredExcesses(mesh), before / 2);
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(reportOf(mesh).genus(), topology.genus());
+    EXPECT_EQ(reportOf(mesh).boundaryEdges, topology.boundaryEdges);
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      EXPECT_TRUE(isAt(mesh.position(v), positions[v]));
+    }
+  }
+}
+
+// Erased vertices are dropped: the others keep their order, their places and their triangles.
+TEST(MeshDropErased, ClosesGaps)
+{
+  Random random(6);
+  for (int run = 0; run < 20; ++run)
+  {
+    Mesh mesh = makeRandomMesh(60, random);
+    while (mesh.vertexCount() > 40)
+    {
+      tear(mesh, 3, random);
+    }
+    const Mesh before = mesh;
+    const std::vector<VertexIndex> old = mesh.dropErased();
+    EXPECT_LT(mesh.indexEnd(), before.indexEnd());
+    ASSERT_EQ(mesh.indexEnd(), before.vertexCount());
+    ASSERT_EQ(old.size(), mesh.indexEnd());
+    EXPECT_TRUE(std::is_sorted(old.begin(), old.end()));
+    std::vector<Triangle> back = trianglesOf(mesh);
+    for (Triangle& triangle : back)
+    {
+      for (VertexIndex& v : triangle)
+      {
+        EXPECT_TRUE(isAt(mesh.position(v), before.position(old[v])));
+        v = old[v];
+      }
+    }
+    EXPECT_EQ(canonical(back), canonical(trianglesOf(before)));
+    EXPECT_EQ(defectOf(mesh), "");
+  }
+}
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Clusters.h"
+#include "ManifoldCheck.h"
+#include "run/Reconstruction.h"
+#include "SphereRuns.h"
+#include "TrueSurfaces.h"
+
+#include <gtest/gtest.h>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+// Of a bounding box's diagonal
+constexpr double Near = 0.02;
+
+Parameters defaults(std::uint64_t vertices)
+{
+  Parameters parameters;
+  parameters.numberOfVertices = vertices;
+  return parameters;
+}
+
+/// Expects a closed mesh of the right topology that is near the surface everywhere.
+void expectRight(const TrueSurface& shape, const TriangleMesh& mesh, double near = Near)
+{
+  const ManifoldReport report = checkManifold(mesh.points.size(), mesh.triangles);
+  EXPECT_EQ(report.defect, "");
+  EXPECT_TRUE(report.isClosed());
+  EXPECT_EQ(report.components, 1u);
+  EXPECT_EQ(report.genus(), shape.genus);
+  EXPECT_LT(largestDistance(shape, mesh), near * shape.diagonal);
+}
+}
+
+// With outliers all over the box, one to ten points of the surface, the mesh is whole and right.
+TEST(Robustness, SpreadOutliers)
+{
+  for (const TrueSurface& shape : { trueSphere(), trueTorus() })
+  {
+    for (const std::uint64_t seed : { 1u, 2u, 3u, 4u })
+    {
+      SCOPED_TRACE(shape.name + ", " + std::to_string(seed));
+      CloudOptions options;
+      options.count = 50000;
+      options.outliers = 0.1;
+      options.seed = seed;
+      const PointCloud cloud(generateCloud(shape.triangles, options));
+      expectRight(shape, reconstruct(cloud, defaults(3000), goOn).mesh);
+    }
+  }
+}
+
+// Clusters of outliers, beside the surface or on it, leave the mesh whole and right; on it, hardly a
+// bump is left of them.
+TEST(Robustness, Clusters)
+{
+  for (const TrueSurface& shape : { trueSphere(), trueTorus() })
+  {
+    for (const std::uint64_t seed : { 2u, 3u, 4u })
+    {
+      SCOPED_TRACE(shape.name + ", " + std::to_string(seed));
+      CloudOptions options;
+      options.count = 100000;
+      options.seed = seed;
+      std::vector<Eigen::Vector3d> points = generateCloud(shape.triangles, options);
+      Random random(seed);
+      for (int cluster = 0; cluster < 5; ++cluster)
+      {
+        const Eigen::Vector3d onSurface = points[random.below(std::uint32_t(options.count))];
+        addCluster(points, (cluster < 2 ? 1. : 1.3) * onSurface, 0.02 * shape.diagonal,
+          options.count / 60, random);
+      }
+      const TriangleMesh mesh = reconstruct(PointCloud(points), defaults(3000), goOn).mesh;
+      expectRight(shape, mesh, 2.5 * Near);
+      EXPECT_LT(largestDistanceTo(mesh, shape, 1000), Near * shape.diagonal);
+    }
+  }
+}
+
+// Where points are ten times as dense at one end as at the other, the mesh is near the surface
+// everywhere, and the surface near the mesh.
+TEST(Robustness, DensityGradients)
+{
+  for (const TrueSurface& shape : { trueSphere(), trueTorus(), trueCube() })
+  {
+    for (const unsigned axis : { 0u, 2u })
+    {
+      SCOPED_TRACE(shape.name + ", " + std::to_string(axis));
+      CloudOptions options;
+      options.count = 50000;
+      options.gradient = 10.;
+      options.gradientAxis = axis;
+      const PointCloud cloud(generateCloud(shape.triangles, options));
+      const TriangleMesh mesh = reconstruct(cloud, defaults(3000), goOn).mesh;
+      expectRight(shape, mesh);
+      EXPECT_LT(largestDistanceTo(mesh, shape, 1000), Near * shape.diagonal);
+    }
+  }
+}
+}

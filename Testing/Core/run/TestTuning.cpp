@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/Random.h"
+#include "base/ThreadPool.h"
+#include "cloud/CloudGenerator.h"
+#include "cloud/MeshBuilder.h"
+#include "run/Tuning.h"
+#include "run/TuningPatch.h"
+#include "Shapes.h"
+#include "SphereRuns.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+PointCloud cubeCloud(CloudOptions options = {})
+{
+  options.count = 50000;
+  return PointCloud(generateCloud(makeCube(), options));
+}
+
+Parameters fiveThousand()
+{
+  Parameters parameters;
+  parameters.numberOfVertices = 5000;
+  return parameters;
+}
+
+double meanOf(const std::vector<double>& values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.) / double(values.size());
+}
+
+/// A mesh whose vertices lie on the unit sphere, or off it by `roughness`, some in, some out.
+Mesh sphereMesh(double roughness)
+{
+  TriangleMesh triangles = makeSphere(24);
+  Random random(5);
+  for (Eigen::Vector3d& point : triangles.points)
+  {
+    point *= 1. + roughness * (2. * random.uniform() - 1.);
+  }
+  return buildMesh(triangles, cleanSphere());
+}
+}
+
+// What is chosen follows from what was tried: values that were taken, and lower errors by them.
+TEST(Tuning, ChoicesFollowFromTrials)
+{
+  const PointCloud cloud = cubeCloud();
+  const Tuning tuning = tune(cloud, fiveThousand(), goOn).value();
+  ASSERT_FALSE(tuning.trials.empty());
+  int rounds = fiveThousand().fitRounds;
+  for (const TuningTrial& trial : tuning.trials)
+  {
+    EXPECT_GT(trial.error, 0.);
+    EXPECT_TRUE(std::isfinite(trial.gain) && std::isfinite(trial.doubt));
+    EXPECT_EQ(trial.isTaken, trial.gain > std::max(0.01, 3. * trial.doubt));
+    if (trial.parameter == "FitRounds")
+    {
+      EXPECT_EQ(trial.before, rounds);
+      rounds = trial.isTaken ? int(trial.value) : rounds;
+    }
+  }
+  EXPECT_EQ(tuning.parameters.fitRounds, rounds);
+  EXPECT_EQ(tuning.reasons().size(), tuning.trials.size() + tuning.remarks.size());
+  for (const TuningChoice& choice : tuning.choices)
+  {
+    EXPECT_NE(choice.value, choice.before);
+  }
+}
+
+// A clean cloud that bends everywhere is worth more rounds of the fit.
+TEST(Tuning, MoreRoundsForCleanClouds)
+{
+  CloudOptions options;
+  options.count = 40000;
+  const Tuning tuning = tune(PointCloud(sphereCloud(options)), fiveThousand(), goOn).value();
+  EXPECT_GT(tuning.parameters.fitRounds, fiveThousand().fitRounds);
+  EXPECT_EQ(tuning.parameters.curvatureDensity, fiveThousand().curvatureDensity);
+}
+
+// Where noise hides bends, samples are drawn alike.
+TEST(Tuning, NoDensityByCurvatureUnderNoise)
+{
+  CloudOptions options;
+  options.noise = 0.01;
+  const Tuning tuning = tune(cubeCloud(options), fiveThousand(), goOn).value();
+  EXPECT_EQ(tuning.parameters.curvatureDensity, 0.);
+  EXPECT_FALSE(tuning.remarks.empty());
+}
+
+// Rims of gaps are left where the defaults draw them.
+TEST(Tuning, NoMoreRoundsWhereThereAreGaps)
+{
+  CloudOptions options;
+  options.holes = 5;
+  options.holeRadius = 0.06;
+  const PointCloud cloud = cubeCloud(options);
+  Parameters wanted = fiveThousand();
+  EXPECT_EQ(tune(cloud, wanted, goOn)->parameters.fitRounds, wanted.fitRounds);
+  wanted.boundaries = Boundaries::Close;
+  EXPECT_GT(tune(cloud, wanted, goOn)->parameters.fitRounds, wanted.fitRounds);
+}
+
+// The same cloud and seed, the same choice, on any number of threads.
+TEST(Tuning, ThreadsDoNotMatter)
+{
+  const PointCloud cloud = cubeCloud();
+  const Tuning one = tune(cloud, fiveThousand(), goOn).value();
+  for (const unsigned threads : { 2u, 3u })
+  {
+    const Tuning other = tune(cloud, fiveThousand(), goOn, ThreadPool(threads)).value();
+    EXPECT_EQ(one.reasons(), other.reasons());
+    EXPECT_EQ(one.parameters.fitSmoothness, other.parameters.fitSmoothness);
+    ASSERT_EQ(one.trials.size(), other.trials.size());
+    for (std::size_t i = 0; i < one.trials.size(); ++i)
+    {
+      EXPECT_EQ(one.trials[i].error, other.trials[i].error);
+    }
+  }
+}
+
+// All other parameters stay as they are.
+TEST(Tuning, OtherParametersStay)
+{
+  Parameters wanted = fiveThousand();
+  wanted.timeLimit = 5.;
+  wanted.maximumIterations = 123456;
+  wanted.fitSmoothness = 0.7;
+  const Tuning tuning = tune(cubeCloud(), wanted, goOn).value();
+  EXPECT_EQ(tuning.parameters.numberOfVertices, wanted.numberOfVertices);
+  EXPECT_EQ(tuning.parameters.timeLimit, wanted.timeLimit);
+  EXPECT_EQ(tuning.parameters.maximumIterations, wanted.maximumIterations);
+  EXPECT_EQ(tuning.parameters.fitSmoothness, wanted.fitSmoothness);
+}
+
+// Whoever ends it gets nothing, whenever that is.
+TEST(Tuning, Cancelled)
+{
+  const PointCloud cloud = cubeCloud();
+  int all = 0;
+  tune(cloud, fiveThousand(), [&](double) { return ++all > 0; });
+  ASSERT_GT(all, 10);
+  for (const int last : { 1, all / 3, all - 1 })
+  {
+    int calls = 0;
+    EXPECT_FALSE(tune(cloud, fiveThousand(), [&](double) { return ++calls < last; }));
+  }
+}
+
+// With too few points, or nothing to choose, all stays as it was, and it is said why.
+TEST(Tuning, NothingToChoose)
+{
+  CloudOptions few;
+  few.count = 300;
+  const PointCloud cloud(generateCloud(makeCube(), few));
+  const Tuning small = tune(cloud, fiveThousand(), goOn).value();
+  EXPECT_TRUE(small.choices.empty() && small.trials.empty());
+  EXPECT_EQ(small.remarks.size(), 1u);
+
+  Parameters noFit = fiveThousand();
+  noFit.fitRounds = 0;
+  const Tuning none = tune(cubeCloud(), noFit, goOn).value();
+  EXPECT_TRUE(none.choices.empty() && none.trials.empty());
+  EXPECT_EQ(none.remarks.size(), 1u);
+}
+
+// Points in one place tell nothing, however many they are: a patch around them is left out.
+TEST(Tuning, ManyPointsInOnePlace)
+{
+  CloudOptions options;
+  options.count = 50000;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeCube(), options);
+  for (const std::size_t every : { 3u, 2u })
+  {
+    for (std::size_t i = 0; i < points.size(); i += every)
+    {
+      points[i] = points[0];
+    }
+    const PointCloud cloud(points);
+    for (const TuningPatch& patch : TuningPatch::patchesOf(cloud, fiveThousand()))
+    {
+      EXPECT_GE(patch.cloud().differentCount(), 1000u);
+    }
+    EXPECT_FALSE(tune(cloud, fiveThousand(), goOn)->reasons().empty());
+  }
+}
+
+// Whatever the cloud is like, something valid is chosen, and it is said why.
+TEST(Tuning, AnyCloud)
+{
+  Random random(9);
+  const auto anyPoint = [&random]
+  {
+    const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+    return Eigen::Vector3d(x, y, z);
+  };
+  const std::array<std::function<Eigen::Vector3d(int)>, 4> clouds{
+    [&](int) -> Eigen::Vector3d
+    { return anyPoint().x() * Eigen::Vector3d(1e36, 2e36, 1.); },        // a line
+    [](int i) { return Eigen::Vector3d(i % 20, i / 20 % 20, i / 400); }, // voxels
+    // Most of them in a box of a thousandth.
+    [&](int i) -> Eigen::Vector3d { return (i % 10 ? 1e-3 : 1.) * anyPoint(); },
+    [&](int i) -> Eigen::Vector3d { return anyPoint().array().pow(1 + i % 40); }, // towards planes
+  };
+  for (const auto& pointAt : clouds)
+  {
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 8000; ++i)
+    {
+      points.push_back(pointAt(i));
+    }
+    const Tuning tuning = tune(PointCloud(points), fiveThousand(), goOn).value();
+    EXPECT_FALSE(tuning.reasons().empty());
+    EXPECT_TRUE(tuning.parameters.errors().empty());
+    for (const TuningTrial& trial : tuning.trials)
+    {
+      EXPECT_TRUE(std::isfinite(trial.error) && std::isfinite(trial.gain)) << trial.parameter;
+    }
+  }
+}
+
+// What comes after another choice is measured against that: with samples drawn alike from the start
+// the trials are the same.
+TEST(Tuning, TrialsAreAgainstTheChosenDensity)
+{
+  CloudOptions options;
+  options.noise = 0.01;
+  const PointCloud cloud = cubeCloud(options);
+  Parameters wanted = fiveThousand();
+  const Tuning chosen = tune(cloud, wanted, goOn).value();
+  ASSERT_EQ(chosen.parameters.curvatureDensity, 0.);
+  wanted.curvatureDensity = 0.;
+  const Tuning alike = tune(cloud, wanted, goOn).value();
+  ASSERT_EQ(chosen.trials.size(), alike.trials.size());
+  for (std::size_t i = 0; i < alike.trials.size(); ++i)
+  {
+    EXPECT_EQ(chosen.trials[i].gain, alike.trials[i].gain);
+  }
+}
+
+// A rough mesh is told from a smooth one, by whichever of them the directions were laid down; the
+// closest places would tell the less, the rougher it is.
+TEST(TuningPatch, RoughnessIsNoAdvantage)
+{
+  CloudOptions options;
+  options.count = 20000;
+  options.noise = 0.005;
+  const PointCloud cloud(sphereCloud(options));
+  Parameters parameters;
+  parameters.numberOfVertices = 2000;
+  std::vector<TuningPatch> patches = TuningPatch::patchesOf(cloud, parameters);
+  ASSERT_EQ(patches.size(), 1u);
+  const Mesh smooth = sphereMesh(0.);
+  const Mesh rough = sphereMesh(0.02);
+  for (const Mesh* first : { &smooth, &rough })
+  {
+    patches[0].aim(*first);
+    ASSERT_GT(patches[0].probeCount(), 3000u);
+    EXPECT_LT(1.05 * meanOf(patches[0].squaredDistances(smooth)),
+      meanOf(patches[0].squaredDistances(rough)));
+  }
+}
+
+// Patches have the density of points of the whole; a fifth of their points is held out.
+TEST(TuningPatch, HoldsAFifthOut)
+{
+  const PointCloud cloud = cubeCloud();
+  const std::vector<TuningPatch> patches = TuningPatch::patchesOf(cloud, fiveThousand());
+  ASSERT_EQ(patches.size(), 4u);
+  for (const TuningPatch& patch : patches)
+  {
+    const double perVertex = double(cloud.points().size()) / 5000.;
+    EXPECT_NEAR(double(patch.cloud().points().size()) / double(patch.vertices()), 0.8 * perVertex,
+      0.02 * perVertex);
+  }
+}
+
+// Many copies of one point are no more evidence than one.
+TEST(TuningPatch, CopiesAreNoEvidence)
+{
+  constexpr std::size_t Different = 3000;
+  CloudOptions options;
+  options.count = Different;
+  std::vector<Eigen::Vector3d> points = sphereCloud(options);
+  points.insert(points.end(), 2 * Different, points[0]);
+  Parameters parameters;
+  parameters.numberOfVertices = 2000;
+  std::vector<TuningPatch> patches = TuningPatch::patchesOf(PointCloud(points), parameters);
+  ASSERT_EQ(patches.size(), 1u);
+  patches[0].aim(sphereMesh(0.));
+  EXPECT_GT(patches[0].probeCount(), Different / 20);
+  EXPECT_LE(patches[0].probeCount(), Different / 5 + 1);
+}
+
+// Where more vertices are wanted than the points are enough for, patches are as for those that are
+// learnt.
+TEST(Tuning, MoreVerticesThanPoints)
+{
+  CloudOptions options;
+  options.count = 12000;
+  const PointCloud cloud(sphereCloud(options));
+  Parameters wanted;
+  wanted.numberOfVertices = 100000;
+  const Tuning tuning = tune(cloud, wanted, goOn).value();
+  EXPECT_FALSE(tuning.trials.empty());
+  EXPECT_EQ(tuning.parameters.numberOfVertices, 100000u);
+}
+}

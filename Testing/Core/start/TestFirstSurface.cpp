@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "start/FirstSurface.h"
+
+#include "cloud/MeshBuilder.h"
+#include "mesh/SurfaceReport.h"
+#include "MeshTools.h"
+#include "OpenShapes.h"
+#include "SphereRuns.h"
+#include "TrueSurfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+constexpr std::size_t MostVertices = 1500;
+
+struct Scan
+{
+  std::string name;
+  CloudOptions options;
+};
+
+std::vector<Scan> scans()
+{
+  std::vector<Scan> result;
+  for (const std::size_t count : { 20000u, 100000u })
+  {
+    const std::string points = ", " + std::to_string(count) + " points";
+    CloudOptions clean, noisy, outliers;
+    clean.count = noisy.count = outliers.count = count;
+    noisy.noise = 0.005;
+    outliers.outliers = 0.1;
+    result.push_back({ "clean" + points, clean });
+    result.push_back({ "noise" + points, noisy });
+    result.push_back({ "outliers" + points, outliers });
+  }
+  return result;
+}
+
+/// The sphere without what lies above a height.
+TriangleMesh cutSphere(double height)
+{
+  TriangleMesh sphere = makeSphere();
+  std::erase_if(sphere.triangles,
+    [&](const auto& triangle)
+    {
+      return std::any_of(triangle.begin(), triangle.end(),
+        [&](std::uint32_t point) { return sphere.points[point].z() > height; });
+    });
+  return sphere;
+}
+
+TriangleMesh heightField()
+{
+  TriangleMesh field = makeGrid(64);
+  for (Eigen::Vector3d& point : field.points)
+  {
+    point.z() = 0.08 * std::sin(6. * point.x()) * std::cos(5. * point.y());
+  }
+  return field;
+}
+
+/// Ridges and valleys as steep as 60 degrees, some of which end at the boundary.
+TriangleMesh ruggedField(double turn)
+{
+  TriangleMesh field = makeGrid(128);
+  for (Eigen::Vector3d& point : field.points)
+  {
+    double height = 0., strength = 0.12;
+    for (int octave = 0; octave < 4; ++octave, strength /= 2.)
+    {
+      const double angle = turn + 2.4 * octave, wave = std::numbers::pi * double(2 << octave);
+      height += strength *
+        std::sin(wave * (std::cos(angle) * point.x() + std::sin(angle) * point.y()) + angle);
+    }
+    point.z() = height;
+  }
+  return field;
+}
+
+/// Two spheres of radius 1, at this distance of their centres.
+TriangleMesh spheresAt(std::span<const Eigen::Vector3d> centers)
+{
+  const TriangleMesh sphere = makeSphere();
+  TriangleMesh spheres;
+  for (const Eigen::Vector3d& center : centers)
+  {
+    const auto first = std::uint32_t(spheres.points.size());
+    for (const Eigen::Vector3d& point : sphere.points)
+    {
+      spheres.points.emplace_back(point + center);
+    }
+    for (const auto& [a, b, c] : sphere.triangles)
+    {
+      spheres.triangles.push_back({ a + first, b + first, c + first });
+    }
+  }
+  return spheres;
+}
+
+TriangleMesh twoSpheres(double distance)
+{
+  return spheresAt(std::array{ Eigen::Vector3d(0., 0., 0.), Eigen::Vector3d(distance, 0., 0.) });
+}
+
+PointCloud cloudOf(const TriangleMesh& surface, CloudOptions options = {})
+{
+  options.count = options.count == CloudOptions().count ? 40000 : options.count;
+  return PointCloud(generateCloud(surface, options));
+}
+}
+
+// Closed shapes come out closed, with the genus that they have, and near the surface: of dense and
+// thin clouds, with noise and with outliers, with faces that lie along the grid.
+TEST(FirstSurface, ClosedShapes)
+{
+  for (const TrueSurface& shape : { trueSphere(), trueTorus(), trueCube() })
+  {
+    for (const Scan& scan : scans())
+    {
+      SCOPED_TRACE(shape.name + ", " + scan.name);
+      const PointCloud cloud(generateCloud(shape.triangles, scan.options));
+      const auto first = firstSurface(cloud, MostVertices, Boundaries::Keep, goOn);
+      ASSERT_TRUE(first.has_value());
+      EXPECT_FALSE(first->isOpen);
+      EXPECT_EQ(first->genus, shape.genus);
+      EXPECT_EQ(first->components, 1u);
+      EXPECT_EQ(defectOf(first->mesh), "");
+      const ManifoldReport report = reportOf(first->mesh);
+      EXPECT_TRUE(report.isClosed());
+      EXPECT_EQ(report.components, 1u);
+      EXPECT_EQ(report.genus(), shape.genus);
+      EXPECT_LE(first->mesh.vertexCount(), MostVertices);
+      const TriangleMesh mesh = trianglesOf(first->mesh, cloud);
+      EXPECT_LT(largestDistance(shape, mesh), 0.02 * shape.diagonal);
+      EXPECT_LT(rmsDistance(shape, mesh), 0.003 * shape.diagonal);
+      EXPECT_GT(reportSurface(mesh).volume.value(), 0.);
+    }
+  }
+}
+
+// However the density falls along an axis, shapes come out closed, with the genus that they have, and
+// open scans are one sheet.
+TEST(FirstSurface, DensityGradients)
+{
+  for (const double gradient : { 10., 30. })
+  {
+    for (const unsigned axis : { 0u, 1u })
+    {
+      CloudOptions options;
+      options.count = 100000;
+      options.gradient = gradient;
+      options.gradientAxis = axis;
+      for (const TrueSurface& shape : { trueSphere(), trueTorus(), trueCube() })
+      {
+        SCOPED_TRACE(shape.name + ", " + std::to_string(gradient) + ", " + std::to_string(axis));
+        const PointCloud cloud(generateCloud(shape.triangles, options));
+        const auto first = firstSurface(cloud, MostVertices, Boundaries::Keep, goOn);
+        ASSERT_TRUE(first.has_value());
+        EXPECT_TRUE(reportOf(first->mesh).isClosed());
+        EXPECT_EQ(reportOf(first->mesh).genus(), shape.genus);
+      }
+      options.gradient = 10.;
+      const PointCloud open(generateCloud(heightField(), options));
+      const auto sheet = firstSurface(open, MostVertices, Boundaries::Keep, goOn);
+      ASSERT_TRUE(sheet.has_value());
+      EXPECT_TRUE(sheet->isOpen);
+      EXPECT_EQ(reportOf(sheet->mesh).components, 1u);
+      EXPECT_EQ(reportOf(sheet->mesh).genus(), 0);
+    }
+  }
+}
+
+// Outliers that the grid joins to the shape by a corner only are no pieces of their own.
+TEST(FirstSurface, OutliersAreNoComponents)
+{
+  for (const TrueSurface& shape : { trueSphere(), trueTorus() })
+  {
+    for (const std::uint64_t seed : { 1u, 2u, 3u })
+    {
+      SCOPED_TRACE(shape.name + ", " + std::to_string(seed));
+      CloudOptions options;
+      options.count = 20000;
+      options.outliers = 0.1;
+      options.seed = seed;
+      const auto first =
+        firstSurface(cloudOf(shape.triangles, options), MostVertices, Boundaries::Close, goOn);
+      ASSERT_TRUE(first.has_value());
+      EXPECT_EQ(first->components, 1u);
+      EXPECT_EQ(first->genus, shape.genus);
+      EXPECT_EQ(reportOf(first->mesh).components, 1u);
+    }
+  }
+}
+
+// Two objects in a scan are two components.
+TEST(FirstSurface, SeparateSpheres)
+{
+  for (const double distance : { 2.5, 4., 8. })
+  {
+    SCOPED_TRACE(distance);
+    const PointCloud cloud = cloudOf(twoSpheres(distance));
+    const auto first = firstSurface(cloud, MostVertices, Boundaries::Keep, goOn);
+    ASSERT_TRUE(first.has_value());
+    EXPECT_FALSE(first->isOpen);
+    EXPECT_EQ(first->components, 2u);
+    const ManifoldReport report = reportOf(first->mesh);
+    EXPECT_EQ(report.defect, "");
+    EXPECT_TRUE(report.isClosed());
+    EXPECT_EQ(report.components, 2u);
+    EXPECT_EQ(report.genus(), 0);
+  }
+}
+
+// However many objects of one size a scan has, none is taken for a stray piece.
+TEST(FirstSurface, ManyEqualSpheres)
+{
+  std::vector<Eigen::Vector3d> centers;
+  for (int i = 0; i < 64; ++i)
+  {
+    centers.emplace_back(3. * (i % 4), 3. * (i / 4 % 4), 3. * (i / 16));
+  }
+  CloudOptions options;
+  options.count = 100000;
+  const auto first =
+    firstSurface(cloudOf(spheresAt(centers), options), 4 * MostVertices, Boundaries::Keep, goOn);
+  ASSERT_TRUE(first.has_value());
+  EXPECT_EQ(reportOf(first->mesh).components, 64u);
+}
+
+// Of an open scan one sheet is made, as large as the surface, and with one boundary.
+TEST(FirstSurface, OpenScansGiveOneSheet)
+{
+  const std::vector<std::pair<std::string, TriangleMesh>> shapes{ { "square", makeGrid(8) },
+    { "height field", heightField() }, { "half sphere", cutSphere(0.) } };
+  for (const auto& [name, shape] : shapes)
+  {
+    for (const double noise : { 0., 0.003 })
+    {
+      SCOPED_TRACE(name + ", noise " + std::to_string(noise));
+      CloudOptions options;
+      options.noise = noise;
+      const PointCloud cloud = cloudOf(shape, options);
+      const auto first = firstSurface(cloud, MostVertices, Boundaries::Keep, goOn);
+      ASSERT_TRUE(first.has_value());
+      EXPECT_TRUE(first->isOpen);
+      EXPECT_EQ(defectOf(first->mesh), "");
+      const ManifoldReport report = reportOf(first->mesh);
+      EXPECT_EQ(report.components, 1u);
+      EXPECT_EQ(report.boundaryLoops, 1u);
+      EXPECT_EQ(report.genus(), 0);
+      const double area = reportSurface(shape).area;
+      EXPECT_NEAR(reportSurface(trianglesOf(first->mesh, cloud)).area, area, 0.05 * area);
+    }
+  }
+}
+
+// Nowhere does a sheet go over to the other side of its surface: not even where valleys and ridges
+// meet its boundary.
+TEST(FirstSurface, SheetsKeepTheirSide)
+{
+  for (const double turn : { 0., 1., 2., 3., 4., 5. })
+  {
+    SCOPED_TRACE(turn);
+    CloudOptions options;
+    options.count = 100000;
+    const PointCloud cloud = cloudOf(ruggedField(turn), options);
+    const auto first = firstSurface(cloud, MostVertices, Boundaries::Keep, goOn);
+    ASSERT_TRUE(first.has_value());
+    double up = 0., down = 0.;
+    first->mesh.forEachTriangle(
+      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+      {
+        const Vector4 from = first->mesh.position(a);
+        const float z = cross(first->mesh.position(b) - from, first->mesh.position(c) - from)[2];
+        (z > 0.f ? up : down) += std::abs(double(z));
+      });
+    EXPECT_LT(std::min(up, down), 0.002 * (up + down));
+    EXPECT_EQ(reportOf(first->mesh).boundaryLoops, 1u);
+  }
+}
+
+// Holes in the data are holes in the mesh, or closed if that is asked for.
+TEST(FirstSurface, HolesStayOrAreClosed)
+{
+  std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), {});
+  std::erase_if(points,
+    [](const Eigen::Vector3d& point)
+    {
+      return (Eigen::Matrix3d::Identity().colwise() - point).colwise().norm().minCoeff() <
+        0.1 * SphereDiagonal;
+    });
+  const PointCloud cloud(points);
+  for (const Boundaries boundaries : { Boundaries::Keep, Boundaries::Close })
+  {
+    const auto first = firstSurface(cloud, MostVertices, boundaries, goOn);
+    ASSERT_TRUE(first.has_value());
+    const ManifoldReport report = reportOf(first->mesh);
+    EXPECT_EQ(report.defect, "");
+    EXPECT_EQ(report.boundaryLoops, boundaries == Boundaries::Keep ? 3u : 0u);
+    EXPECT_EQ(report.components, 1u);
+    EXPECT_EQ(report.genus(), 0);
+  }
+}
+
+// Open scans, too, are closed if that is asked for.
+TEST(FirstSurface, OpenScansAreClosed)
+{
+  const PointCloud cloud = cloudOf(cutSphere(0.));
+  const auto first = firstSurface(cloud, MostVertices, Boundaries::Close, goOn);
+  ASSERT_TRUE(first.has_value());
+  const ManifoldReport report = reportOf(first->mesh);
+  EXPECT_EQ(report.defect, "");
+  EXPECT_TRUE(report.isClosed());
+  EXPECT_EQ(report.components, 1u);
+}
+
+// Less than 500 different points tell nothing, however often they are repeated.
+TEST(FirstSurface, NothingOfFewPoints)
+{
+  for (const std::size_t count : { 1u, 10u, 499u })
+  {
+    CloudOptions options;
+    options.count = count;
+    std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
+    for (int i = 0; i < 3; ++i)
+    {
+      EXPECT_FALSE(firstSurface(PointCloud(points), MostVertices, Boundaries::Keep, goOn));
+      points.insert(points.end(), points.begin(), points.end());
+    }
+  }
+  CloudOptions options;
+  options.count = 2000;
+  EXPECT_TRUE(firstSurface(
+    PointCloud(generateCloud(makeSphere(), options)), MostVertices, Boundaries::Keep, goOn));
+}
+
+// It has at most as many vertices as it may have, down to those that the shape needs.
+TEST(FirstSurface, KeepsToTheVertexLimit)
+{
+  for (const TrueSurface& shape : { trueSphere(), trueTorus() })
+  {
+    const PointCloud cloud = cloudOf(shape.triangles);
+    for (const std::size_t most : { 3000u, 500u, 60u, 20u })
+    {
+      SCOPED_TRACE(shape.name + ", " + std::to_string(most));
+      const auto first = firstSurface(cloud, most, Boundaries::Keep, goOn);
+      ASSERT_TRUE(first.has_value());
+      EXPECT_EQ(first->mesh.vertexCount(), most);
+      EXPECT_EQ(defectOf(first->mesh), "");
+      EXPECT_EQ(reportOf(first->mesh).genus(), shape.genus);
+    }
+    EXPECT_FALSE(firstSurface(cloud, 3, Boundaries::Keep, goOn));
+  }
+}
+
+// Whenever it is ended, there is nothing, or a whole surface.
+TEST(FirstSurface, CanBeEndedAnywhere)
+{
+  CloudOptions options;
+  options.count = 4000;
+  for (const TriangleMesh& shape : { makeSphere(), cutSphere(0.) })
+  {
+    const PointCloud cloud(generateCloud(shape, options));
+    int calls = 0;
+    const auto count = [&](double)
+    {
+      ++calls;
+      return true;
+    };
+    ASSERT_TRUE(firstSurface(cloud, 200, Boundaries::Keep, count));
+    ASSERT_GT(calls, 5);
+    std::size_t ended = 0;
+    for (int last = 0; last < calls; ++last)
+    {
+      int left = last;
+      const auto first =
+        firstSurface(cloud, 200, Boundaries::Keep, [&](double) { return left-- > 0; });
+      ended += !first;
+      if (first)
+      {
+        EXPECT_EQ(defectOf(first->mesh), "");
+        EXPECT_EQ(reportOf(first->mesh).components, 1u);
+      }
+    }
+    EXPECT_GT(ended, 0u);
+  }
+}
+
+// Progress rises from 0 to at most 1.
+TEST(FirstSurface, ProgressRises)
+{
+  std::vector<double> told;
+  firstSurface(cloudOf(makeSphere()), 500, Boundaries::Keep,
+    [&](double fraction)
+    {
+      told.push_back(fraction);
+      return true;
+    });
+  ASSERT_GT(told.size(), 3u);
+  EXPECT_GE(told.front(), 0.);
+  EXPECT_LE(told.back(), 1.);
+  EXPECT_GT(told.back(), 0.9);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+}
+}
