@@ -259,7 +259,8 @@ int vtkNeuralMesh::ExecuteOnCloud(
   {
     return this->Superclass::ProcessRequest(request, inputVector, outputVector);
   }
-  const double begin = neuralmesh::cpuSeconds();
+  neuralmesh::PhaseTimes times;
+  times.enter(neuralmesh::Phase::Drawing);
   vtkSmartPointer<vtkPolyData> points;
   try
   {
@@ -273,7 +274,8 @@ int vtkNeuralMesh::ExecuteOnCloud(
     vtkErrorMacro(<< error.what());
     return 0;
   }
-  this->DrawingTime = neuralmesh::cpuSeconds() - begin;
+  times.leave();
+  this->DrawingTime = times.seconds(neuralmesh::Phase::Drawing);
   if (!points)
   {
     this->StopReason = neuralmesh::name(neuralmesh::StopReason::Cancelled).data();
@@ -383,9 +385,10 @@ int vtkNeuralMesh::RequestData(
   }
   const bool carries = carrier && carrier->HasArrays();
   const neuralmesh::ThreadPool executor(vtkNeuralMeshThreads(this->NumberOfThreads));
-  const double cloudBegin = neuralmesh::cpuSeconds();
+  neuralmesh::PhaseTimes times;
+  times.enter(neuralmesh::Phase::Cloud);
   const neuralmesh::PointCloud cloud(collector.GetPoints(), weights, carries, executor);
-  this->CloudTime = neuralmesh::cpuSeconds() - cloudBegin;
+  times.leave();
   collector.ReleasePoints();
   std::vector<double>().swap(weights);
   if (!cloud.hasExtent())
@@ -436,16 +439,15 @@ int vtkNeuralMesh::RequestData(
   { return run.Progress.Report(fraction); };
   const double endOfMesh = carries ? EndOfMesh : 1.0;
   neuralmesh::Tuning tuning;
-  this->ChoiceTime = 0.0;
   if (this->Automatic)
   {
-    const double choiceBegin = neuralmesh::cpuSeconds();
+    times.enter(neuralmesh::Phase::Choice);
     // Whoever aborts while parameters are chosen ends the run with them as they were.
     tuning = neuralmesh::tune(
       cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, EndOfChoice), executor)
                .value_or(neuralmesh::Tuning{ run.Parameters, {}, {}, {} });
     run.Parameters = tuning.parameters;
-    this->ChoiceTime = neuralmesh::cpuSeconds() - choiceBegin;
+    times.leave();
     vtkNeuralMeshReport::Log(tuning, this);
   }
   neuralmesh::Reconstruction result;
@@ -462,9 +464,12 @@ int vtkNeuralMesh::RequestData(
   }
   this->ResumedIterations = static_cast<vtkIdType>(result.resumedIterations);
   this->StopReason = neuralmesh::name(result.stopReason).data();
-  this->StartTime = result.startSeconds;
-  this->LearningTime = result.learningSeconds;
-  this->FinishTime = result.finishSeconds;
+  times.add(result.times);
+  this->CloudTime = times.seconds(neuralmesh::Phase::Cloud);
+  this->ChoiceTime = times.seconds(neuralmesh::Phase::Choice);
+  this->StartTime = times.seconds(neuralmesh::Phase::Start);
+  this->LearningTime = times.seconds(neuralmesh::Phase::Learning);
+  this->FinishTime = times.seconds(neuralmesh::Phase::Finish);
   this->AbortExecute = 0;
   if (result.stopReason == neuralmesh::StopReason::Stalled)
   {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMeshFileSampler.h"
 
+#include "base/PhaseTimes.h"
 #include "cloud/PointFile.h"
-#include "run/Reconstruction.h"
 #include "vtkFilePoints.h"
 #include "vtkNeuralMeshRun.h"
 
@@ -33,7 +33,8 @@ void vtkNeuralMeshFileSampler::SetFileName(const char* name)
 int vtkNeuralMeshFileSampler::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  const double begin = neuralmesh::cpuSeconds();
+  neuralmesh::PhaseTimes times;
+  times.enter(neuralmesh::Phase::Drawing);
   this->NumberOfFilePoints = 0;
   if (this->FileName.empty())
   {
@@ -68,7 +69,8 @@ int vtkNeuralMeshFileSampler::RequestData(
     return 0;
   }
   this->AbortExecute = 0;
-  this->DrawingTime = neuralmesh::cpuSeconds() - begin;
+  times.leave();
+  this->DrawingTime = times.seconds(neuralmesh::Phase::Drawing);
   return 1;
 }
 

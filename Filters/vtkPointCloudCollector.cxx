@@ -14,6 +14,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 void vtkPointCloudCollector::Collect(vtkDataObject* data)
@@ -51,16 +52,27 @@ void vtkPointCloudCollector::CollectPointSet(vtkPointSet* pointSet)
     vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
 
   Leaf leaf{ pointSet, this->Points.size(), {} };
-  this->Points.reserve(
-    this->Points.size() + static_cast<std::size_t>(coordinates->GetNumberOfTuples()));
-  const auto append = [&](const auto& range)
+  const auto count = static_cast<std::size_t>(coordinates->GetNumberOfValues());
+  auto* floats = vtkFloatArray::SafeDownCast(coordinates);
+  auto* doubles = vtkDoubleArray::SafeDownCast(coordinates);
+  if (!ghosts && floats)
   {
+    this->Points.add(std::span<const float>(floats->GetPointer(0), count));
+  }
+  else if (!ghosts && doubles)
+  {
+    this->Points.add(std::span<const double>(doubles->GetPointer(0), count));
+  }
+  else
+  {
+    std::vector<double>& copy = this->Copies.emplace_back();
+    copy.reserve(count);
     vtkIdType i = 0;
-    for (const auto point : range)
+    for (const auto point : vtk::DataArrayTupleRange<3>(coordinates))
     {
       if (!ghosts || (ghosts->GetValue(i) & skipped) == 0)
       {
-        this->Points.emplace_back(point[0], point[1], point[2]);
+        copy.insert(copy.end(), { point[0], point[1], point[2] });
         if (ghosts)
         {
           leaf.Kept.push_back(i);
@@ -68,23 +80,18 @@ void vtkPointCloudCollector::CollectPointSet(vtkPointSet* pointSet)
       }
       ++i;
     }
-  };
-  if (auto* floats = vtkFloatArray::SafeDownCast(coordinates))
-  {
-    append(vtk::DataArrayTupleRange<3>(floats));
-  }
-  else if (auto* doubles = vtkDoubleArray::SafeDownCast(coordinates))
-  {
-    append(vtk::DataArrayTupleRange<3>(doubles));
-  }
-  else
-  {
-    append(vtk::DataArrayTupleRange<3>(coordinates));
+    this->Points.add(std::span<const double>(copy));
   }
   if (this->Points.size() > leaf.Begin)
   {
     this->Leaves.push_back(std::move(leaf));
   }
+}
+
+void vtkPointCloudCollector::ReleasePoints()
+{
+  this->Points = {};
+  this->Copies.clear();
 }
 
 const vtkPointCloudCollector::Leaf& vtkPointCloudCollector::GetLeafOf(std::size_t point) const

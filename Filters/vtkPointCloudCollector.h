@@ -12,8 +12,9 @@
 
 #include "vtkType.h"
 
-#include <Eigen/Core>
+#include "cloud/PointSpans.h"
 
+#include <deque>
 #include <vector>
 
 class vtkDataObject;
@@ -39,8 +40,10 @@ public:
   /** Adds the points of `data`. */
   void Collect(vtkDataObject* data);
 
-  const std::vector<Eigen::Vector3d>& GetPoints() const { return this->Points; }
-  void ReleasePoints() { std::vector<Eigen::Vector3d>().swap(this->Points); }
+  /** They lie where the input has them; only where some are left out, or that is neither float nor
+   * double, they are copies. */
+  const neuralmesh::PointSpans& GetPoints() const { return this->Points; }
+  void ReleasePoints();
 
   /** Those with points. They belong to the input. */
   const std::vector<Leaf>& GetLeaves() const { return this->Leaves; }
@@ -55,7 +58,8 @@ public:
 private:
   void CollectPointSet(vtkPointSet* pointSet);
 
-  std::vector<Eigen::Vector3d> Points;
+  neuralmesh::PointSpans Points;
+  std::deque<std::vector<double>> Copies; ///< that points are in
   std::vector<Leaf> Leaves;
   bool DoublePoints = false;
   int NumberOfOtherLeaves = 0;

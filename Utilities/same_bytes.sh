@@ -50,8 +50,8 @@ make_meshes()
   local state=(--checkpoint "$out/state")
   "${run[@]}" "$out/checkpoint.ply" "${options[@]}" "${state[@]}" --time-limit 0.15 2> /dev/null
   "${run[@]}" "$out/checkpoint.ply" "${options[@]}" "${state[@]}" 2> /dev/null
-  rm -f "$out/state"
-  python3 - "$cloud" "$out/stream.ply" "$vertices" "$seed" <<'STREAM'
+  rm -f "$out/state" "$out/errors.txt"
+  /usr/bin/python3 - "$cloud" "$out/stream.ply" "$vertices" "$seed" <<'STREAM'
 import sys
 
 import neuralmesh
@@ -63,7 +63,7 @@ reader = vtkPLYReader()
 reader.SetFileName(cloud)
 reader.Update()
 points = WrapDataObject(reader.GetOutput()).Points
-stream = neuralmesh.stream(number_of_vertices=int(vertices), seed=int(seed))
+stream = neuralmesh.stream(vertices=int(vertices), seed=int(seed))
 for part in (points[::2], points[1::2]):
     stream.add_points(part)
     stream.learn(100000)

@@ -74,14 +74,16 @@ void printRow(const PointCloud& cloud, std::uint64_t vertices, const Executor& e
     {}, {}, {}, executor);
   const double wall =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const double cpu = result.startSeconds + result.learningSeconds + result.finishSeconds;
+  const double learningSeconds = result.times.seconds(Phase::Learning);
+  const double cpu =
+    result.times.seconds(Phase::Start) + learningSeconds + result.times.seconds(Phase::Finish);
   const auto bytesPerVertex = [&](const Peak& peak)
   { return (peak.bytes() - before) / double(vertices); };
   // One can assume that the thesis's time grows as the number of vertices does.
   const double atlas = AtlasSeconds / AtlasVertices * double(vertices);
   std::printf("| %llu | %.0f | %.0f | %.0f | %.1f | %.1f | %.0f | %.2e | %ld | %zu | %.1f |\n",
     static_cast<unsigned long long>(vertices),
-    1e9 * result.learningSeconds / double(result.counts.iterations), bytesPerVertex(learning),
+    1e9 * learningSeconds / double(result.counts.iterations), bytesPerVertex(learning),
     bytesPerVertex(finish), cpu, wall, atlas / cpu, result.quality->residual / cloud.diagonal(),
     result.quality->surface.genus.value_or(-1), result.quality->surface.foldedEdges,
     100. * result.quality->surface.regularRatio);

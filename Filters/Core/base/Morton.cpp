@@ -10,22 +10,10 @@ namespace neuralmesh
 {
 namespace
 {
-constexpr int BitsPerAxis = 16;
 constexpr int BitsPerDigit = 12;
 constexpr std::size_t DigitCount = std::size_t(1) << BitsPerDigit;
 /// A part for the executor; many more than there are digits.
 constexpr std::size_t SortedPerRange = std::size_t(1) << 18;
-
-/// Spreads the bits of a 16-bit number so that two zeros follow each.
-std::uint64_t spread(std::uint32_t bits)
-{
-  std::uint64_t x = bits;
-  x = (x | x << 16) & 0x0000ff0000ffu;
-  x = (x | x << 8) & 0x00f00f00f00fu;
-  x = (x | x << 4) & 0x0c30c30c30c3u;
-  x = (x | x << 2) & 0x249249249249u;
-  return x;
-}
 
 struct MortonEntry
 {
@@ -72,29 +60,32 @@ void sortByDigit(const std::vector<MortonEntry>& entries, std::vector<MortonEntr
 }
 }
 
-std::vector<std::uint32_t> mortonOrder(
-  std::span<const Vector4> points, Vector4 boxMin, Vector4 boxMax, const Executor& executor)
+MortonCurve::MortonCurve(Vector4 boxMin, Vector4 boxMax)
+  : boxMin_(boxMin)
+  , boxMax_(boxMax)
 {
   const Vector4 extent = boxMax - boxMin;
   const float longest = std::max({ extent[0], extent[1], extent[2] });
   // Of the smallest boxes there is no inverse.
-  const float scale = longest > 0.f
+  scale_ = longest > 0.f
     ? std::min(float((1 << BitsPerAxis) - 1) / longest, std::numeric_limits<float>::max())
     : 0.f;
+}
 
+std::vector<std::uint32_t> mortonOrder(
+  std::span<const Vector4> points, Vector4 boxMin, Vector4 boxMax, const Executor& executor)
+{
+  const MortonCurve curve(boxMin, boxMax);
   std::vector<MortonEntry> entries(points.size()), sorted(points.size());
   executor.forEachRange(points.size(), SortedPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        const Vector4 p = scale * (min(max(points[i], boxMin), boxMax) - boxMin);
-        entries[i] = { spread(std::uint32_t(p[0])) | spread(std::uint32_t(p[1])) << 1 |
-            spread(std::uint32_t(p[2])) << 2,
-          std::uint32_t(i) };
+        entries[i] = { curve.key(points[i]), std::uint32_t(i) };
       }
     });
-  for (int shift = 0; shift < 3 * BitsPerAxis; shift += BitsPerDigit)
+  for (int shift = 0; shift < MortonCurve::KeyBits; shift += BitsPerDigit)
   {
     sortByDigit(entries, sorted, shift, executor);
     entries.swap(sorted);

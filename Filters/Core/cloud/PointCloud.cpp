@@ -1,153 +1,228 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/PointCloud.h"
 
+#include "base/BucketOrder.h"
 #include "base/Morton.h"
+#include "base/OrderStatistics.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace neuralmesh
 {
 namespace
 {
-/// The box that holds all but the outermost hundredth of the points at each side of each axis.
-Eigen::AlignedBox3d bulkOf(std::span<const Eigen::Vector3d> points, const Executor& executor)
+/// Points of a part for the executor.
+constexpr std::size_t PointsPerRange = std::size_t(1) << 18;
+/// So many points of a surface are in a bucket, about: few enough to be sorted in the cache.
+constexpr std::size_t PointsPerBucket = 2048;
+
+/// Buckets are cubes along the Morton curve. Of a grid of 4^k cells along each axis, a surface takes
+/// about 4 * 16^k.
+int bucketBits(std::size_t points)
 {
-  Eigen::Vector3d low, high;
-  const auto outermost = std::ptrdiff_t(points.size() / 100);
-  executor.forEachPart(3,
-    [&](std::size_t part)
-    {
-      const auto axis = Eigen::Index(part);
-      std::vector<double> coordinates(points.size());
-      std::transform(points.begin(), points.end(), coordinates.begin(),
-        [axis](const Eigen::Vector3d& point) { return point[axis]; });
-      const auto lowest = coordinates.begin() + outermost;
-      const auto highest = coordinates.end() - 1 - outermost;
-      std::nth_element(coordinates.begin(), lowest, coordinates.end());
-      low[axis] = *lowest;
-      std::nth_element(lowest, highest, coordinates.end());
-      high[axis] = *highest;
-    });
-  return { low, high };
+  int bitsPerAxis = 2;
+  while (bitsPerAxis < 6 && (PointsPerBucket << (2 * bitsPerAxis + 2)) < points)
+  {
+    ++bitsPerAxis;
+  }
+  return 3 * bitsPerAxis;
 }
 }
 
-PointCloud::PointCloud(std::span<const Eigen::Vector3d> points, std::span<const double> weights,
-  bool keepsOrigins, const Executor& executor)
+/// What a cloud is made of.
+struct PointCloud::Input
 {
-  const bool tracksOrigins = keepsOrigins || !weights.empty();
-  std::vector<Eigen::Vector3d> finite;
-  std::vector<std::uint32_t> origins; // of these
-  finite.reserve(points.size());
-  origins.reserve(tracksOrigins ? points.size() : 0);
-  for (std::size_t i = 0; i < points.size(); ++i)
+  const PointSpans& points;
+  std::span<const double> weights;
+
+  bool hasWeight(std::size_t index) const
   {
-    if (!weights.empty() && !(weights[i] > 0. && std::isfinite(weights[i])))
-    {
-      continue;
-    }
-    if (!points[i].allFinite())
-    {
-      ++droppedCount_;
-      continue;
-    }
-    finite.push_back(points[i]);
-    if (tracksOrigins)
-    {
-      origins.push_back(std::uint32_t(i));
-    }
+    return weights.empty() || (weights[index] > 0. && std::isfinite(weights[index]));
   }
-  if (finite.empty())
+
+  /// Calls `use(index, point)` for the points of a range that are finite and have a weight.
+  template <typename Use>
+  void forEachFinite(std::size_t begin, std::size_t end, Use use) const
+  {
+    points.forEach(begin, end,
+      [&](std::size_t index, const Eigen::Vector3d& point)
+      {
+        if (hasWeight(index) && point.allFinite())
+        {
+          use(index, point);
+        }
+      });
+  }
+
+  std::size_t finiteCount() const
+  {
+    std::size_t count = 0;
+    forEachFinite(0, points.size(), [&](std::size_t, const Eigen::Vector3d&) { ++count; });
+    return count;
+  }
+
+  std::size_t weightCount() const
+  {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      count += hasWeight(i) ? 1 : 0;
+    }
+    return count;
+  }
+
+  /// The box that holds all but the outermost hundredth of `count` finite points at each side of each
+  /// axis.
+  Eigen::AlignedBox3d bulk(std::size_t count, const Executor& executor) const
+  {
+    Eigen::Vector3d low, high;
+    const std::size_t outermost = count / 100;
+    executor.forEachPart(6,
+      [&](std::size_t part)
+      {
+        const auto axis = Eigen::Index(part % 3);
+        const auto forEachCoordinate = [&](const auto& use)
+        {
+          forEachFinite(
+            0, points.size(), [&](std::size_t, const Eigen::Vector3d& point) { use(point[axis]); });
+        };
+        (part < 3 ? low : high)[axis] =
+          orderStatistic(part < 3 ? outermost : count - 1 - outermost, forEachCoordinate);
+      });
+    return { low, high };
+  }
+};
+
+PointCloud::PointCloud(const PointSpans& points, std::span<const double> weights, bool keepsOrigins,
+  const Executor& executor)
+{
+  const Input input{ points, weights };
+  const std::size_t finite = input.finiteCount();
+  droppedCount_ = input.weightCount() - finite;
+  if (finite == 0)
   {
     return;
   }
-
-  Eigen::AlignedBox3d bulk = bulkOf(finite, executor);
+  Eigen::AlignedBox3d bulk = input.bulk(finite, executor);
   if (!(bulk.diagonal().norm() > 0.))
   {
     // Nearly all points on one spot: the rest is what there is.
-    for (const Eigen::Vector3d& point : finite)
-    {
-      bulk.extend(point);
-    }
+    input.forEachFinite(
+      0, points.size(), [&](std::size_t, const Eigen::Vector3d& point) { bulk.extend(point); });
   }
   center_ = bulk.center();
   const double size = bulk.diagonal().stableNorm();
   size_ = size > 0. && std::isfinite(size) ? size : 1.;
-
-  std::vector<Vector4> scaled;
-  scaled.reserve(finite.size());
-  Eigen::AlignedBox3d box;
-  for (std::size_t i = 0; i < finite.size(); ++i)
+  findBoxes(input, bulk);
+  takePoints(input, keepsOrigins || !weights.empty(), executor);
+  droppedCount_ += finite - points_.size();
+  if (!weights.empty())
   {
-    if (takesIn(finite[i]))
-    {
-      const Eigen::Vector3d p = (finite[i] - center_) / size_;
-      if (tracksOrigins)
-      {
-        origins[scaled.size()] = origins[i];
-      }
-      scaled.emplace_back(p);
-      box.extend(p);
-    }
+    takeWeights(input);
   }
-  droppedCount_ += finite.size() - scaled.size();
-  if (scaled.empty())
+  if (!keepsOrigins)
+  {
+    std::vector<std::uint32_t>().swap(origins_);
+  }
+}
+
+/// Diagonal and box of the bulk.
+void PointCloud::findBoxes(const Input& input, const Eigen::AlignedBox3d& bulk)
+{
+  Eigen::AlignedBox3d box;
+  input.forEachFinite(0, input.points.size(),
+    [&](std::size_t, const Eigen::Vector3d& point)
+    {
+      if (takesIn(point))
+      {
+        box.extend(Eigen::Vector3d((point - center_) / size_));
+      }
+    });
+  if (box.isEmpty())
   {
     return; // the extent of all of them is beyond all numbers
   }
   diagonal_ = box.diagonal().norm();
-
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.25);
   Eigen::AlignedBox3d enlarged(
     (bulk.min() - center_) / size_ - margin, (bulk.max() - center_) / size_ + margin);
   enlarged = enlarged.intersection(box);
   bulkMin_ = Vector4(enlarged.min());
   bulkMax_ = Vector4(enlarged.max());
-
-  // Sorting takes the most memory of all.
-  std::vector<Eigen::Vector3d>().swap(finite);
-  origins.resize(tracksOrigins ? scaled.size() : 0);
-  sort(scaled, std::move(origins), weights, keepsOrigins, executor);
 }
 
-void PointCloud::sort(const std::vector<Vector4>& points, std::vector<std::uint32_t> origins,
-  std::span<const double> weights, bool keepsOrigins, const Executor& executor)
+/// The points in Morton order, and where they come from: first by buckets that follow each other along
+/// the curve, then in order within each.
+void PointCloud::takePoints(const Input& input, bool keepsOrigins, const Executor& executor)
 {
-  const std::vector<std::uint32_t> order = mortonOrder(points, bulkMin_, bulkMax_, executor);
-  points_.reserve(points.size());
-  for (const std::uint32_t i : order)
+  const MortonCurve curve(bulkMin_, bulkMax_);
+  const int bits = bucketBits(input.points.size());
+  const auto forEachNear = [&](std::size_t begin, std::size_t end, const auto& use)
   {
-    points_.push_back(points[i]);
-  }
-  if (!weights.empty())
+    input.forEachFinite(begin, end,
+      [&](std::size_t index, const Eigen::Vector3d& point)
+      {
+        const Eigen::Vector3d p = scaled(point);
+        if (isNear(p))
+        {
+          use(index, std::size_t(curve.key(Vector4(p)) >> (MortonCurve::KeyBits - bits)));
+        }
+      });
+  };
+  const BucketOrder buckets(
+    input.points.size(), PointsPerRange, std::size_t(1) << bits, forEachNear, executor);
+  points_.resize(buckets.itemCount());
+  origins_.resize(keepsOrigins ? buckets.itemCount() : 0);
+  executor.forEachPart(buckets.bucketCount(),
+    [&](std::size_t bucket)
+    {
+      const std::span<const std::uint32_t> items = buckets.items(bucket);
+      std::vector<Vector4> points;
+      std::vector<std::pair<std::uint64_t, std::uint32_t>> order; // key and place
+      points.reserve(items.size());
+      order.reserve(items.size());
+      for (const std::uint32_t item : items)
+      {
+        points.push_back(fromInput(input.points[item]));
+        order.emplace_back(curve.key(points.back()), std::uint32_t(order.size()));
+      }
+      std::sort(order.begin(), order.end());
+      std::size_t next = buckets.begin(bucket);
+      for (const auto& [key, place] : order)
+      {
+        points_[next] = points[place];
+        if (keepsOrigins)
+        {
+          origins_[next] = items[place];
+        }
+        ++next;
+      }
+    });
+}
+
+void PointCloud::takeWeights(const Input& input)
+{
+  // Divided by the largest first, as their sum may be beyond all numbers.
+  double largest = 0., sum = 0.;
+  const auto forEachTaken = [&](const auto& use)
   {
-    // Divided by the largest first, as their sum may be beyond all numbers.
-    double largest = 0., sum = 0.;
-    for (const std::uint32_t origin : origins)
-    {
-      largest = std::max(largest, weights[origin]);
-    }
-    for (const std::uint32_t origin : origins)
-    {
-      sum += weights[origin] / largest;
-    }
-    const double mean = sum / double(origins.size());
-    weights_.reserve(order.size());
-    for (const std::uint32_t i : order)
-    {
-      weights_.push_back(float(weights[origins[i]] / largest / mean));
-    }
-  }
-  if (keepsOrigins)
+    input.forEachFinite(0, input.points.size(),
+      [&](std::size_t index, const Eigen::Vector3d& point)
+      {
+        if (takesIn(point))
+        {
+          use(input.weights[index]);
+        }
+      });
+  };
+  forEachTaken([&](double weight) { largest = std::max(largest, weight); });
+  forEachTaken([&](double weight) { sum += weight / largest; });
+  const double mean = sum / double(origins_.size());
+  weights_.reserve(origins_.size());
+  for (const std::uint32_t origin : origins_)
   {
-    origins_.reserve(order.size());
-    for (const std::uint32_t i : order)
-    {
-      origins_.push_back(origins[i]);
-    }
+    weights_.push_back(float(input.weights[origin] / largest / mean));
   }
 }
 

@@ -4,6 +4,7 @@
 #include "base/Executor.h"
 #include "base/LargePageAllocator.h"
 #include "base/Vector4.h"
+#include "cloud/PointSpans.h"
 
 #include <Eigen/Geometry>
 
@@ -17,6 +18,9 @@ namespace neuralmesh
 /// The point cloud P, made ready for learning: without points that are not finite, moved and scaled
 /// so that its bulk has about unit size around the origin (whatever the units and the offset of the
 /// input are, single precision then resolves 10^-7 of the object), in Morton order.
+///
+/// Beside the points that it is given it writes and reads 40 bytes a point while it is made, and has
+/// at most 20 of them in memory: what it needs to know of all points is found by going over them again.
 class PointCloud
 {
 public:
@@ -26,7 +30,7 @@ public:
 
   /// `weights` are those of the points, or none: then all weigh alike. Points whose weight is no
   /// finite number above 0 are not there. With `keepsOrigins` the cloud knows origins().
-  explicit PointCloud(std::span<const Eigen::Vector3d> points, std::span<const double> weights = {},
+  explicit PointCloud(const PointSpans& points, std::span<const double> weights = {},
     bool keepsOrigins = false, const Executor& executor = Executor::sequential());
 
   /// The cloud less those points for which `isLeftOut(point)`. Unit, diagonal and weights
@@ -54,21 +58,23 @@ public:
 
   /// To the units of the input and back.
   Eigen::Vector3d toInput(Vector4 point) const { return center_ + size_ * point.toDouble(); }
-  Vector4 fromInput(const Eigen::Vector3d& point) const
-  {
-    return Vector4(Eigen::Vector3d((point - center_) / size_));
-  }
+  Vector4 fromInput(const Eigen::Vector3d& point) const { return Vector4(scaled(point)); }
   /// Whether a finite point is not so far off that it would be dropped.
-  bool takesIn(const Eigen::Vector3d& point) const
-  {
-    return ((point - center_) / size_).cwiseAbs().maxCoeff() <= FarthestPoint;
-  }
+  bool takesIn(const Eigen::Vector3d& point) const { return isNear(scaled(point)); }
   /// Length of the unit of this cloud in the units of the input.
   double unit() const { return size_; }
 
 private:
-  void sort(const std::vector<Vector4>& points, std::vector<std::uint32_t> origins,
-    std::span<const double> weights, bool keepsOrigins, const Executor& executor);
+  struct Input;
+
+  Eigen::Vector3d scaled(const Eigen::Vector3d& point) const { return (point - center_) / size_; }
+  static bool isNear(const Eigen::Vector3d& scaled)
+  {
+    return scaled.cwiseAbs().maxCoeff() <= FarthestPoint;
+  }
+  void findBoxes(const Input& input, const Eigen::AlignedBox3d& bulk);
+  void takePoints(const Input& input, bool keepsOrigins, const Executor& executor);
+  void takeWeights(const Input& input);
 
   LargeVector<Vector4> points_;
   std::vector<float> weights_;

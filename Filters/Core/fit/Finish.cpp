@@ -7,7 +7,6 @@
 #include "mesh/SelfIntersections.h"
 
 #include <limits>
-#include <numeric>
 
 namespace neuralmesh
 {
@@ -33,34 +32,30 @@ VertexIndex nearestToCollapseInto(const Mesh& mesh, VertexIndex v)
 }
 }
 
-Finish::Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters,
-  std::optional<double> bridgeWidth, std::size_t vertexCount, const Executor& executor)
+Finish::Finish(
+  const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan, const Executor& executor)
   : cloud_(cloud)
   , mesh_(mesh)
-  , parameters_(parameters)
-  , bridgeWidth_(bridgeWidth)
-  , vertexCount_(vertexCount)
+  , plan_(plan)
   , executor_(executor)
-  , origins_(mesh.vertexCount())
 {
-  std::iota(origins_.begin(), origins_.end(), VertexIndex(0));
 }
 
 bool Finish::run(const Progress& progress)
 {
-  const auto samples = std::size_t(parameters_.fitSamples * double(vertexCount_));
+  const auto samples = std::size_t(plan_.samplesPerVertex * double(plan_.vertexCount));
   std::optional<SurfaceFit> surfaceFit;
   const auto beginAnew = [&] { surfaceFit.emplace(cloud_, mesh_, samples, executor_); };
   beginAnew();
-  double smoothness = parameters_.fitSmoothness;
-  for (int round = 0; round < parameters_.fitRounds; ++round)
+  double smoothness = plan_.smoothness;
+  for (int round = 0; round < plan_.rounds; ++round)
   {
-    const double rounds = parameters_.fitRounds;
-    const bool isLast = round + 1 == parameters_.fitRounds;
-    if (isLast && mesh_.vertexCount() < vertexCount_)
+    const double rounds = plan_.rounds;
+    const bool isLast = round + 1 == plan_.rounds;
+    if (isLast && mesh_.vertexCount() < plan_.vertexCount)
     {
       const double at = round / rounds;
-      if (!refineTo(vertexCount_, partOf(progress, at, at)))
+      if (!refine(mesh_, plan_.vertexCount, partOf(progress, at, at)))
       {
         return false;
       }
@@ -74,7 +69,7 @@ bool Finish::run(const Progress& progress)
     if (round == 0)
     {
       smoothness = report_.smoothness;
-      if (bridgeWidth_ && openGaps(*surfaceFit))
+      if (plan_.bridgeWidth && openGaps(*surfaceFit))
       {
         beginAnew();
       }
@@ -94,13 +89,11 @@ void Finish::repair(const Progress& progress)
   while (report_.left.total() > 0 && report_.left.total() <= MostCollapsed)
   {
     const Mesh before = mesh_;
-    const std::vector<VertexIndex> originsBefore = origins_;
     collapseDefects();
     repair = repairIntersections(mesh_, progress);
     if (repair.after.total() >= report_.left.total() || mesh_.vertexCount() != before.vertexCount())
     {
       mesh_ = before;
-      origins_ = originsBefore;
       break;
     }
     report_.left = repair.after;
@@ -134,8 +127,8 @@ void Finish::collapseDefects()
       }
     }
   }
-  dropErased();
-  refineTo(count, [](double) { return true; });
+  mesh_.dropErased();
+  refine(mesh_, count, [](double) { return true; });
 }
 
 bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress)
@@ -153,39 +146,16 @@ bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& prog
 
 bool Finish::openGaps(const SurfaceFit& surfaceFit)
 {
-  const OpenedGaps gaps =
-    openDataGaps(cloud_, mesh_, surfaceFit.places(), surfaceFit.medianDistance(), *bridgeWidth_);
+  const std::size_t count = mesh_.vertexCount();
+  const OpenedGaps gaps = openDataGaps(
+    cloud_, mesh_, surfaceFit.places(), surfaceFit.medianDistance(), *plan_.bridgeWidth);
   if (!gaps.any())
   {
     return false;
   }
   report_.gapTriangles = gaps.triangles;
-  // With a single round the mesh is refined by now, and has more vertices than were learnt.
-  const std::size_t count = origins_.size();
-  dropErased();
-  refineTo(count, [](double) { return true; });
+  mesh_.dropErased();
+  refine(mesh_, count, [](double) { return true; });
   return true;
-}
-
-void Finish::dropErased()
-{
-  std::vector<VertexIndex> origins;
-  for (const VertexIndex v : mesh_.dropErased())
-  {
-    origins.push_back(origins_[v]);
-  }
-  origins_ = std::move(origins);
-}
-
-bool Finish::refineTo(std::size_t count, const Progress& progress)
-{
-  bool isEnded = false;
-  const auto origins =
-    refine(mesh_, count, [&](double fraction) { return !(isEnded = !progress(fraction)); });
-  for (const VertexIndex origin : origins)
-  {
-    origins_.push_back(origins_[origin]);
-  }
-  return !isEnded;
 }
 }

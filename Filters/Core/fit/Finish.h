@@ -2,15 +2,14 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/Progress.h"
 #include "cloud/PointCloud.h"
 #include "fit/IntersectionRepair.h"
 #include "fit/SurfaceFit.h"
-#include "learn/Parameters.h"
 #include "mesh/Mesh.h"
 
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 namespace neuralmesh
 {
@@ -25,40 +24,40 @@ struct FinishReport
   DefectCount left;             ///< ... and those that could not be mended
 };
 
-/// What is done with a mesh once it is learnt: it is fitted to the cloud, opened where the scan has
-/// no data if there is a `bridgeWidth`, as openDataGaps() takes it, and made more regular. In the end
-/// it has `vertexCount` vertices: if that is more than were learnt, long edges are halved. No vertex
-/// may be erased, and none is in the end.
+/// What is to be done with a mesh once it is learnt.
+struct FinishPlan
+{
+  int rounds = 3;                    ///< of the least-squares fit
+  double smoothness = 0.;            ///< lambda of the fit; 0 = by the noise and the shape
+  double samplesPerVertex = 10.;     ///< in the fit
+  std::optional<double> bridgeWidth; ///< of the gaps to open, see openDataGaps(); nothing = none
+  std::size_t vertexCount = 0;       ///< of the finished mesh
+};
+
+/// Finishes a mesh that is learnt: fits it to the cloud, opens it where the scan has no data, and makes
+/// it more regular. In the end it has as many vertices as planned: if that is more than were learnt,
+/// long edges are halved. No vertex may be erased, and none is in the end; properties follow.
 class Finish
 {
 public:
-  Finish(const PointCloud& cloud, Mesh& mesh, const Parameters& parameters,
-    std::optional<double> bridgeWidth, std::size_t vertexCount,
+  Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
     const Executor& executor = Executor::sequential());
 
   /// Returns false if it was ended before its end; then the mesh is valid all the same.
   bool run(const Progress& progress);
 
   const FinishReport& report() const { return report_; }
-  /// For each vertex, the index of the vertex of the learnt mesh that it is or was split from.
-  const std::vector<VertexIndex>& origins() const { return origins_; }
 
 private:
   bool fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   bool openGaps(const SurfaceFit& surfaceFit);
   void repair(const Progress& progress);
   void collapseDefects();
-  /// Closes the gaps in the numbers of the vertices, and in the origins with them.
-  void dropErased();
-  bool refineTo(std::size_t count, const Progress& progress);
 
   const PointCloud& cloud_;
   Mesh& mesh_;
-  const Parameters& parameters_;
-  std::optional<double> bridgeWidth_;
-  std::size_t vertexCount_;
+  FinishPlan plan_;
   const Executor& executor_;
-  std::vector<VertexIndex> origins_;
   FinishReport report_;
 };
 }

@@ -1,65 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "mesh/Ring.h"
-
-#include <algorithm>
-#include <cstddef>
-#include <span>
-#include <vector>
+#include "learn/NeuralMesh.h"
 
 namespace neuralmesh
 {
 /// How strongly the vertices tell of features: the normal counters of (8.5), which are averages and
-/// do not decay.
+/// do not decay. A vertex that comes out of a split is where the other one was, and tells the same.
 class FeatureStrength
 {
 public:
   /// `memory` is alpha_fd: what a win leaves of the strength before it.
-  FeatureStrength(std::size_t count, double memory)
+  FeatureStrength(NeuralMesh& mesh, double memory)
     : memory_(float(memory))
-    , strengths_(count, 0.f)
+    , strength_(mesh.addProperty(0.f, OnSplit::Copy))
   {
   }
 
   /// `winner` won, and its normal turned by `gain` times the mean, n_delta.
-  void win(VertexIndex winner, double gain)
+  void win(NeuralMesh& mesh, VertexIndex winner, double gain) const
   {
-    float& strength = strengths_[winner];
+    float& strength = mesh.values(strength_)[winner];
     strength = memory_ * strength + (1.f - memory_) * float(gain);
   }
-  /// `added` came out of a split of `split`: it is where that was.
-  void split(VertexIndex split, VertexIndex added)
-  {
-    strengths_.resize(std::max<std::size_t>(strengths_.size(), added + 1));
-    strengths_[added] = strengths_[split];
-  }
-  float operator[](VertexIndex v) const { return strengths_[v]; }
 
-  /// Memory for `count` indices: up to there no operation allocates.
-  void reserve(std::size_t count) { strengths_.reserve(count); }
-  /// As Mesh::renumber().
-  void renumber(std::span<const VertexIndex> order)
-  {
-    std::vector<float> strengths;
-    strengths.reserve(order.size());
-    for (const VertexIndex v : order)
-    {
-      strengths.push_back(strengths_[v]);
-    }
-    strengths_ = std::move(strengths);
-  }
-
-  /// Those of all indices below `indexEnd`, and maybe of more.
-  template <typename Archive>
-  void exchange(Archive& archive, std::size_t indexEnd)
-  {
-    archive(strengths_);
-    archive.require(strengths_.size() >= indexEnd);
-  }
+  /// Where the mesh has the strengths.
+  VertexProperty<float> property() const { return strength_; }
 
 private:
   float memory_;
-  std::vector<float> strengths_;
+  VertexProperty<float> strength_;
 };
 }

@@ -13,16 +13,16 @@ namespace
 GrowthSnapshot snapshotOf(const Learner& learner, const PointCloud& cloud)
 {
   GrowthSnapshot result;
-  Mesh mesh = learner.mesh();
-  const std::vector<VertexIndex> indices = mesh.dropErased();
+  LearntMesh learnt = learner.learntMesh();
+  Mesh& mesh = learnt.mesh;
   orientOutwards(mesh);
-  result.points.reserve(indices.size());
-  result.activities.reserve(indices.size());
-  for (VertexIndex v = 0; v < indices.size(); ++v)
+  result.points.reserve(mesh.vertexCount());
+  result.activities.reserve(mesh.vertexCount());
+  for (VertexIndex v = 0; v < mesh.vertexCount(); ++v)
   {
     const Eigen::Vector3f point = mesh.position(v).toDouble().cast<float>();
     result.points.push_back({ point.x(), point.y(), point.z() });
-    result.activities.push_back(float(learner.order().activity(indices[v])));
+    result.activities.push_back(float(mesh.values(learnt.activity)[v]));
   }
   result.triangles.reserve(mesh.triangleCount());
   mesh.forEachTriangle(

@@ -2,17 +2,14 @@
 #pragma once
 
 #include "base/Executor.h"
-#include "base/MovingStatistics.h"
 #include "cloud/PointCloud.h"
 #include "cloud/SampleStream.h"
-#include "cloud/VertexGrid.h"
-#include "learn/ActivityOrder.h"
 #include "learn/FeatureStrength.h"
+#include "learn/NeuralMesh.h"
+#include "learn/NoiseFilter.h"
 #include "learn/Parameters.h"
 #include "learn/TopologyLearning.h"
 #include "learn/WinGain.h"
-#include "mesh/Mesh.h"
-#include "mesh/Smoothing.h"
 
 #include <cstdint>
 #include <functional>
@@ -57,6 +54,14 @@ enum class Step
   TopologyLearning
 };
 
+/// A mesh as it was learnt, with what learning knows of its vertices.
+struct LearntMesh
+{
+  Mesh mesh; ///< no vertex of it is erased
+  VertexProperty<double> activity;
+  std::optional<VertexProperty<float>> featureStrength; ///< nothing unless it was asked for
+};
+
 /// The Neural Mesh algorithm: a mesh that grows and moves towards samples of a cloud. Here is the
 /// algorithm itself, for all variants; when to end a run is for StoppingRules to say.
 class Learner
@@ -85,19 +90,19 @@ public:
   /// Samples in a batch, at the present size of the mesh.
   std::size_t batchSize() const;
 
-  const Mesh& mesh() const { return mesh_; }
-  const ActivityOrder& order() const { return *order_; }
+  const Mesh& mesh() const { return neuralMesh_.mesh(); }
+  const ActivityOrder& order() const { return neuralMesh_.order(); }
+  const VertexGrid& grid() const { return neuralMesh_.grid(); }
   const RunCounts& counts() const { return counts_; }
   /// Distances between samples and winners, in units of the cloud; clipped where outliers are
   /// rejected.
-  const MovingStatistics& sampleDistances() const { return sampleDistances_; }
+  const MovingStatistics& sampleDistances() const { return noiseFilter_.distances(); }
   /// Changes of the winner's normal, delta_w of (8.1).
   const MovingStatistics& normalChanges() const { return winGain_.normalChanges(); }
-  /// Nothing unless it was asked for.
-  const std::optional<FeatureStrength>& featureStrength() const { return featureStrength_; }
-  const VertexGrid& grid() const { return grid_; }
+  /// A copy of the mesh, whose vertices have their activities as properties.
+  LearntMesh learntMesh() const;
 
-  bool hasAllVertices() const { return mesh_.vertexCount() >= parameters_.numberOfVertices; }
+  bool hasAllVertices() const { return neuralMesh_.vertexCount() >= parameters_.numberOfVertices; }
   /// Samples that are left to be learnt once the mesh has all its vertices, without growth: those
   /// that feature strength takes.
   std::uint64_t samplesAfterGrowth() const { return samplesAfterGrowth_; }
@@ -112,7 +117,7 @@ public:
   void changeCloud(const PointCloud& from, const PointCloud& to, const Parameters& parameters);
 
   /// Vertices in Morton order without gaps, in all structures.
-  void renumber();
+  void compact() { neuralMesh_.compact(executor_); }
 
   /// Writes all that has been learnt, or reads it into a learner that was made alike: the same cloud,
   /// parameters, weights and mesh. Then it goes on to the same bytes as the one that was written.
@@ -120,23 +125,11 @@ public:
 
 private:
   void learnBatch(std::size_t size);
-  /// After growth: what lies side by side in space is to lie side by side in memory.
-  void tidy();
   void findWinners(std::span<const Vector4> samples);
-  void prefetchAhead(std::size_t sample) const;
-  void prepareNoiseFilter(std::size_t batchSize);
+  void basicStep(Vector4 sample, VertexIndex winner);
+  double gainOfMove(VertexIndex winner, Vector4 position);
   /// Takes the distances to a first mesh before it moves: outliers would pull at it at once.
   void observeFirstMesh();
-  void observe(float squaredDistance);
-
-  void basicStep(Vector4 sample, VertexIndex winner);
-  void moveVertex(VertexIndex v, Vector4 position)
-  {
-    grid_.move(v, mesh_.position(v), position);
-    mesh_.setPosition(v, position);
-  }
-  double measureMove(VertexIndex winner, Vector4 position);
-  void smoothNeighbors(VertexIndex winner);
 
   bool isGrowthDue() const { return isAdditionDue() || isRemovalDue() || isTopologyDue(); }
   void grow();
@@ -155,53 +148,36 @@ private:
   void removeVertices();
   bool removeVertex(VertexIndex v);
   void enterListIfDue();
-  void enterList(std::span<const VertexIndex> laziestFirst);
+  void enterList();
 
   bool isTopologyDue() const { return counts_.iterations >= nextTopology_; }
   void learnTopology();
   std::uint64_t topologyInterval() const; ///< in iterations
   bool removeStar(VertexIndex v);
-  void follow(const TopologyLearning::Result& result);
+  void count(const TopologyLearning::Result& result);
 
   void updateDecay();
 
-  std::vector<VertexIndex> vertices() const;
-  void reserve();
-  void makeGrid();
-  void exchangeOrder(Archive& archive);
-
   Parameters parameters_;
   const Executor& executor_;
-  Mesh mesh_;
-  VertexGrid grid_;
-  std::unique_ptr<ActivityOrder> order_;
+  NeuralMesh neuralMesh_;
   SampleStream samples_;
-  std::optional<TopologyLearning> topology_;
-  MovingStatistics sampleDistances_;
-  RunCounts counts_;
-  Vector4 boxMin_;
-  Vector4 boxMax_;
-
-  std::vector<VertexIndex> winners_;
-  std::array<Vector4, Ring::Capacity> smoothedPositions_;
-  std::vector<std::uint8_t> hasWon_; ///< since the last removal; not if noise is filtered
-  BoundarySmoothing boundarySmoothing_ = BoundarySmoothing::Along;
+  NoiseFilter noiseFilter_;
   WinGain winGain_;
+  /// Since the last removal. Nothing where noise is filtered.
+  std::optional<VertexProperty<std::uint8_t>> hasWon_;
   std::optional<FeatureStrength> featureStrength_;
+  std::optional<TopologyLearning> topology_;
+  BoundarySmoothing boundarySmoothing_ = BoundarySmoothing::Along;
+  RunCounts counts_;
+  std::vector<VertexIndex> winners_; ///< of the samples of a batch
   std::function<void(Step)> watch_;
   double decay_ = 1.;
-  float filterThreshold_ = 0.f; ///< epsilon_t of (9.2)
-  float observationLimit_ = 0.f;
-  float squaredRejectionLimit_ = 0.f;
   bool wanders_ = false;
   bool isListDue_ = false; ///< as soon as the mesh is large enough
-  std::size_t observationStride_ = 1;
-  std::size_t untilObservation_ = 0;
   std::uint64_t nextAddition_ = 0;
   std::uint64_t nextRemoval_ = 0; ///< iteration; number of additions if noise is filtered
   std::uint64_t nextTopology_ = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t samplesAfterGrowth_ = 0;
-  std::size_t nextRenumbering_ = 0;
-  std::size_t capacity_ = 0; ///< indices for which there is memory
 };
 }

@@ -2,8 +2,6 @@
 // Growth and topology learning: what Learner does now and then.
 #include "learn/Learner.h"
 #include "learn/ListOrder.h"
-#include "mesh/EdgeFlips.h"
-#include "mesh/HalfEdgeCollapse.h"
 #include "mesh/VertexRemoval.h"
 #include "mesh/VertexSplit.h"
 
@@ -17,8 +15,6 @@ namespace
 {
 /// Splits tried in a Node Addition before it is given up.
 constexpr int SplitAttempts = 8;
-/// Bounds of the share of activity that a vertex keeps in a split.
-constexpr double LeastShare = 0.05;
 /// A vertex is busy if it is so many times as active as all would be if they won equally often: then
 /// chance has the most active of a million at about twice that.
 constexpr double BusyFactor = 3.;
@@ -26,7 +22,7 @@ constexpr double BusyFactor = 3.;
 
 double Learner::patience() const
 {
-  const bool early = mesh_.vertexCount() < std::size_t(parameters_.earlyVertices);
+  const bool early = neuralMesh_.vertexCount() < std::size_t(parameters_.earlyVertices);
   return early ? parameters_.earlyPatience : 1.;
 }
 
@@ -65,39 +61,21 @@ void Learner::nodeAddition()
 
   for (int attempt = 0; attempt < SplitAttempts; ++attempt)
   {
-    const VertexIndex v = order_->top();
+    const VertexIndex v = neuralMesh_.top();
     const auto plan = parameters_.additionOperation == AdditionOperation::EdgeSplit
-      ? planEdgeSplit(mesh_, v)
-      : planVertexSplit(mesh_, v);
+      ? planEdgeSplit(mesh(), v)
+      : planVertexSplit(mesh(), v);
     if (!plan)
     {
       ++counts_.illegalOperations;
-      order_->demoteTop();
+      neuralMesh_.demoteTop();
       continue;
     }
-    const VertexIndex added = mesh_.split(v, plan->first, plan->steps, plan->position);
-    grid_.insert(added, plan->position);
-    if (topology_)
-    {
-      topology_->boundaries().split(v, added);
-    }
-    const double area = restrictedVoronoiArea(mesh_, v);
-    const double addedArea = restrictedVoronoiArea(mesh_, added);
-    const double share = area + addedArea > 0. ? area / (area + addedArea) : 0.5;
-    order_->split(v, added, std::clamp(share, LeastShare, 1. - LeastShare));
-    if (featureStrength_)
-    {
-      featureStrength_->split(v, added);
-    }
-    if (!parameters_.filtersNoise())
-    {
-      hasWon_.resize(mesh_.indexEnd());
-      hasWon_[added] = 1;
-    }
+    const VertexIndex added = neuralMesh_.split(v, *plan);
     if (parameters_.edgeFlips)
     {
-      counts_.flips += flipEdgesAround(mesh_, v);
-      counts_.flips += flipEdgesAround(mesh_, added);
+      counts_.flips += neuralMesh_.flipEdgesAround(v);
+      counts_.flips += neuralMesh_.flipEdgesAround(added);
     }
     ++counts_.additions;
     updateDecay();
@@ -109,7 +87,7 @@ void Learner::nodeAddition()
 void Learner::wander()
 {
   const double usual = parameters_.counterHalfLife / std::log(2.);
-  if (order_->activity(order_->top()) < BusyFactor * usual)
+  if (order().activity(neuralMesh_.top()) < BusyFactor * usual)
   {
     nextAddition_ += std::uint64_t(parameters_.samplesPerAddition);
     return;
@@ -117,11 +95,11 @@ void Learner::wander()
   bool isRemoved = false;
   for (int attempt = 0; attempt < SplitAttempts && !isRemoved; ++attempt)
   {
-    isRemoved = removeVertex(order_->bottom());
+    isRemoved = removeVertex(neuralMesh_.bottom());
     if (!isRemoved)
     {
       ++counts_.illegalOperations;
-      order_->promoteBottom();
+      neuralMesh_.promoteBottom();
     }
   }
   if (isRemoved)
@@ -139,7 +117,7 @@ std::uint64_t Learner::removalInterval() const
   // Growth depends on the ratio of C_ec to C_vs, (6.18): patience is with both.
   return parameters_.filtersNoise()
     ? std::uint64_t(parameters_.additionsPerRemoval)
-    : std::uint64_t(patience() * parameters_.removalPatience * double(mesh_.vertexCount()));
+    : std::uint64_t(patience() * parameters_.removalPatience * double(neuralMesh_.vertexCount()));
 }
 
 void Learner::nodeRemoval()
@@ -158,13 +136,14 @@ void Learner::nodeRemoval()
 
 void Learner::removeIdleVertices()
 {
-  for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
+  const std::span<std::uint8_t> hasWon = neuralMesh_.values(*hasWon_);
+  for (VertexIndex v = 0; v < mesh().indexEnd(); ++v)
   {
-    if (mesh_.isAlive(v) && !hasWon_[v] && !removeVertex(v))
+    if (mesh().isAlive(v) && !hasWon[v] && !removeVertex(v))
     {
       ++counts_.illegalOperations;
     }
-    hasWon_[v] = 0;
+    hasWon[v] = 0;
   }
 }
 
@@ -181,41 +160,35 @@ void Learner::removeVertices()
   double tried = 0.;
   do
   {
-    if (!removeVertex(order_->bottom()))
+    if (!removeVertex(neuralMesh_.bottom()))
     {
       ++counts_.illegalOperations;
-      order_->promoteBottom();
+      neuralMesh_.promoteBottom();
     }
-  } while (++tried < limit && order_->isBottomBelow(threshold, expectedCount));
+  } while (++tried < limit && neuralMesh_.isBottomBelow(threshold, expectedCount));
 }
 
 bool Learner::removeVertex(VertexIndex v)
 {
-  const VertexIndex kept = bestCollapse(mesh_, v);
+  const VertexIndex kept = neuralMesh_.planCollapse(v);
   if (kept == NoVertex)
   {
     return removeStar(v);
   }
-  if (topology_)
-  {
-    topology_->boundaries().collapse(v, kept);
-  }
   const RemovalOperation operation = parameters_.removalOperation;
   if (operation == RemovalOperation::FullEdgeCollapse)
   {
-    moveVertex(kept, positionAfterFullCollapse(mesh_, v, kept));
+    neuralMesh_.move(kept, positionAfterFullCollapse(mesh(), v, kept));
   }
-  const Ring polygon = mesh_.ring(v);
-  mesh_.collapse(v, kept);
-  grid_.erase(v, mesh_.position(v));
-  order_->erase(v);
+  const Ring polygon = mesh().ring(v);
+  neuralMesh_.collapse(v, kept);
   if (operation == RemovalOperation::VertexDelete)
   {
-    counts_.flips += triangulateAnew(mesh_, polygon, kept);
+    counts_.flips += neuralMesh_.triangulateAnew(polygon, kept);
   }
   if (parameters_.edgeFlips)
   {
-    counts_.flips += flipEdgesAround(mesh_, kept);
+    counts_.flips += neuralMesh_.flipEdgesAround(kept);
   }
   ++counts_.removals;
   return true;
@@ -225,34 +198,28 @@ bool Learner::removeVertex(VertexIndex v)
 
 void Learner::learnTopology()
 {
-  follow(topology_->learn(mesh_));
+  count(neuralMesh_.learnTopology(*topology_));
   nextTopology_ += topologyInterval();
   updateDecay();
 }
 
 std::uint64_t Learner::topologyInterval() const
 {
-  return std::uint64_t(parameters_.topologyPatience * double(mesh_.vertexCount())) + 1;
+  return std::uint64_t(parameters_.topologyPatience * double(neuralMesh_.vertexCount())) + 1;
 }
 
 bool Learner::removeStar(VertexIndex v)
 {
-  if (!topology_ || !topology_->canRemoveStar(mesh_, v))
+  if (!topology_ || !topology_->canRemoveStar(mesh(), v))
   {
     return false;
   }
-  follow(topology_->removeStar(mesh_, v));
-  return !mesh_.isAlive(v);
+  count(neuralMesh_.removeStar(v, *topology_));
+  return !mesh().isAlive(v);
 }
 
-void Learner::follow(const TopologyLearning::Result& result)
+void Learner::count(const TopologyLearning::Result& result)
 {
-  for (const VertexIndex v : result.removedVertices)
-  {
-    grid_.erase(v, mesh_.position(v));
-    order_->erase(v);
-  }
-  hasWon_.resize(mesh_.indexEnd());
   counts_.removedTriangles += result.removedTriangles;
   counts_.mergedBoundaries += result.mergedBoundaries;
   counts_.filledBoundaries += result.filledBoundaries;
@@ -260,25 +227,20 @@ void Learner::follow(const TopologyLearning::Result& result)
 
 void Learner::enterListIfDue()
 {
-  if (!isListDue_ || mesh_.vertexCount() < std::size_t(parameters_.listVertices))
+  if (isListDue_ && neuralMesh_.vertexCount() >= std::size_t(parameters_.listVertices))
   {
-    return;
+    enterList();
   }
-  std::vector<VertexIndex> laziestFirst(mesh_.vertexCount());
-  for (VertexIndex& v : laziestFirst)
-  {
-    v = order_->bottom();
-    order_->erase(v);
-  }
-  enterList(laziestFirst);
 }
 
-void Learner::enterList(std::span<const VertexIndex> laziestFirst)
+void Learner::enterList()
 {
   isListDue_ = false;
   winGain_.enterList();
-  order_ = std::make_unique<ListOrder>(laziestFirst, parameters_.jumpFraction, parameters_.seed);
-  order_->reserve(capacity_);
+  neuralMesh_.replaceOrder(
+    [this](std::span<const VertexIndex> laziestFirst) {
+      return std::make_unique<ListOrder>(laziestFirst, parameters_.jumpFraction, parameters_.seed);
+    });
 }
 
 void Learner::updateDecay()
@@ -286,6 +248,6 @@ void Learner::updateDecay()
   // (9.4) with the current number of vertices.
   decay_ = parameters_.variant == Variant::Basic
     ? parameters_.counterDecay
-    : std::exp2(-1. / (parameters_.counterHalfLife * double(mesh_.vertexCount())));
+    : std::exp2(-1. / (parameters_.counterHalfLife * double(neuralMesh_.vertexCount())));
 }
 }

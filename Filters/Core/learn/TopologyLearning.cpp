@@ -20,13 +20,12 @@ constexpr std::size_t VerticesOfSmallMesh = 1000;
 constexpr double LeastPartLeft = 0.5;
 }
 
-TopologyLearning::TopologyLearning(const Mesh& mesh, const Parameters& parameters)
+TopologyLearning::TopologyLearning(const Parameters& parameters)
   : parameters_(parameters)
-  , boundaries_(mesh)
 {
 }
 
-TopologyLearning::Result TopologyLearning::learn(Mesh& mesh)
+TopologyLearning::Result TopologyLearning::learn(Mesh& mesh, BoundaryManager& boundaries) const
 {
   Result result;
   const double meanArea = meanTriangleArea(mesh);
@@ -35,14 +34,14 @@ TopologyLearning::Result TopologyLearning::learn(Mesh& mesh)
   if (mesh.vertexCount() >= LeastVertices)
   {
     const auto size = isMended() ? TriangleSize::LongestEdge : TriangleSize::Area;
-    removeTriangles(mesh, findLargeTriangles(mesh, largestArea, size), result);
+    removeTriangles(mesh, boundaries, findLargeTriangles(mesh, largestArea, size), result);
   }
   result.mergedBoundaries = mergeBoundaries(
-    mesh, boundaries_, mergingLimit, isMended() ? LoopDistance::Mean : LoopDistance::Hausdorff);
+    mesh, boundaries, mergingLimit, isMended() ? LoopDistance::Mean : LoopDistance::Hausdorff);
   if (isMended())
   {
     const double longestEdge = std::sqrt(largestArea / EquilateralArea);
-    result.filledBoundaries = fillBoundaries(mesh, boundaries_, longestEdge);
+    result.filledBoundaries = fillBoundaries(mesh, boundaries, longestEdge);
   }
   return result;
 }
@@ -52,15 +51,16 @@ bool TopologyLearning::canRemoveStar(const Mesh& mesh, VertexIndex v) const
   return isMended() && mesh.isBoundary(v) && mesh.vertexCount() >= LeastVertices;
 }
 
-TopologyLearning::Result TopologyLearning::removeStar(Mesh& mesh, VertexIndex v)
+TopologyLearning::Result TopologyLearning::removeStar(
+  Mesh& mesh, BoundaryManager& boundaries, VertexIndex v) const
 {
   Result result;
-  removeTriangles(mesh, trianglesAt(mesh, v), result);
+  removeTriangles(mesh, boundaries, trianglesAt(mesh, v), result);
   return result;
 }
 
 void TopologyLearning::removeTriangles(
-  Mesh& mesh, std::span<const Triangle> triangles, Result& result)
+  Mesh& mesh, BoundaryManager& boundaries, std::span<const Triangle> triangles, Result& result)
 {
   if (triangles.empty())
   {
@@ -74,7 +74,7 @@ void TopologyLearning::removeTriangles(
     mesh = before;
     return;
   }
-  boundaries_.retrace(mesh, removal.vertices);
+  boundaries.retrace(mesh, removal.vertices);
   result.removedTriangles = removal.triangleCount;
   for (const VertexIndex v : removal.vertices)
   {

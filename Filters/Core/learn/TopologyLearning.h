@@ -19,10 +19,7 @@ namespace neuralmesh
 class TopologyLearning
 {
 public:
-  TopologyLearning(const Mesh& mesh, const Parameters& parameters);
-
-  /// To be told of all splits, collapses and renumberings.
-  BoundaryManager& boundaries() { return boundaries_; }
+  explicit TopologyLearning(const Parameters& parameters);
 
   struct Result
   {
@@ -31,20 +28,20 @@ public:
     std::size_t filledBoundaries = 0;
     std::vector<VertexIndex> removedVertices;
   };
-  /// Triangle Removal and Boundary Merging.
-  Result learn(Mesh& mesh);
+  /// Triangle Removal and Boundary Merging. `boundaries` are those of the mesh, before and after.
+  Result learn(Mesh& mesh, BoundaryManager& boundaries) const;
 
   /// Whether a boundary vertex that is due for removal, but without a legal collapse, may go
   /// together with its triangles: as stray pieces do in the end.
   bool canRemoveStar(const Mesh& mesh, VertexIndex v) const;
   /// Removes the triangles at `v`.
-  Result removeStar(Mesh& mesh, VertexIndex v);
+  Result removeStar(Mesh& mesh, BoundaryManager& boundaries, VertexIndex v) const;
 
 private:
-  void removeTriangles(Mesh& mesh, std::span<const Triangle> triangles, Result& result);
+  static void removeTriangles(
+    Mesh& mesh, BoundaryManager& boundaries, std::span<const Triangle> triangles, Result& result);
   bool isMended() const { return parameters_.topologyRules == TopologyRules::Mended; }
 
   Parameters parameters_;
-  BoundaryManager boundaries_;
 };
 }

@@ -113,6 +113,7 @@ VertexIndex Mesh::split(VertexIndex v, unsigned first, unsigned steps, Vector4 p
 {
   assert(canSplit(v, first, steps));
   const VertexIndex added = newVertex(position);
+  properties_.split(v, added);
   const Ring old = rings_[v];
   const bool open = old.isOpen();
   const bool startsAtBoundary = open && first == 0;
@@ -271,6 +272,7 @@ void Mesh::reserve(std::size_t count)
 {
   rings_.reserve(count);
   positions_.reserve(count);
+  properties_.reserve(count);
   erased_.reserve(count);
   reusable_.reserve(count);
 }
@@ -313,6 +315,7 @@ void Mesh::renumber(std::span<const VertexIndex> order)
   }
   rings_ = std::move(rings);
   positions_ = std::move(positions);
+  properties_.renumber(order);
   erased_.clear();
   reusable_.clear();
 }

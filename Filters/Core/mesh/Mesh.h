@@ -4,6 +4,7 @@
 #include "base/LargePageAllocator.h"
 #include "base/Vector4.h"
 #include "mesh/Ring.h"
+#include "mesh/VertexProperties.h"
 
 #include <array>
 #include <cstddef>
@@ -114,6 +115,24 @@ public:
   bool canFill(VertexIndex v) const;
   void fill(VertexIndex v);
 
+  /// A value for each vertex, which follows all operations. All vertices begin with `first`.
+  template <typename T>
+  VertexProperty<T> addProperty(T first, OnSplit onSplit)
+  {
+    return properties_.add(indexEnd(), first, onSplit);
+  }
+  /// The values of a property, by the index of the vertex.
+  template <typename T>
+  std::span<T> values(VertexProperty<T> property)
+  {
+    return properties_.values(property);
+  }
+  template <typename T>
+  std::span<const T> values(VertexProperty<T> property) const
+  {
+    return properties_.values(property);
+  }
+
   /// Memory for `count` indices: up to there no operation allocates.
   void reserve(std::size_t count);
   /// Lets the indices of erased vertices be used again.
@@ -127,7 +146,7 @@ public:
   /// Turns all triangles of the given vertices, which must be whole components, inside out.
   void reverseOrientation(std::span<const VertexIndex> component);
 
-  /// Writes the mesh as it is, or reads it: about 38 bytes a vertex.
+  /// Writes the mesh as it is, with its properties, or reads it: about 38 bytes a vertex.
   void exchange(Archive& archive);
 
 private:
@@ -137,6 +156,7 @@ private:
 
   LargeVector<Ring> rings_;
   LargeVector<Vector4> positions_;
+  VertexProperties properties_;
   std::vector<VertexIndex> erased_;
   std::vector<VertexIndex> reusable_;
   std::size_t vertexCount_ = 0;

@@ -54,6 +54,7 @@ void Mesh::exchange(Archive& archive)
     exchangeRing(archive, rings_[v]);
     exchangePosition(archive, positions_[v]);
   }
+  properties_.exchange(archive, count);
   archive(erased_, reusable_);
   if (archive.isReading())
   {

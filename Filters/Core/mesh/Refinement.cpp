@@ -36,9 +36,8 @@ SplitCandidate candidate(const Mesh& mesh, VertexIndex v)
 }
 }
 
-std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count, const Progress& progress)
+bool refine(Mesh& mesh, std::size_t count, const Progress& progress)
 {
-  std::vector<VertexIndex> origins;
   std::priority_queue<SplitCandidate> candidates;
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
@@ -47,10 +46,10 @@ std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count, const Progress& p
   const std::size_t first = mesh.vertexCount();
   while (mesh.vertexCount() < count && !candidates.empty())
   {
-    if (origins.size() % SplitsPerCheck == 0 &&
-      !progress(double(origins.size()) / double(count - first)))
+    const std::size_t splits = mesh.vertexCount() - first;
+    if (splits % SplitsPerCheck == 0 && !progress(double(splits) / double(count - first)))
     {
-      break;
+      return false;
     }
     const SplitCandidate longest = candidates.top();
     const VertexIndex v = longest.vertex;
@@ -67,11 +66,10 @@ std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count, const Progress& p
       continue;
     }
     const VertexIndex added = mesh.split(v, plan->first, plan->steps, plan->position);
-    origins.push_back(v);
     flipEdgesAround(mesh, added);
     candidates.push(candidate(mesh, v));
     candidates.push(candidate(mesh, added));
   }
-  return origins;
+  return true;
 }
 }

@@ -5,12 +5,11 @@
 #include "mesh/Mesh.h"
 
 #include <cstddef>
-#include <vector>
 
 namespace neuralmesh
 {
 /// Halves the longest edge, again and again, until there are `count` vertices, or no edge can be
-/// split any more, or it is ended. Returns the end of its edge from which each new vertex was split, in order; new
-/// vertices have the highest indices. No vertex may be erased.
-std::vector<VertexIndex> refine(Mesh& mesh, std::size_t count, const Progress& progress);
+/// split any more, or it is ended: then it returns false. New vertices have the highest indices. No
+/// vertex may be erased.
+bool refine(Mesh& mesh, std::size_t count, const Progress& progress);
 }

@@ -16,6 +16,8 @@ namespace
 {
 /// The first bytes of the file: its kind, and the byte order of the machine.
 constexpr std::uint64_t Kind = 0x4e6575724d736843u;
+/// Which values there are, and in which order: another number is another version of the program.
+constexpr std::uint64_t Format = 2;
 using Sum = std::uint64_t;
 
 std::runtime_error noCheckpoint() { return std::runtime_error("it is no checkpoint"); }
@@ -231,10 +233,14 @@ void Checkpoint::read(const std::function<void(Archive&)>& use) const
 /// Which run this is the checkpoint of. Throws std::runtime_error if what is read is another one.
 void Checkpoint::exchangeRun(Archive& archive) const
 {
-  auto kind = Kind;
+  auto kind = Kind, format = Format;
   std::string version = NEURALMESH_VERSION;
-  archive(kind, version);
-  if (version != NEURALMESH_VERSION)
+  archive(kind, format);
+  if (format == Format)
+  {
+    archive(version);
+  }
+  if (format != Format || version != NEURALMESH_VERSION)
   {
     throw std::runtime_error("it is that of another version of NeuralMesh");
   }

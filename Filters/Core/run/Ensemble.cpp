@@ -4,6 +4,7 @@
 #include "base/Random.h"
 #include "cloud/MeshBuilder.h"
 #include "run/PhantomTriangles.h"
+#include "run/Stages.h"
 #include "start/DepthBufferVoxelizer.h"
 
 #include <Eigen/Geometry>
@@ -68,9 +69,13 @@ void Ensemble::learn(std::size_t index)
   {
     return;
   }
-  member.learner.learn(std::max<std::uint64_t>(SamplesPerRound, member.learner.batchSize()));
-  member.progress = member.rules.progress(member.learner);
-  member.isLearnt = member.rules.check(member.learner) != StopReason::None;
+  const Progress keep = [&member](double done)
+  {
+    member.progress = done;
+    return true;
+  };
+  member.isLearnt = neuralmesh::learn(member.learner, member.rules, memberParameters_,
+                      SamplesPerRound, keep) != StopReason::None;
 }
 
 bool Ensemble::isLearnt() const
@@ -91,7 +96,7 @@ double Ensemble::progress() const
 
 const Mesh& Ensemble::renumberedMesh(std::size_t member)
 {
-  members_[member]->learner.renumber();
+  members_[member]->learner.compact();
   return mesh(member);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/PhaseTimes.h"
 #include "base/Progress.h"
 #include "fit/Finish.h"
 #include "fit/MeshQuality.h"
@@ -38,19 +39,13 @@ struct Reconstruction
   std::optional<FinishReport> finish;
   /// Nothing if the run was cancelled.
   std::optional<MeshQuality> quality;
-  // CPU seconds of the process
-  double startSeconds = 0.;
-  double learningSeconds = 0.;
-  double finishSeconds = 0.;
+  PhaseTimes times; ///< of start, learning and finish
 };
 
 /// A mesh that is finished learns no more vertices than there is something to learn for.
 Parameters learnable(Parameters parameters, const PointCloud& cloud);
 /// Vertices of the first surface: a part of all, but enough for a shape, if all are twice as many.
 std::size_t firstVertices(std::uint64_t vertices);
-
-/// CPU seconds that the process has used so far.
-double cpuSeconds();
 
 // Where the parts of a run begin and end, as fractions of its progress.
 inline constexpr double StartOfLearning = 0.15;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/StreamingReconstruction.h"
 
-#include "cloud/MeshBuilder.h"
-#include "mesh/Orientation.h"
-#include "start/FirstSurface.h"
+#include "run/Stages.h"
 #include "start/OccupiedVoxels.h"
 #include "start/OutlierClusters.h"
 
@@ -73,21 +71,23 @@ StreamingReconstruction::StreamingReconstruction(
   : parameters_(parameters)
   , reservoir_(reservoirSize, parameters.seed)
 {
+  parameters_.curvatureDensity = 0.;
 }
 
-void StreamingReconstruction::addPoints(std::span<const Eigen::Vector3d> points)
+void StreamingReconstruction::addPoints(const PointSpans& points)
 {
-  for (const Eigen::Vector3d& point : points)
-  {
-    if (point.allFinite())
+  points.forEach(0, points.size(),
+    [this](std::size_t, const Eigen::Vector3d& point)
     {
-      reservoir_.add(point);
-    }
-    else
-    {
-      ++droppedCount_;
-    }
-  }
+      if (point.allFinite())
+      {
+        reservoir_.add(point);
+      }
+      else
+      {
+        ++droppedCount_;
+      }
+    });
 }
 
 std::uint64_t StreamingReconstruction::sampleCount() const
@@ -137,7 +137,7 @@ bool StreamingReconstruction::takeInPoints(const Progress& progress)
   parameters.seed += clouds_++;
   if (mustBegin(*cloud))
   {
-    if (!begin(*cloud, parameters, progress))
+    if (!beginAnew(*cloud, parameters, progress))
     {
       return false;
     }
@@ -162,34 +162,19 @@ bool StreamingReconstruction::mustBegin(const PointCloud& cloud) const
 }
 
 /// False if that was ended; then all is as before.
-bool StreamingReconstruction::begin(
+bool StreamingReconstruction::beginAnew(
   const PointCloud& cloud, const Parameters& parameters, const Progress& progress)
 {
   bool isEnded = false;
-  std::optional<FirstSurface> surface;
-  if (parameters.start == Start::OccupiedSpace)
-  {
-    surface = firstSurface(cloud, firstVertices(parameters.numberOfVertices), parameters.boundaries,
-      [&](double) { return !isEnded && !(isEnded = !progress(0.)); });
-  }
+  Beginning beginning =
+    begin(cloud, parameters, [&](double) { return !isEnded && !(isEnded = !progress(0.)); });
   if (isEnded)
   {
     return false;
   }
   earlierSamples_ = sampleCount();
-  bridgeWidth_.reset();
-  if (surface)
-  {
-    learner_.emplace(cloud, parameters, surface->mesh);
-    if (parameters.boundaries == Boundaries::Keep)
-    {
-      bridgeWidth_ = surface->bridgeWidth;
-    }
-  }
-  else
-  {
-    learner_.emplace(cloud, parameters);
-  }
+  bridgeWidth_ = beginning.bridgeWidth;
+  learner_.emplace(learnerFrom(std::move(beginning), cloud, parameters));
   learner_->letWander();
   pointsAtBeginning_ = cloud.points().size();
   uncoveredAtBeginning_ = uncoveredPart(cloud, learner_->mesh(), cloud);
@@ -200,36 +185,18 @@ bool StreamingReconstruction::begin(
 Reconstruction StreamingReconstruction::mesh(bool isFinished, const Progress& progress) const
 {
   Reconstruction result;
-  const Learner& learner = *learner_;
-  Mesh mesh = learner.mesh();
-  const std::vector<VertexIndex> learnt = mesh.dropErased();
-  result.counts = learner.counts();
+  LearntMesh learnt = learner_->learntMesh();
+  result.counts = learner_->counts();
   result.counts.iterations = sampleCount();
-  Finish finish(*cloud_, mesh, parameters_, bridgeWidth_,
-    learner.hasAllVertices() ? std::size_t(parameters_.numberOfVertices) : learnt.size());
   if (isFinished && parameters_.fitRounds > 0)
   {
-    if (finish.run(progress))
-    {
-      result.finish = finish.report();
-    }
-    else
-    {
-      result.stopReason = StopReason::Cancelled;
-    }
+    const std::size_t vertices = learner_->hasAllVertices()
+      ? std::size_t(parameters_.numberOfVertices)
+      : learnt.mesh.vertexCount();
+    result.finish = finish(learnt, *cloud_, parameters_, bridgeWidth_, vertices, progress);
+    result.stopReason = result.finish ? StopReason::None : StopReason::Cancelled;
   }
-  orientOutwards(mesh);
-  result.mesh = trianglesOf(mesh, *cloud_);
-  result.normals = pointNormals(result.mesh);
-  for (const VertexIndex origin : finish.origins())
-  {
-    result.activities.push_back(learner.order().activity(learnt[origin]));
-  }
-  if (result.finish)
-  {
-    result.quality = measureQuality(*cloud_, mesh, result.mesh);
-  }
-  result.surface = std::move(mesh);
+  describe(std::move(learnt), *cloud_, result.finish ? cloud_.get() : nullptr, result);
   return result;
 }
 }

@@ -7,7 +7,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 
 namespace neuralmesh
 {
@@ -28,7 +27,7 @@ public:
   StreamingReconstruction(const Parameters& parameters, std::size_t reservoirSize);
 
   /// Points that are not finite are dropped.
-  void addPoints(std::span<const Eigen::Vector3d> points);
+  void addPoints(const PointSpans& points);
 
   /// Learns so many samples, of all points that have come, and returns how many they were: fewer if
   /// `progress` ends it, none if there are too few points for a mesh.
@@ -51,7 +50,7 @@ public:
 private:
   bool takeInPoints(const Progress& progress);
   bool mustBegin(const PointCloud& cloud) const;
-  bool begin(const PointCloud& cloud, const Parameters& parameters, const Progress& progress);
+  bool beginAnew(const PointCloud& cloud, const Parameters& parameters, const Progress& progress);
 
   Parameters parameters_;
   Reservoir reservoir_;

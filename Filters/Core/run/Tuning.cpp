@@ -222,7 +222,7 @@ private:
   /// Whether a coarse mesh of the whole cloud ends anywhere.
   bool hasGaps()
   {
-    constexpr std::size_t PointsPerVertex = 20;
+    constexpr std::size_t PointsOfVertex = 20;
     Parameters own = forTrial(result_.parameters);
     if (own.boundaries == Boundaries::Close || own.start == Start::Tetrahedron)
     {
@@ -231,7 +231,7 @@ private:
     own.numberOfVertices =
       std::min<std::uint64_t>(own.numberOfVertices, TuningPatch::PatchVertices);
     const std::size_t stride = std::max<std::size_t>(
-      1, cloud_.points().size() / (PointsPerVertex * std::size_t(own.numberOfVertices)));
+      1, cloud_.points().size() / (PointsOfVertex * std::size_t(own.numberOfVertices)));
     std::size_t index = 0;
     const PointCloud thinned = cloud_.without([&](Vector4) { return index++ % stride != 0; });
     const Reconstruction run =

@@ -50,7 +50,7 @@ Mesh learnt(const PointCloud& cloud)
   {
     learner.learn(10000);
   }
-  learner.renumber();
+  learner.compact();
   return learner.mesh();
 }
 
@@ -59,13 +59,28 @@ double regularRatio(const Mesh& mesh, const PointCloud& cloud)
   return reportSurface(trianglesOf(mesh, cloud)).regularRatio;
 }
 
-void expectOriginsInRange(const Finish& finish, const Mesh& mesh)
+/// Every vertex has the number of the learnt vertex that it is or was split from.
+VertexProperty<float> addOrigins(Mesh& mesh)
 {
-  ASSERT_EQ(finish.origins().size(), mesh.vertexCount());
-  for (const VertexIndex origin : finish.origins())
+  const VertexProperty<float> origin = mesh.addProperty(0.f, OnSplit::Copy);
+  const std::span<float> values = mesh.values(origin);
+  std::iota(values.begin(), values.end(), 0.f);
+  return origin;
+}
+
+void expectOriginsInRange(const Mesh& mesh, VertexProperty<float> origin)
+{
+  ASSERT_EQ(mesh.values(origin).size(), mesh.vertexCount());
+  for (const float learnt : mesh.values(origin))
   {
-    EXPECT_LT(origin, Vertices);
+    EXPECT_GE(learnt, 0.f);
+    EXPECT_LT(learnt, float(Vertices));
   }
+}
+
+FinishPlan planFor(std::size_t vertices, std::optional<double> bridgeWidth = BridgeWidth)
+{
+  return { .bridgeWidth = bridgeWidth, .vertexCount = vertices };
 }
 }
 
@@ -79,8 +94,8 @@ TEST(Finish, ClosedMeshes)
     const PointCloud cloud = noisySphere(noise, 0., false);
     Mesh mesh = learnt(cloud);
     const Mesh before = mesh;
-    const Parameters parameters;
-    Finish finish(cloud, mesh, parameters, BridgeWidth, mesh.vertexCount());
+    const VertexProperty<float> origin = addOrigins(mesh);
+    Finish finish(cloud, mesh, planFor(mesh.vertexCount()));
     ASSERT_TRUE(finish.run(goOn));
     EXPECT_EQ(mesh.vertexCount(), Vertices);
     EXPECT_EQ(mesh.indexEnd(), Vertices);
@@ -90,9 +105,10 @@ TEST(Finish, ClosedMeshes)
     EXPECT_GE(regularRatio(mesh, cloud), regularRatio(before, cloud));
     EXPECT_LT(rmsDistance(sphere, trianglesOf(mesh, cloud)),
       rmsDistance(sphere, trianglesOf(before, cloud)));
-    std::vector<VertexIndex> same(Vertices);
-    std::iota(same.begin(), same.end(), VertexIndex(0));
-    EXPECT_EQ(finish.origins(), same);
+    for (VertexIndex v = 0; v < Vertices; ++v)
+    {
+      EXPECT_EQ(mesh.values(origin)[v], float(v));
+    }
     EXPECT_EQ(finish.report().gapTriangles, 0u);
     EXPECT_EQ(finish.report().left.total(), 0u);
     EXPECT_GT(finish.report().smoothness, 0.);
@@ -109,9 +125,9 @@ TEST(Finish, GapsAreOpened)
   for (const bool opensGaps : { false, true })
   {
     Mesh mesh = before;
-    const Parameters parameters;
-    Finish finish(cloud, mesh, parameters, opensGaps ? std::optional(BridgeWidth) : std::nullopt,
-      mesh.vertexCount());
+    const VertexProperty<float> origin = addOrigins(mesh);
+    Finish finish(cloud, mesh,
+      planFor(mesh.vertexCount(), opensGaps ? std::optional(BridgeWidth) : std::nullopt));
     ASSERT_TRUE(finish.run(goOn));
     EXPECT_EQ(mesh.vertexCount(), Vertices);
     EXPECT_EQ(mesh.indexEnd(), Vertices);
@@ -120,7 +136,7 @@ TEST(Finish, GapsAreOpened)
     EXPECT_EQ(reportOf(mesh).components, 1u);
     EXPECT_GE(regularRatio(mesh, cloud), regularRatio(before, cloud));
     EXPECT_EQ(finish.report().gapTriangles > 0, opensGaps);
-    expectOriginsInRange(finish, mesh);
+    expectOriginsInRange(mesh, origin);
     if (opensGaps)
     {
       // A zone of a sphere: its area goes with its height.
@@ -136,15 +152,14 @@ TEST(Finish, OriginsAreNear)
   const PointCloud cloud = noisySphere(0.002, 0., true);
   Mesh mesh = learnt(cloud);
   const Mesh before = mesh;
-  const Parameters parameters;
-  Finish finish(cloud, mesh, parameters, BridgeWidth, mesh.vertexCount());
+  const VertexProperty<float> origin = addOrigins(mesh);
+  Finish finish(cloud, mesh, planFor(mesh.vertexCount()));
   ASSERT_TRUE(finish.run(goOn));
   ASSERT_GT(finish.report().gapTriangles, 0u);
-  ASSERT_EQ(finish.origins().size(), mesh.vertexCount());
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
-    const Vector4 origin = before.position(finish.origins()[v]);
-    EXPECT_LT((cloud.toInput(mesh.position(v)) - cloud.toInput(origin)).norm(), 0.4);
+    const Vector4 learnt = before.position(VertexIndex(mesh.values(origin)[v]));
+    EXPECT_LT((cloud.toInput(mesh.position(v)) - cloud.toInput(learnt)).norm(), 0.4);
   }
 }
 
@@ -155,20 +170,21 @@ TEST(Finish, OriginsAreLearntVerticesAfterASingleRound)
   const PointCloud cloud = noisySphere(0.002, 0., true);
   Mesh mesh = learnt(cloud);
   const Mesh before = mesh;
-  Parameters parameters;
-  parameters.fitRounds = 1;
-  Finish finish(cloud, mesh, parameters, BridgeWidth, 2 * Vertices);
+  FinishPlan plan = planFor(2 * Vertices);
+  plan.rounds = 1;
+  const VertexProperty<float> origin = addOrigins(mesh);
+  Finish finish(cloud, mesh, plan);
   ASSERT_TRUE(finish.run(goOn));
   ASSERT_GT(finish.report().gapTriangles, 0u);
   EXPECT_EQ(mesh.vertexCount(), 2 * Vertices);
   EXPECT_EQ(defectOf(mesh), "");
-  expectOriginsInRange(finish, mesh);
+  expectOriginsInRange(mesh, origin);
   // Across the gap the learnt mesh has few vertices, from which many are split.
   std::size_t far = 0;
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
-    const VertexIndex origin = std::min<VertexIndex>(finish.origins()[v], Vertices - 1);
-    far += (cloud.toInput(mesh.position(v)) - cloud.toInput(before.position(origin))).norm() > 0.4;
+    const Vector4 learnt = before.position(VertexIndex(mesh.values(origin)[v]));
+    far += (cloud.toInput(mesh.position(v)) - cloud.toInput(learnt)).norm() > 0.4;
   }
   EXPECT_LT(far, Vertices / 20);
 }
@@ -217,8 +233,7 @@ TEST(Finish, ReportsTheCloud)
 {
   const PointCloud cloud = noisySphere(0.005, 0.05, false);
   Mesh mesh = learnt(cloud);
-  const Parameters parameters;
-  Finish finish(cloud, mesh, parameters, BridgeWidth, mesh.vertexCount());
+  Finish finish(cloud, mesh, planFor(mesh.vertexCount()));
   ASSERT_TRUE(finish.run(goOn));
   const double noise = 0.005 * SphereDiagonal;
   EXPECT_NEAR(finish.report().noise * cloud.unit(), noise, 0.2 * noise);
@@ -233,14 +248,13 @@ TEST(Finish, RefinesToTheVertexCount)
   const PointCloud cloud = noisySphere(0., 0., false);
   const TrueSurface sphere = trueSphere();
   Mesh mesh = learnt(cloud), refined = mesh;
-  const Parameters parameters;
-  ASSERT_TRUE(Finish(cloud, mesh, parameters, BridgeWidth, Vertices).run(goOn));
-  Finish finish(cloud, refined, parameters, BridgeWidth, 3 * Vertices);
+  const VertexProperty<float> origin = addOrigins(refined);
+  ASSERT_TRUE(Finish(cloud, mesh, planFor(Vertices)).run(goOn));
+  Finish finish(cloud, refined, planFor(3 * Vertices));
   ASSERT_TRUE(finish.run(goOn));
   EXPECT_EQ(refined.vertexCount(), 3 * Vertices);
   EXPECT_EQ(defectOf(refined), "");
-  EXPECT_EQ(finish.origins().size(), 3 * Vertices);
-  expectOriginsInRange(finish, refined);
+  expectOriginsInRange(refined, origin);
   EXPECT_EQ(finish.report().left.total(), 0u);
   EXPECT_GT(regularRatio(refined, cloud), 0.6);
   EXPECT_LT(rmsDistance(sphere, trianglesOf(refined, cloud)),
@@ -251,8 +265,6 @@ TEST(Finish, RefinesToTheVertexCount)
 TEST(Finish, WhatCannotBeMendedIsCollapsed)
 {
   const PointCloud cloud = noisySphere(0., 0., false);
-  Parameters parameters;
-  parameters.fitRounds = 0;
   std::size_t leftByMoves = 0, left = 0;
   for (unsigned seed = 1; seed <= 5; ++seed)
   {
@@ -266,11 +278,12 @@ TEST(Finish, WhatCannotBeMendedIsCollapsed)
     const std::size_t vertices = mesh.vertexCount();
     Mesh moved = mesh;
     leftByMoves += repairIntersections(moved).after.total();
-    Finish finish(cloud, mesh, parameters, {}, vertices);
+    FinishPlan plan = planFor(vertices, std::nullopt);
+    plan.rounds = 0;
+    Finish finish(cloud, mesh, plan);
     ASSERT_TRUE(finish.run(goOn));
     EXPECT_EQ(mesh.vertexCount(), vertices);
     EXPECT_EQ(defectOf(mesh), "");
-    EXPECT_EQ(finish.origins().size(), vertices);
     left += finish.report().left.total();
   }
   EXPECT_GT(leftByMoves, 0u);
@@ -282,18 +295,18 @@ TEST(Finish, CanBeEnded)
 {
   const PointCloud cloud = noisySphere(0.002, 0., true);
   const Mesh before = learnt(cloud);
-  const Parameters parameters;
   bool isDone = false;
   int calls = 0;
   for (; !isDone; calls += 5)
   {
     Mesh mesh = before;
-    Finish finish(cloud, mesh, parameters, BridgeWidth, mesh.vertexCount());
+    const VertexProperty<float> origin = addOrigins(mesh);
+    Finish finish(cloud, mesh, planFor(mesh.vertexCount()));
     int left = calls;
     isDone = finish.run([&](double) { return left-- > 0; });
     EXPECT_EQ(defectOf(mesh), "");
     EXPECT_EQ(mesh.vertexCount(), Vertices);
-    expectOriginsInRange(finish, mesh);
+    expectOriginsInRange(mesh, origin);
   }
   EXPECT_GT(calls, 10);
 }

@@ -50,7 +50,7 @@ Deviation deviationFromSphere(const TriangleMesh& mesh)
 /// A learner that starts from the mesh that another has grown.
 Learner goOnWith(Learner& grown, const Parameters& parameters)
 {
-  grown.renumber();
+  grown.compact();
   const std::size_t count = grown.mesh().indexEnd();
   std::unique_ptr<ActivityOrder> order = std::make_unique<ExactOrder>(count);
   if (parameters.order == Order::List)
@@ -200,7 +200,7 @@ TEST_P(LearnerSettings, RenumberKeepsTheShape)
     return result;
   };
   const auto before = shape();
-  learner.renumber();
+  learner.compact();
   EXPECT_EQ(learner.mesh().indexEnd(), 700u);
   EXPECT_EQ(defectOf(learner.mesh()), "");
   EXPECT_EQ(shape(), before);

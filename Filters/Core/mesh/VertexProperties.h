@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/Ring.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace neuralmesh
+{
+/// What a vertex that comes out of a split gets of a property.
+enum class OnSplit
+{
+  Copy, ///< the value of the vertex that was split
+  Begin ///< the value with which all vertices begin
+};
+
+/// Names a property of the vertices of a mesh, and of the copies of that mesh.
+template <typename T>
+struct VertexProperty
+{
+  std::size_t column = 0;
+};
+
+/// Values that belong to the vertices of a mesh and follow all its operations: a split, a
+/// renumbering, a copy. What a split does to a property is told once, where it is added.
+class VertexProperties
+{
+public:
+  /// A property that all vertices below `indexEnd` begin with.
+  template <typename T>
+  VertexProperty<T> add(std::size_t indexEnd, T first, OnSplit onSplit)
+  {
+    columns_.push_back(Column<T>{ std::vector<T>(indexEnd, first), first, onSplit });
+    return { columns_.size() - 1 };
+  }
+
+  /// By the index of the vertex; those of erased vertices mean nothing.
+  template <typename T>
+  std::span<T> values(VertexProperty<T> property)
+  {
+    return std::get<Column<T>>(columns_[property.column]).values;
+  }
+  template <typename T>
+  std::span<const T> values(VertexProperty<T> property) const
+  {
+    return std::get<Column<T>>(columns_[property.column]).values;
+  }
+
+  /// `added` came out of a split of `split`.
+  void split(VertexIndex split, VertexIndex added)
+  {
+    forEachColumn(
+      [=](auto& column)
+      {
+        if (added >= column.values.size())
+        {
+          column.values.resize(added + std::size_t(1), column.first);
+        }
+        column.values[added] =
+          column.onSplit == OnSplit::Copy ? column.values[split] : column.first;
+      });
+  }
+
+  /// Memory for `count` indices: up to there no operation allocates.
+  void reserve(std::size_t count)
+  {
+    forEachColumn([=](auto& column) { column.values.reserve(count); });
+  }
+
+  /// As Mesh::renumber().
+  void renumber(std::span<const VertexIndex> order)
+  {
+    forEachColumn(
+      [=](auto& column)
+      {
+        std::remove_reference_t<decltype(column.values)> values;
+        values.reserve(order.size());
+        for (const VertexIndex v : order)
+        {
+          values.push_back(column.values[v]);
+        }
+        column.values = std::move(values);
+      });
+  }
+
+  /// Writes the values of all vertices below `indexEnd`, or reads those of the same properties.
+  template <typename Archive>
+  void exchange(Archive& archive, std::size_t indexEnd)
+  {
+    forEachColumn(
+      [&](auto& column)
+      {
+        archive(column.values);
+        archive.require(column.values.size() == indexEnd);
+      });
+  }
+
+private:
+  template <typename T>
+  struct Column
+  {
+    std::vector<T> values;
+    T first;
+    OnSplit onSplit;
+  };
+
+  template <typename Use>
+  void forEachColumn(Use use)
+  {
+    for (auto& column : columns_)
+    {
+      std::visit(use, column);
+    }
+  }
+
+  std::vector<std::variant<Column<std::uint8_t>, Column<float>, Column<double>>> columns_;
+};
+}

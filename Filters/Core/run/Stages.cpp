@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/Stages.h"
+
+#include "cloud/MeshBuilder.h"
+#include "mesh/Orientation.h"
+#include "start/CurvatureDensity.h"
+#include "start/FirstSurface.h"
+
+#include <algorithm>
+
+namespace neuralmesh
+{
+Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Progress& progress,
+  const Executor& executor)
+{
+  Beginning result;
+  if (parameters.start == Start::Tetrahedron)
+  {
+    return result;
+  }
+  auto surface = firstSurface(
+    cloud, firstVertices(parameters.numberOfVertices), parameters.boundaries, progress, executor);
+  if (!surface)
+  {
+    return result;
+  }
+  result.mesh = std::move(surface->mesh);
+  if (parameters.boundaries == Boundaries::Keep)
+  {
+    result.bridgeWidth = surface->bridgeWidth;
+  }
+  // The normal-based variant has a way of its own to be dense where the surface bends; and feature
+  // strength tells edges best where vertices are spread evenly.
+  if (parameters.curvatureDensity > 0. && parameters.variant != Variant::NormalBased &&
+    !parameters.computeFeatureStrength)
+  {
+    result.weights = curvatureDensity(cloud, *result.mesh, parameters.curvatureDensity, executor);
+  }
+  return result;
+}
+
+Learner learnerFrom(Beginning beginning, const PointCloud& cloud, const Parameters& parameters,
+  const Executor& executor)
+{
+  return beginning.mesh ? Learner(cloud, parameters, *beginning.mesh, beginning.weights, executor)
+                        : Learner(cloud, parameters, executor);
+}
+
+StopReason ruleMet(const Learner& learner, StoppingRules& rules, const Progress& progress)
+{
+  return progress(rules.progress(learner)) ? rules.check(learner) : StopReason::Cancelled;
+}
+
+StopReason learn(Learner& learner, StoppingRules& rules, const Parameters& parameters,
+  std::uint64_t samples, const Progress& progress, const std::function<void()>& afterBatch)
+{
+  samples = std::max<std::uint64_t>(samples, learner.batchSize());
+  if (parameters.maximumIterations > 0)
+  {
+    samples = std::min(samples, parameters.maximumIterations - learner.counts().iterations);
+  }
+  learner.learn(samples, afterBatch);
+  return ruleMet(learner, rules, progress);
+}
+
+std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
+  const Parameters& parameters, std::optional<double> bridgeWidth, std::size_t vertexCount,
+  const Progress& progress, const Executor& executor)
+{
+  const FinishPlan plan{ .rounds = parameters.fitRounds,
+    .smoothness = parameters.fitSmoothness,
+    .samplesPerVertex = parameters.fitSamples,
+    .bridgeWidth = bridgeWidth,
+    .vertexCount = vertexCount };
+  Finish finish(cloud, learnt.mesh, plan, executor);
+  return finish.run(progress) ? std::optional(finish.report()) : std::nullopt;
+}
+
+void describe(
+  LearntMesh learnt, const PointCloud& cloud, const PointCloud* all, Reconstruction& result)
+{
+  orientOutwards(learnt.mesh);
+  result.mesh = trianglesOf(learnt.mesh, cloud);
+  result.normals = pointNormals(result.mesh);
+  const auto activities = learnt.mesh.values(learnt.activity);
+  result.activities.assign(activities.begin(), activities.end());
+  if (learnt.featureStrength)
+  {
+    const auto strengths = learnt.mesh.values(*learnt.featureStrength);
+    result.featureStrengths.assign(strengths.begin(), strengths.end());
+  }
+  if (all)
+  {
+    result.quality = measureQuality(*all, learnt.mesh, result.mesh);
+  }
+  result.surface = std::move(learnt.mesh);
+}
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The four stages of a run: begin, learn, finish, describe. Runs differ in what they do between them.
+#pragma once
+
+#include "base/Executor.h"
+#include "base/Progress.h"
+#include "cloud/PointCloud.h"
+#include "fit/Finish.h"
+#include "learn/Learner.h"
+#include "learn/StoppingRules.h"
+#include "run/Reconstruction.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace neuralmesh
+{
+/// What learning starts from.
+struct Beginning
+{
+  std::optional<Mesh> mesh;          ///< nothing: a tetrahedron
+  std::optional<double> bridgeWidth; ///< of the gaps to open in the end; nothing: they stay closed
+  std::vector<float> weights;        ///< to draw samples by; empty: those of the cloud
+};
+
+/// Makes the first surface, if the parameters have learning start from one. If it is ended before, or
+/// the cloud has too few points to tell a shape, learning starts from a tetrahedron.
+Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Progress& progress,
+  const Executor& executor = Executor::sequential());
+
+/// A learner of the cloud that starts there. `cloud` and `executor` must outlive it.
+Learner learnerFrom(Beginning beginning, const PointCloud& cloud, const Parameters& parameters,
+  const Executor& executor = Executor::sequential());
+
+/// The stopping rule that is met, or None; Cancelled if `progress` ends the run.
+StopReason ruleMet(const Learner& learner, StoppingRules& rules, const Progress& progress);
+
+/// Learns so many samples at least, and a whole batch, but no more than all that the parameters allow.
+/// Returns the rule that is met then. To be called again as long as that is None.
+StopReason learn(Learner& learner, StoppingRules& rules, const Parameters& parameters,
+  std::uint64_t samples, const Progress& progress, const std::function<void()>& afterBatch = {});
+
+/// Finishes what was learnt, for `vertexCount` vertices. Returns nothing if it was ended before.
+std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
+  const Parameters& parameters, std::optional<double> bridgeWidth, std::size_t vertexCount,
+  const Progress& progress, const Executor& executor = Executor::sequential());
+
+/// Orients the mesh outwards, and adds to `result` all that a user gets of it. Its quality is measured
+/// by `all` points, if there are any.
+void describe(
+  LearntMesh learnt, const PointCloud& cloud, const PointCloud* all, Reconstruction& result);
+}
