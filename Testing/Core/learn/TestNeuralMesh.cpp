@@ -128,9 +128,6 @@ TEST(NeuralMesh, AllAgreeAfterEachCall)
       else if (kind < 85)
       {
         call = "topology";
-        std::printf("%zu b%d ", mesh.vertexCount(),
-          int(std::ranges::any_of(
-            mesh.vertices(), [&](VertexIndex v) { return mesh.mesh().isBoundary(v); })));
         mesh.learnTopology(random.below(2) == 0 ? mended : tearing);
       }
       else if (kind < 90 && mended.canRemoveStar(mesh.mesh(), any))
