@@ -187,6 +187,10 @@ class Reader:
     def __init__(self):
         self.errors = []
 
+    def raise_errors(self, path):
+        if self.errors:
+            raise ListError("\n".join(f"{path}: {error}" for error in self.errors))
+
     def check(self, condition, place, message):
         if not condition:
             self.errors.append(f"{place}: {message}")
@@ -269,8 +273,8 @@ class Reader:
             return None
         is_whole = kind == "double" or all(isinstance(end, int) for end in ends)
         self.check(is_whole, place, f"{key} of an {kind} must have whole ends")
-        self.check(ends[0] < ends[1], place, f"{key} {pair} is empty")
-        return ends
+        is_right = is_whole and self.check(ends[0] < ends[1], place, f"{key} {pair} is empty")
+        return ends if is_right else None
 
     def parameter(self, entry, choices):
         place = entry.get("name", "a parameter") if isinstance(entry, dict) else "a parameter"
@@ -333,6 +337,8 @@ def read(path):
     if not isinstance(content, dict) or set(content) != {"choices", "groups"}:
         raise ListError(f"{path}: there must be choices and groups, and nothing else")
     choices = reader.choices(content["choices"])
+    # Without all choices the entries that have them would seem wrong, too.
+    reader.raise_errors(path)
     groups = []
     for entry in content["groups"]:
         place = entry.get("key", "a group") if isinstance(entry, dict) else "a group"
@@ -342,7 +348,8 @@ def read(path):
             groups.append(Group(entry["key"], entry["title"], entry["panel"], known))
     found = ParameterList(choices, groups)
     reader.names([parameter.name for parameter in found.parameters], "parameters")
+    # Likewise conditions that name them.
+    reader.raise_errors(path)
     reader.conditions(found)
-    if reader.errors:
-        raise ListError("\n".join(f"{path}: {error}" for error in reader.errors))
+    reader.raise_errors(path)
     return found
