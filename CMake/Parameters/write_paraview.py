@@ -51,12 +51,14 @@ def decorator(name, value, is_not):
 
 def conditions(found, parameter):
     """When the panel shows the property: the parameter, the number, and whether it must not be that."""
-    if parameter.variants:
-        values = found.choice("Variant").values
-        others = [value.name for value in values if value.name not in parameter.variants]
-        is_not = len(parameter.variants) > 1
-        name = others[0] if is_not else parameter.variants[0]
-        yield "Variant", found.choice("Variant").index(name), is_not
+    variants = found.choice("Variant")
+    if len(parameter.variants or ()) == 1:
+        yield "Variant", variants.index(parameter.variants[0]), False
+    elif parameter.variants:
+        # All conditions must hold: so it is none of the others.
+        for i, variant in enumerate(variants.values):
+            if variant.name not in parameter.variants:
+                yield "Variant", i, True
     for condition in parameter.when or ():
         name, is_not, value = re.fullmatch(r"(\w+) is (not )?(\w+)", condition).groups()
         other = found.parameter(name)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Follows the recipe of Documentation/Developers.md: run_recipe.py ROOT COMPILER OPTION...
 
-The blocks of diff are applied to a copy of the engine, the files of the page are added, and all of it is
-compiled. The test among them must pass.
+The blocks of diff are applied to a copy of the engine, what follows from the list of parameters is written,
+the files of the page are added, and all of it is compiled. The tests among them must pass.
 """
 
 import subprocess
@@ -24,13 +24,14 @@ def run(command, **options):
 
 def main():
     options = ["-std=c++20", "-O1", '-DNEURALMESH_VERSION="recipe"']
-    compile_command = [*sys.argv[2:], *options, "-I", "Filters/Core"]
+    compile_command = [*sys.argv[2:], *options, "-I", "Filters/Core", "-I", "build/Filters/Core"]
     with repository_copy(sys.argv[1]) as folder:
         core = folder / "Filters" / "Core"
         blocks = Page(folder / "Documentation" / "Developers.md", "Developers.md").blocks
         patches = [block.text for block in blocks if block.language == "diff"]
         files = {block.value("file"): block.text for block in blocks if block.is_saved}
         run(["patch", "-p1"], input="".join(patches), cwd=folder)
+        run([sys.executable, "CMake/Parameters/generate.py", ".", "build"], cwd=folder)
         for name, text in files.items():
             (core / name).write_text(text, encoding="utf-8")
         names = sorted(str(path.relative_to(core)) for path in core.rglob("*.cpp"))
