@@ -12,6 +12,9 @@ import sys
 from markdown_pages import Page
 from repository_copy import repository_copy
 
+# What the page adds to the list.
+PARAMETER = "StallVertices"
+
 
 def run(command, **options):
     process = subprocess.run(
@@ -20,6 +23,16 @@ def run(command, **options):
     print(process.stdout, flush=True)
     if process.returncode:
         sys.exit(f"{command[0]}: status {process.returncode}")
+
+
+def check_places(folder, core):
+    """The parameter of the page stands in the list, in its use, in its test and on the page alone."""
+    wanted = [core / "learn" / "StoppingRules.cpp", core / f"Test{PARAMETER}.cpp",
+              folder / "Documentation" / "Developers.md", folder / "Filters" / "Parameters.json"]
+    found = [path for path in folder.rglob("*") if path.is_file()
+             and PARAMETER.lower().encode() in path.read_bytes().lower()]
+    if sorted(found) != sorted(path.resolve() for path in wanted):
+        sys.exit(f"{PARAMETER} is in " + ", ".join(map(str, found)))
 
 
 def main():
@@ -31,9 +44,10 @@ def main():
         patches = [block.text for block in blocks if block.language == "diff"]
         files = {block.value("file"): block.text for block in blocks if block.is_saved}
         run(["patch", "-p1"], input="".join(patches), cwd=folder)
-        run([sys.executable, "CMake/Parameters/generate.py", ".", "build"], cwd=folder)
         for name, text in files.items():
             (core / name).write_text(text, encoding="utf-8")
+        check_places(folder, core)
+        run([sys.executable, "CMake/Parameters/generate.py", ".", "build"], cwd=folder)
         names = sorted(str(path.relative_to(core)) for path in core.rglob("*.cpp"))
         # In one go: most of the time goes into the headers.
         (core / "All.cpp").write_text("".join(f'#include "{name}"\n' for name in names), encoding="utf-8")
