@@ -59,8 +59,8 @@ def vtk_number(parameter, value):
         return parameter.choice.values[value].constant
     if parameter.type != "double":
         return VTK_ENDS.get(value, str(value))
-    text = cpp_double(value)
-    return text + "0" if text.endswith(".") else text
+    # As VTK writes them: 1.0, not 1.
+    return re.sub(r"\.(?!\d)", ".0", cpp_double(value))
 
 
 def listed(words, last):
@@ -74,18 +74,20 @@ def variant_words(parameter):
     return listed(words, "and") + " variant"
 
 
-def condition_words(condition, constants):
+def condition_words(condition, found):
     """A condition for the reader of a header."""
     name, is_not, value = re.fullmatch(r"(\w+) is (not )?(\w+)", condition).groups()
     if value in ("on", "off"):
         return ("with " if (value == "on") != bool(is_not) else "without ") + name
-    return f"{'unless' if is_not else 'with'} {name}{' is' if is_not else ''} {constants.get(value, value)}"
+    choice = found.parameter(name).choice
+    shown_value = choice.values[choice.index(value)].constant if choice else value
+    return f"unless {name} is {shown_value}" if is_not else f"with {name} {shown_value}"
 
 
-def begun_small(text, names):
-    """A sentence as it goes on behind a colon."""
+def begun_small(text):
+    """A sentence as it goes on behind a colon; a name like RemovalLimit stays."""
     word = re.match(r"\w+", text)[0]
-    return text if word in names or word[1:] != word[1:].lower() else text[0].lower() + text[1:]
+    return text if word[1:] != word[1:].lower() else text[0].lower() + text[1:]
 
 
 def range_words(parameter):

@@ -18,10 +18,8 @@ def enumeration(found, name):
     """The constants of a choice."""
     choice = found.choice(name)
     constants = [value.constant for value in choice.values]
-    lines = wrapped(f"{choice.title}, for Set{name}().", " * ", "/** ")
-    lines = [lines[0] + " */"] if len(lines) == 1 else ["/**", *wrapped(lines[0], " * "), " */"]
-    return [*lines, f"enum {name}Type", "{", *("  " + c + "," for c in constants[:-1]),
-            "  " + constants[-1], "};"]
+    return [f"/** {choice.title}, for Set{name}(). */", f"enum {name}Type", "{",
+            *(f"  {constant}," for constant in constants[:-1]), f"  {constants[-1]}", "};"]
 
 
 def choosers(found, name):
@@ -33,43 +31,49 @@ def choosers(found, name):
     return lines
 
 
-def documentation(found, parameter):
-    """The comment at a property."""
-    names = {other.name for other in found.parameters}
-    constants = {v.name: v.constant for choice in found.choices for v in choice.values}
+def introduced(found, parameter):
+    """The text behind its symbol and what it goes with: "alpha_r of (7.4), with TopologyLearning: ..."."""
     beginnings = [parameter.symbol] if parameter.symbol else []
     if parameter.variants:
         beginnings.append(variant_words(parameter))
-    beginnings += [condition_words(condition, constants) for condition in parameter.when or ()]
-    text = parameter.text
-    if beginnings:
-        beginning = ", ".join(beginnings)
-        text = beginning[0].upper() * (not parameter.symbol) + beginning[not parameter.symbol:] + \
-            ": " + begun_small(text, names)
-    lines, values = [], []
-    if parameter.choice:
-        for value in parameter.choice.values:
-            marks = [word for word, name in (("default", parameter.default), ("thesis", parameter.thesis))
-                     if name == value.name and (word == "default" or parameter.thesis != parameter.default)]
-            mark = f" ({', '.join(marks)})" if marks else ""
-            values += wrapped(f"{value.constant}{mark}: {value.text}.", " *   ", " * - ")
+    beginnings += [condition_words(condition, found) for condition in parameter.when or ()]
+    if not beginnings:
+        return parameter.text
+    beginning = ", ".join(beginnings)
+    if not parameter.symbol:
+        beginning = beginning[0].upper() + beginning[1:]
+    return f"{beginning}: {begun_small(parameter.text)}"
+
+
+def items(parameter):
+    """The values of a choice, with what they mean."""
+    for value in parameter.choice.values:
+        mark = ""
+        if value.name == parameter.default:
+            mark = " (default)"
+        elif value.name == parameter.thesis:
+            mark = " (thesis)"
+        yield f"- {value.constant}{mark}: {value.text}."
+
+
+def documentation(found, parameter):
+    """The comment at a property."""
+    text = introduced(found, parameter)
     more = parameter.details or []
     more = more if isinstance(more, list) else [more]
-    ending = default_sentence(parameter)
-    if values:
-        lines = [*wrapped(text, " * "), *values]
-        more = ["", *more] if more else []
-    elif more:
-        lines, more = [], [f"{text} {more[0]}", *more[1:]]
+    if parameter.choice:
+        paragraphs = [text, *items(parameter), *([""] if more else []), *more]
     else:
-        more = [text]
-    if ending and len(more) < 2:
-        more[-1] += " " + ending
-    elif ending:
-        more += ["", ending]
-    for paragraph in more:
-        is_item = paragraph.startswith("- ")
-        lines += wrapped(paragraph, " *   " if is_item else " * ", " * ") or [" *"]
+        paragraphs = [" ".join([text, *more[:1]]), *more[1:]]
+        ending = default_sentence(parameter)
+        if len(paragraphs) == 1:
+            paragraphs[0] += " " + ending
+        else:
+            paragraphs += ["", ending]
+    lines = []
+    for paragraph in paragraphs:
+        prefix = " *   " if paragraph.startswith("- ") else " * "
+        lines += wrapped(paragraph, prefix, " * ") or [" *"]
     return ["/**", *lines, " */"]
 
 
@@ -116,9 +120,6 @@ def members(found, *arguments):
             value = vtk_number(parameter, parameter.number(parameter.default))
         elif parameter.type == "bool":
             value = str(int(parameter.default))
-        elif isinstance(parameter.default, str):
-            value = vtk_number(parameter, parameter.default)[:-1] + ".0"
-            value = value.replace(". /", ".0 /").replace("..", ".")
         else:
             value = vtk_number(parameter, parameter.default)
         lines.append(f"{vtk_type(parameter)} {parameter.name} = {value};")

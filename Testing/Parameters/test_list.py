@@ -90,6 +90,8 @@ class BadLists(ListTest):
             "RemovalLimit: no preset sets it": {"preset": False},
             "RemovalLimit: class is none that has parameters": {"class": "vtkPoints", "thesis": None},
             "RemovalLimit: engine is no type": {"engine": "long"},
+            "RemovalLimit: the engine must know what vtkNeuralMeshAlgorithm has": {"engine": False},
+            "RemovalLimit: a preset sets nothing of vtkNeuralMesh": {"class": "vtkNeuralMesh", "preset": True},
             "RemovalLimit: panel can only be 'shown'": {"panel": "hidden"},
             "RemovalLimit: short has more than": {"short": "x" * 100},
             "RemovalLimit: text must end with a full stop": {"text": "Some limit"},
