@@ -281,7 +281,8 @@ class Reader:
         if not self.keys(entry, "parameter", PARAMETER_KEYS, place):
             return None
         choice = next((choice for choice in choices if choice.name == entry["type"]), None)
-        if not self.check(choice or entry["type"] in ("bool", *ENDS), place, f"there is no type {entry['type']}"):
+        is_type = choice or entry["type"] in ("bool", *ENDS)
+        if not self.check(is_type, place, f"there is no type {entry['type']}"):
             return None
         ends = None
         if choice or entry["type"] == "bool":
