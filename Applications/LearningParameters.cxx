@@ -4,6 +4,7 @@
 #include "NearestNames.h"
 #include "OneLine.h"
 #include "vtkNeuralMeshEnsemble.h"
+#include "vtkNeuralMeshParameters.h"
 
 #include "vtkNew.h"
 
@@ -20,8 +21,9 @@ namespace
 /// Of the column of names in the table.
 constexpr int NameWidth = 25;
 
+/** `texts` are a description, and words for the values from 0 on. */
 template <typename OwnerT, typename ValueT>
-LearningParameter Describe(const char* name, const char* description, double minimum,
+LearningParameter Describe(const char* name, std::vector<std::string> texts, double minimum,
   double maximum, ValueT defaultValue, void (OwnerT::*set)(ValueT))
 {
   const auto setValue = [name, set](vtkNeuralMesh* filter, double value)
@@ -33,78 +35,18 @@ LearningParameter Describe(const char* name, const char* description, double min
     }
     (owner->*set)(static_cast<ValueT>(value));
   };
-  return { name, description, minimum, maximum, static_cast<double>(defaultValue),
-    std::is_integral_v<ValueT>, {}, setValue };
-}
-
-LearningParameter WithWords(LearningParameter parameter, std::vector<std::string> words)
-{
-  parameter.Words = std::move(words);
-  return parameter;
+  return { name, texts.front(), minimum, maximum, static_cast<double>(defaultValue),
+    std::is_integral_v<ValueT>, { texts.begin() + 1, texts.end() }, setValue };
 }
 
 std::vector<LearningParameter> MakeParameters()
 {
   vtkNew<vtkNeuralMeshEnsemble> defaults;
-#define PARAMETER_IN(property, minimum, maximum, description)                                      \
-  Describe(#property, description, static_cast<double>(minimum), static_cast<double>(maximum),     \
-    defaults->Get##property(), &vtkNeuralMeshEnsemble::Set##property)
-#define PARAMETER(property, description)                                                           \
-  PARAMETER_IN(property, defaults->Get##property##MinValue(), defaults->Get##property##MaxValue(), \
-    description)
-  return {
-    PARAMETER(WinnerRate, "how far the winner moves to the sample"),
-    PARAMETER(SmoothingRate, "how far its neighbours are smoothed"),
-    PARAMETER(SmoothingIterations, "how often they are smoothed for a sample"),
-    PARAMETER(CounterDecay, "what a sample leaves of all counters (basic)"),
-    PARAMETER(CounterHalfLife, "samples per vertex that halve a counter (noise, normal)"),
-    PARAMETER(NoiseTolerance, "deviations from which on samples pull less (noise)"),
-    PARAMETER(NoiseWindow, "distances behind mean and deviation"),
-    PARAMETER(OutlierLimit, "how far beyond that samples are ignored; 0: never"),
-    PARAMETER(OutlierLimitVertices, "... from so many vertices on"),
-    PARAMETER(ChangeWindow, "changes by moves behind their mean"),
-    PARAMETER(GainLimit, "mean changes that a change counts as at most; 0: any"),
-    PARAMETER(FeatureMemory, "what a win leaves of feature strength (--features)"),
-    PARAMETER(FeatureSamples, "samples per vertex for it, after growth (--features)"),
-    PARAMETER(SamplesPerAddition, "samples between two new vertices"),
-    PARAMETER(EarlyPatience, "how many times more of them at first"),
-    PARAMETER(EarlyVertices, "... until there are so many vertices"),
-    PARAMETER(AdditionsPerRemoval, "new vertices between two removals (noise)"),
-    PARAMETER(RemovalPatience, "samples per vertex without a win until removal"),
-    PARAMETER(RemovalLimit, "removals for a new vertex at most; 0: any (noise)"),
-    PARAMETER_IN(EdgeFlips, 0, 1, "flips towards valence 6, 1 or 0"),
-    WithWords(PARAMETER(AdditionOperation, "what adds a vertex"), { "vertex_split", "edge_split" }),
-    WithWords(PARAMETER(RemovalOperation, "what removes a vertex"),
-      { "half_edge_collapse", "full_edge_collapse", "vertex_delete" }),
-    WithWords(PARAMETER(TopologyRules, "by which rules (topology)"), { "mended", "thesis" }),
-    PARAMETER(TopologyPatience, "samples per vertex between two calls (topology)"),
-    PARAMETER(TriangleRemovalFactor, "mean areas beyond which a triangle goes (topology)"),
-    PARAMETER(BoundaryMergingFactor, "how close boundaries are joined (topology)"),
-    PARAMETER(JumpFraction, "how far a winner jumps, part of n (list)"),
-    PARAMETER(ConstantWeight, "parts in the weighted jump (list)"),
-    PARAMETER(NormalWeight, "... of the turn of the normal"),
-    PARAMETER(AreaWeight, "... of the change of area"),
-    PARAMETER(VolumeWeight, "... of the change of volume"),
-    PARAMETER(ListVertices, "counters until there are so many vertices (list)"),
-    PARAMETER(MaximumPoints, "points drawn with --in-place; 0: 50 a vertex or a million"),
-    PARAMETER(BatchSize, "samples drawn at once at most"),
-    WithWords(PARAMETER(Start, "what learning starts from"), { "occupied_space", "tetrahedron" }),
-    PARAMETER(CurvatureDensity, "denser where it bends, by its curvature to that power; 0: not"),
-    PARAMETER(FitRounds, "rounds of the fit after learning; 0: none"),
-    PARAMETER(FitSmoothness, "how smooth the fit is; 0: by the noise and the shape"),
-    PARAMETER(FitSamples, "samples per vertex in the fit"),
-    PARAMETER(MaximumIterations, "end after so many samples; 0: never"),
-    PARAMETER(TargetSampleDistance, "end at this mean distance to winners, part of diagonal"),
-    PARAMETER(TargetCloudDistance, "end at this mean distance to the mesh, part of diagonal"),
-    PARAMETER(TargetNormalChange, "end at this mean change of normals, 1 - cosine"),
-    PARAMETER(StallPatience, "end after so many samples per vertex without growth"),
-    PARAMETER(VerticesPerMember, "vertices of a member (ensemble)"),
-    PARAMETER(MemberSamplesPerAddition, "its samples between two new vertices (ensemble)"),
-    PARAMETER(MemberRemovalPatience, "its samples per vertex until removal (ensemble)"),
-    PARAMETER(GridResolution, "voxels along the longest side (ensemble)"),
-  };
-#undef PARAMETER
-#undef PARAMETER_IN
+#define DESCRIBE(property, minimum, maximum, ...)                                                  \
+  Describe(#property, { __VA_ARGS__ }, static_cast<double>(minimum), static_cast<double>(maximum), \
+    defaults->Get##property(), &vtkNeuralMeshEnsemble::Set##property),
+  return { NEURAL_MESH_FOR_EACH_SETTING(DESCRIBE) };
+#undef DESCRIBE
 }
 
 std::string ShortNumber(double value)

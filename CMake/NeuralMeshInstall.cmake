@@ -17,4 +17,8 @@ install(
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(DIRECTORY Documentation DESTINATION "${CMAKE_INSTALL_DOCDIR}"
   PATTERN CMakeLists.txt EXCLUDE
-  PATTERN Doxyfile.in EXCLUDE)
+  PATTERN Doxyfile.in EXCLUDE
+  PATTERN Parameters.md EXCLUDE)
+# With its tables.
+install(FILES "${PROJECT_BINARY_DIR}/Documentation/Parameters.md"
+  DESTINATION "${CMAKE_INSTALL_DOCDIR}/Documentation")

@@ -9,6 +9,7 @@
 #include "vtkFilePoints.h"
 #include "vtkMeshArrays.h"
 #include "vtkNeuralMeshGrowth.h"
+#include "vtkNeuralMeshParameters.h"
 #include "vtkNeuralMeshReport.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkPointCloudCollector.h"
@@ -37,20 +38,6 @@
 
 vtkStandardNewMacro(vtkNeuralMesh);
 
-// clang-format off
-// What the core knows apart from the parameters of vtkNeuralMeshAlgorithm, as (name of the
-// property, name in the core).
-#define NEURAL_MESH_FOR_EACH_PARAMETER(use)                 \
-  use(NumberOfVertices, numberOfVertices)                   \
-  use(Seed, seed)                                           \
-  use(MaximumIterations, maximumIterations)                 \
-  use(TargetSampleDistance, targetSampleDistance)           \
-  use(TargetCloudDistance, targetCloudDistance)             \
-  use(TargetNormalChange, targetNormalChange)               \
-  use(TimeLimit, timeLimit)                                 \
-  use(StallPatience, stallPatience)
-// clang-format on
-
 namespace
 {
 /// Where point data begins to be carried over, as a fraction of the run.
@@ -69,7 +56,6 @@ vtkNeuralMesh::vtkNeuralMesh()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
-  this->StallPatience = neuralmesh::Parameters().stallPatience;
 }
 
 vtkNeuralMesh::~vtkNeuralMesh() = default;
@@ -406,7 +392,8 @@ int vtkNeuralMesh::RequestData(
   vtkNeuralMeshRun run{ cloud, {}, precision, vtkNeuralMeshProgress(this), {}, executor };
   this->FillParameters(run.Parameters);
 #define SET_PARAMETER(property, parameter)                                                         \
-  run.Parameters.parameter = static_cast<decltype(run.Parameters.parameter)>(this->property);
+  run.Parameters.parameter =                                                                       \
+    vtkNeuralMeshConvert<decltype(run.Parameters.parameter)>(this->property);
   NEURAL_MESH_FOR_EACH_PARAMETER(SET_PARAMETER)
 #undef SET_PARAMETER
   if (!this->IsHelper())
@@ -537,23 +524,16 @@ void vtkNeuralMesh::PrepareRun(
 void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-#define PRINT_PROPERTY(property, parameter)                                                        \
-  os << indent << #property ": " << this->property << "\n";
-  NEURAL_MESH_FOR_EACH_PARAMETER(PRINT_PROPERTY)
+#define PRINT_PARAMETER(property, parameter) PRINT_PROPERTY(property)
+#define PRINT_PROPERTY(property) os << indent << #property ": " << this->property << "\n";
+  NEURAL_MESH_FOR_EACH_PARAMETER(PRINT_PARAMETER)
+  NEURAL_MESH_FOR_EACH_PROPERTY(PRINT_PROPERTY)
+#undef PRINT_PARAMETER
 #undef PRINT_PROPERTY
   os << indent << "PointFileName: " << this->PointFileName << "\n";
-  os << indent << "MaximumPoints: " << this->MaximumPoints << "\n";
-  os << indent << "CarryPointData: " << this->CarryPointData << "\n";
   os << indent << "WeightArrayName: " << this->GetWeightArrayName() << "\n";
-  os << indent << "GrowthAsTime: " << this->GrowthAsTime << "\n";
-  os << indent << "NumberOfSnapshots: " << this->NumberOfSnapshots << "\n";
-  os << indent << "Automatic: " << this->Automatic << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "CheckpointFileName: " << this->CheckpointFileName << "\n";
-  os << indent << "CheckpointInterval: " << this->CheckpointInterval << "\n";
-  os << indent << "KeepCheckpoint: " << this->KeepCheckpoint << "\n";
   os << indent << "ResumedIterations: " << this->ResumedIterations << "\n";
-  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "StopReason: " << this->StopReason << "\n";
   os << indent << "DrawingTime: " << this->DrawingTime << "\n";
   os << indent << "CloudTime: " << this->CloudTime << "\n";

@@ -4,6 +4,7 @@
 #include "cloud/MeshBuilder.h"
 #include "mesh/Simplification.h"
 #include "run/Ensemble.h"
+#include "vtkNeuralMeshParameters.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkTriangleMeshCollector.h"
 
@@ -29,16 +30,6 @@
 #include <utility>
 
 vtkStandardNewMacro(vtkNeuralMeshEnsemble);
-
-// clang-format off
-// As (name of the property, name in the core).
-#define NEURAL_MESH_FOR_EACH_ENSEMBLE_PARAMETER(use)        \
-  use(NumberOfMembers, numberOfMembers)                     \
-  use(VerticesPerMember, verticesPerMember)                 \
-  use(MemberSamplesPerAddition, memberSamplesPerAddition)   \
-  use(MemberRemovalPatience, memberRemovalPatience)         \
-  use(GridResolution, gridResolution)
-// clang-format on
 
 namespace
 {
@@ -230,11 +221,6 @@ vtkNeuralMeshEnsemble::vtkNeuralMeshEnsemble()
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(4);
   this->TopologyLearningOn();
-  const neuralmesh::EnsembleParameters defaults;
-#define SET_PROPERTY(property, parameter)                                                          \
-  this->property = static_cast<decltype(this->property)>(defaults.parameter);
-  NEURAL_MESH_FOR_EACH_ENSEMBLE_PARAMETER(SET_PROPERTY)
-#undef SET_PROPERTY
 }
 
 vtkNeuralMeshEnsemble::~vtkNeuralMeshEnsemble() = default;
@@ -283,7 +269,7 @@ void vtkNeuralMeshEnsemble::PrepareRun(
 {
   neuralmesh::EnsembleParameters parameters;
 #define SET_PARAMETER(property, parameter)                                                         \
-  parameters.parameter = static_cast<decltype(parameters.parameter)>(this->property);
+  parameters.parameter = vtkNeuralMeshConvert<decltype(parameters.parameter)>(this->property);
   NEURAL_MESH_FOR_EACH_ENSEMBLE_PARAMETER(SET_PARAMETER)
 #undef SET_PARAMETER
   parameters.seed = run.Parameters.seed;

@@ -12,13 +12,18 @@ cd "$(dirname "$0")/.."
 source Utilities/build.sh
 
 install_packages "${build_packages[@]}" clang-format clang-tidy cppcheck git
-git ls-files '*.h' '*.cpp' '*.cxx' | xargs clang-format --dry-run --Werror
+folder=build-style
+# Headers that follow from the list of parameters read as if they were written.
+written=$folder/parameters
+/usr/bin/python3 -B CMake/Parameters/generate.py . "$written" > /dev/null
+{ git ls-files '*.h' '*.cpp' '*.cxx'; find "$written" -name '*.h'; } | xargs clang-format --dry-run --Werror
 echo "clang-format: all well"
 
 # Of style there is clang-tidy to judge.
 git ls-files 'Filters/*.cpp' 'Filters/*.cxx' 'Applications/*.cxx' |
   cppcheck --enable=warning,performance,portability --std=c++20 --language=c++ --quiet \
-    -I Filters/Core -I Filters -I Applications --error-exitcode=1 -j "$(nproc)" --file-list=-
+    -I Filters/Core -I Filters -I Applications -I "$written/Filters/Core" -I "$written/Filters" \
+    --error-exitcode=1 -j "$(nproc)" --file-list=-
 echo "cppcheck: all well"
 
 # changed_since COMMIT PATTERN...: the files that are there now and differ from it.
@@ -42,14 +47,13 @@ wanted_sources()
   changed_since "$commit" 'Filters/*.cpp' 'Filters/*.cxx' 'Applications/*.cxx'
   while read -r header; do
     # The first one that includes it shows it to clang-tidy.
-    { git grep -lE "^#include \"([A-Za-z]+/)?$(basename "$header")\"" -- \
+    { git grep -lE "^#include \"([A-Za-z]+/)?$(basename "$header" .in)\"" -- \
       'Filters/*.cpp' 'Filters/*.cxx' 'Applications/*.cxx' || true; } | sed -n 1p
-  done < <(changed_since "$commit" 'Filters/*.h' 'Applications/*.h')
+  done < <(changed_since "$commit" 'Filters/*.h' 'Filters/*.h.in' 'Applications/*.h')
 }
 
 # A dozen sources at a time: a fifth of the time, as most of it goes into the headers they include.
 # They are copied into one, as the analyzer leaves included ones out.
-folder=build-style
 configure "$folder" -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 wanted_sources "${1:-}" | sort -u > "$folder/wanted.txt"
 find "$folder"/Filters "$folder"/Applications -path '*/Unity/*.cxx' -exec \

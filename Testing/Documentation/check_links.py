@@ -7,8 +7,12 @@ font with its folder exists; every page of Documentation is linked from its inde
 Documentation/Thesis.md exists, and no cell of its tables is empty. Prints what does not hold.
 """
 
+import pathlib
 import re
+import shutil
+import subprocess
 import sys
+import tempfile
 
 from markdown_pages import pages
 from repository_copy import repository_copy
@@ -69,8 +73,17 @@ def check(root):
     return 1 if wrong else 0
 
 
+def put_tables(root):
+    """Makes the page of parameters what it is in the build tree, tables and all."""
+    generate = root / "CMake" / "Parameters" / "generate.py"
+    with tempfile.TemporaryDirectory() as build:
+        subprocess.run([sys.executable, generate, root, build], check=True, stdout=subprocess.DEVNULL)
+        shutil.copy(pathlib.Path(build, "Documentation", "Parameters.md"), root / "Documentation")
+
+
 def main():
     with repository_copy(sys.argv[1]) as root:
+        put_tables(root)
         return check(root)
 
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Follows the recipe of Documentation/Developers.md: run_recipe.py ROOT COMPILER OPTION...
 
-The blocks of diff are applied to a copy of the engine, the files of the page are added, and all of it is
-compiled. The test among them must pass.
+The blocks of diff are applied to a copy of the engine, what follows from the list of parameters is written,
+the files of the page are added, and all of it is compiled. The tests among them must pass.
 """
 
 import subprocess
@@ -11,6 +11,9 @@ import sys
 
 from markdown_pages import Page
 from repository_copy import repository_copy
+
+# What the page adds to the list.
+PARAMETER = "StallVertices"
 
 
 def run(command, **options):
@@ -22,9 +25,19 @@ def run(command, **options):
         sys.exit(f"{command[0]}: status {process.returncode}")
 
 
+def check_places(folder, core):
+    """The parameter of the page stands in the list, in its use, in its test and on the page alone."""
+    wanted = [core / "learn" / "StoppingRules.cpp", core / f"Test{PARAMETER}.cpp",
+              folder / "Documentation" / "Developers.md", folder / "Filters" / "Parameters.json"]
+    found = [path for path in folder.rglob("*") if path.is_file()
+             and PARAMETER.lower().encode() in path.read_bytes().lower()]
+    if sorted(found) != sorted(path.resolve() for path in wanted):
+        sys.exit(f"{PARAMETER} is in " + ", ".join(map(str, found)))
+
+
 def main():
     options = ["-std=c++20", "-O1", '-DNEURALMESH_VERSION="recipe"']
-    compile_command = [*sys.argv[2:], *options, "-I", "Filters/Core"]
+    compile_command = [*sys.argv[2:], *options, "-I", "Filters/Core", "-I", "build/Filters/Core"]
     with repository_copy(sys.argv[1]) as folder:
         core = folder / "Filters" / "Core"
         blocks = Page(folder / "Documentation" / "Developers.md", "Developers.md").blocks
@@ -33,6 +46,8 @@ def main():
         run(["patch", "-p1"], input="".join(patches), cwd=folder)
         for name, text in files.items():
             (core / name).write_text(text, encoding="utf-8")
+        check_places(folder, core)
+        run([sys.executable, "CMake/Parameters/generate.py", ".", "build"], cwd=folder)
         names = sorted(str(path.relative_to(core)) for path in core.rglob("*.cpp"))
         # In one go: most of the time goes into the headers.
         (core / "All.cpp").write_text("".join(f'#include "{name}"\n' for name in names), encoding="utf-8")

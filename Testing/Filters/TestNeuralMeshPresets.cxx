@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Promise: a preset sets every parameter of learning to what the documentation says, whatever it was
+// Promise: a preset sets every parameter of learning to what the list of parameters says, whatever it was
 // before, in each variant and order, and leaves alone what is a choice.
 #include "FilterTesting.h"
 
+#include "learn/ParameterTable.h"
 #include "vtkNeuralMesh.h"
+#include "vtkNeuralMeshParameters.h"
 
 #include <functional>
+#include <map>
 #include <set>
 
 namespace
@@ -39,60 +42,47 @@ constexpr Combination Combinations[] = {
   { vtkNeuralMesh::NORMAL_BASED, vtkNeuralMesh::LIST, 0.2, 1 },
 };
 
+/** What the list of parameters says. */
+struct Listed
+{
+  double Minimum;
+  double Maximum;
+  double Default;
+  double Thesis;
+};
+
+std::map<std::string, Listed> ListedParameters()
+{
+  std::map<std::string, Listed> listed;
+  neuralmesh::forEachParameter(
+    [&](const auto& entry)
+    {
+      listed[entry.name] = { entry.range.low, entry.range.high,
+        static_cast<double>(neuralmesh::Parameters().*entry.place),
+        static_cast<double>(entry.thesis) };
+    });
+  return listed;
+}
+
 std::vector<Property> PresetProperties(const Combination& combination)
 {
-  vtkNew<vtkNeuralMesh> ranges;
-#define PROPERTY_IN(name, minimum, maximum, defaultValue, thesisValue)                             \
-  Property                                                                                         \
-  {                                                                                                \
-#name, [](vtkNeuralMesh * filter) -> double { return filter->Get##name(); },                   \
-      [](vtkNeuralMesh * filter, double value)                                                     \
-    { filter->Set##name(static_cast<decltype(filter->Get##name())>(value)); },                     \
-      static_cast < double>(minimum), static_cast < double>(maximum), defaultValue, thesisValue    \
-  }
-#define PROPERTY(name, defaultValue, thesisValue)                                                  \
-  PROPERTY_IN(                                                                                     \
-    name, ranges->Get##name##MinValue(), ranges->Get##name##MaxValue(), defaultValue, thesisValue)
-  return {
-    PROPERTY(WinnerRate, 0.1, 0.1),
-    PROPERTY(SmoothingRate, 0.2, combination.SmoothingRate),
-    PROPERTY(SmoothingIterations, 1, combination.SmoothingIterations),
-    PROPERTY(CounterDecay, 0.95, 0.95),
-    PROPERTY(CounterHalfLife, 6, 6),
-    PROPERTY(NoiseTolerance, 1, 1),
-    PROPERTY(NoiseWindow, 1000, 1000),
-    PROPERTY(OutlierLimit, 5, 0),
-    PROPERTY(OutlierLimitVertices, 1000, 1000),
-    PROPERTY(ChangeWindow, 1000, 1000),
-    PROPERTY(GainLimit, 10, 10),
-    PROPERTY(FeatureMemory, 0.995, 0.995),
-    PROPERTY(FeatureSamples, 400, 400),
-    PROPERTY(SamplesPerAddition, 50, 50),
-    PROPERTY(EarlyPatience, 4, 1),
-    PROPERTY(EarlyVertices, 1000, 1000),
-    PROPERTY(AdditionsPerRemoval, 10, 125),
-    PROPERTY(RemovalPatience, 10, 10),
-    PROPERTY(RemovalLimit, 0.5, 0),
-    PROPERTY_IN(EdgeFlips, 0, 1, 1, 0),
-    PROPERTY(TopologyRules, vtkNeuralMesh::MENDED_RULES, vtkNeuralMesh::THESIS_RULES),
-    PROPERTY(TopologyPatience, 10, 10),
-    PROPERTY(TriangleRemovalFactor, 10, 10),
-    PROPERTY(BoundaryMergingFactor, 2.576, 2.576),
-    PROPERTY(JumpFraction, 1.0 / 3.0, 1.0 / 3.0),
-    PROPERTY(ConstantWeight, 1, 1),
-    PROPERTY(NormalWeight, 1, 1),
-    PROPERTY(AreaWeight, 1, 1),
-    PROPERTY(VolumeWeight, 1, 1),
-    PROPERTY(ListVertices, 1000, 1000),
-    PROPERTY(BatchSize, 65536, 1),
-    PROPERTY(Start, vtkNeuralMesh::OCCUPIED_SPACE, vtkNeuralMesh::TETRAHEDRON),
-    PROPERTY(CurvatureDensity, 0.5, 0),
-    PROPERTY(FitRounds, 3, 0),
-    PROPERTY(FitSmoothness, 0, 0),
-    PROPERTY(FitSamples, 10, 10),
+  std::map<std::string, Listed> listed = ListedParameters();
+  listed.at("SmoothingRate").Thesis = combination.SmoothingRate;
+  listed.at("SmoothingIterations").Thesis = combination.SmoothingIterations;
+  std::vector<Property> properties;
+  const auto add = [&](const char* name, auto get, auto set)
+  {
+    const auto& [minimum, maximum, defaultValue, thesis] = listed.at(name);
+    properties.push_back({ name, get, set, minimum, maximum, defaultValue, thesis });
   };
-#undef PROPERTY
-#undef PROPERTY_IN
+#define ADD(name, parameter)                                                                       \
+  add(                                                                                             \
+    #name, [](vtkNeuralMesh* filter) -> double { return filter->Get##name(); },                    \
+    [](vtkNeuralMesh* filter, double value)                                                        \
+    { filter->Set##name(static_cast<decltype(filter->Get##name())>(value)); });
+  NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(ADD)
+#undef ADD
+  return properties;
 }
 
 /** Sets the preset once all properties are something else, and looks at them. */
@@ -172,8 +162,10 @@ int CheckCompleteness()
 #undef CLAMPED_PROPERTY
 #undef SWITCH_PROPERTY
 #undef PRINTED_PROPERTY
-  std::set<std::string> known{ "Variant", "Order", "TopologyLearning", "Jump", "Boundaries",
-    "AdditionOperation", "RemovalOperation", "ComputeFeatureStrength" };
+  std::set<std::string> known;
+#define INSERT(name, parameter) known.insert(#name);
+  NEURAL_MESH_FOR_EACH_CHOICE(INSERT)
+#undef INSERT
   for (const Property& property : PresetProperties(Combinations[0]))
   {
     known.insert(property.Name);

@@ -1,13 +1,14 @@
-# neuralmesh_write_properties(FOLDER FILE): writes what the public headers in FOLDER declare into FILE,
-# to be included by tests, which define what they need of
+# neuralmesh_write_properties(FILE FOLDER...): writes what the public headers in the folders declare into
+# FILE, to be included by tests, which define what they need of
 #   CONCRETE_CLASS(Class)
 #   CLAMPED_PROPERTY(Class, Declaring, Name)   a value with a range
 #   SWITCH_PROPERTY(Class, Declaring, Name)    on or off
 #   PRINTED_PROPERTY(Class, Name)              whatever PrintSelf() has to print
 # A line for each property of each class, inherited ones included; Declaring is the class with the
 # declaration. So a new property is in the tests without further ado.
-function (neuralmesh_write_properties folder file)
-  file(GLOB headers CONFIGURE_DEPENDS "${folder}/vtk*.h")
+function (neuralmesh_write_properties file)
+  list(TRANSFORM ARGN APPEND "/vtk*.h" OUTPUT_VARIABLE patterns)
+  file(GLOB headers CONFIGURE_DEPENDS ${patterns})
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${headers})
   set(classes "")
   foreach (header IN LISTS headers)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "learn/Parameters.h"
+#include "learn/ParameterTable.h"
 
 #include <cmath>
 
@@ -12,19 +12,23 @@ Parameters Parameters::of(Preset preset, Variant variant, Order order)
   parameters.order = order;
   if (preset == Preset::Thesis)
   {
-    parameters.start = Start::Tetrahedron;
-    parameters.curvatureDensity = 0.;
-    parameters.fitRounds = 0;
-    parameters.smoothingRate = order == Order::List ? 0.2 : 0.05;
-    parameters.smoothingIterations =
-      variant != Variant::NoiseFiltering && order == Order::Exact ? 5 : 1;
-    parameters.outlierLimit = 0.;
-    parameters.earlyPatience = 1.;
-    parameters.additionsPerRemoval = 125;
-    parameters.removalLimit = 0.;
-    parameters.edgeFlips = false;
-    parameters.topologyRules = TopologyRules::Thesis;
-    parameters.batchSize = 1;
+    forEachParameter(
+      [&](const auto& parameter)
+      {
+        if (parameter.isInPreset)
+        {
+          parameters.*parameter.place = parameter.thesis;
+        }
+      });
+    // Other values than the list has.
+    if (order == Order::List)
+    {
+      parameters.smoothingRate = 0.2;
+    }
+    else if (variant != Variant::NoiseFiltering)
+    {
+      parameters.smoothingIterations = 5;
+    }
   }
   return parameters;
 }

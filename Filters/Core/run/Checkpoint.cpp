@@ -3,7 +3,7 @@
 
 #include "base/Archive.h"
 #include "base/WholeFile.h"
-#include "learn/ParameterNames.h"
+#include "learn/ParameterTable.h"
 
 #include <array>
 #include <filesystem>
@@ -257,14 +257,18 @@ void Checkpoint::exchangeRun(Archive& archive) const
     }
   }
   forEachParameter(
-    [&](const char* name, auto parameter)
+    [&](const auto& parameter)
     {
-      const auto here = parameters_.*parameter;
+      if (!parameter.changesResult)
+      {
+        return;
+      }
+      const auto here = parameters_.*parameter.place;
       auto there = here;
       archive(there);
       if (there != here)
       {
-        addDifference(inWords(name, there, here));
+        addDifference(inWords(parameter.name, there, here));
       }
     });
   if (!differences.empty())

@@ -4,6 +4,7 @@
 #include "learn/Learner.h"
 #include "learn/StoppingRules.h"
 #include "mesh/TriangleMesh.h"
+#include "run/EnsembleParameters.h"
 #include "start/VoxelMajority.h"
 
 #include <cstdint>
@@ -12,17 +13,6 @@
 
 namespace neuralmesh
 {
-/// Ranges stand with the properties of vtkNeuralMeshEnsemble, which are named alike.
-struct EnsembleParameters
-{
-  std::uint64_t seed = 1;
-  unsigned numberOfMembers = 9;
-  std::size_t verticesPerMember = 5000;
-  int memberSamplesPerAddition = 50;  ///< C_vs of the members
-  double memberRemovalPatience = 10.; ///< C_ec of the members
-  unsigned gridResolution = 64;       ///< voxels along the longest side
-};
-
 /// Which members are learnt here, if processes share the work: every `count`-th one from `index` on.
 struct EnsembleShare
 {

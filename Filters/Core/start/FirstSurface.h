@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Choices.h"
 #include "base/Executor.h"
 #include "base/Progress.h"
 #include "cloud/PointCloud.h"
-#include "learn/Parameters.h"
 #include "mesh/Mesh.h"
 
 #include <cstddef>

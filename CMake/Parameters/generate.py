@@ -1,0 +1,92 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes what follows from the list of parameters: generate.py SOURCES BUILD
+
+Each template NAME.in below becomes NAME in the folder of the build, in which a line
+  @writer argument...@
+is replaced by what that writer says of Filters/Parameters.json, as far to the right. A file that would
+not change is left alone. The names of all files that were read are printed, for CMake to look after.
+"""
+
+import pathlib
+import sys
+
+import parameter_list
+import write_core
+import write_documentation
+import write_paraview
+import write_vtk
+
+LIST = "Filters/Parameters.json"
+PLUGIN = "Wrapping/ParaView/NeuralMesh"
+CORE = {"choices": write_core.choices, "fields": write_core.fields, "table": write_core.table}
+VTK = {
+    "choosers": write_vtk.choosers,
+    "conversions": write_vtk.conversions,
+    "enumeration": write_vtk.enumeration,
+    "members": write_vtk.members,
+    "names": write_vtk.names,
+    "pairs": write_vtk.pairs,
+    "properties": write_vtk.properties,
+    "settings": write_vtk.settings,
+}
+PANEL = {
+    "names": write_paraview.names,
+    "override": write_paraview.override,
+    "properties": write_paraview.properties,
+}
+PAGE = {"table": write_documentation.table}
+TEMPLATES = {
+    "Filters/Core/base/Choices.h.in": CORE,
+    "Filters/Core/learn/Parameters.h.in": CORE,
+    "Filters/Core/learn/ParameterTable.h.in": CORE,
+    "Filters/Core/run/EnsembleParameters.h.in": CORE,
+    "Filters/vtkNeuralMeshAlgorithm.h.in": VTK,
+    "Filters/vtkNeuralMesh.h.in": VTK,
+    "Filters/vtkNeuralMeshEnsemble.h.in": VTK,
+    "Filters/vtkNeuralMeshParameters.h.in": VTK,
+    "Filters/vtkNeuralMeshStream.h.in": VTK,
+    f"{PLUGIN}/NeuralMeshEnsemble.xml.in": PANEL,
+    f"{PLUGIN}/NeuralMeshLearning.xml.in": PANEL,
+    f"{PLUGIN}/NeuralMeshSurface.xml.in": PANEL,
+    # The page itself, which is read in the repository, too.
+    "Documentation/Parameters.md": PAGE,
+}
+
+
+def filled(template, writers, found):
+    """A template with what the writers say."""
+    lines = []
+    for line in template.splitlines():
+        place = line.strip()
+        if len(place) < 3 or not (place.startswith("@") and place.endswith("@")):
+            lines.append(line)
+            continue
+        writer, *arguments = place.strip("@").split()
+        indent = line[: len(line) - len(line.lstrip())]
+        lines += [indent + new if new else "" for new in writers[writer](found, *arguments)]
+    return "\n".join(lines) + "\n"
+
+
+def write(path, text):
+    """Writes a file if it would change."""
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+def main():
+    sources, build = (pathlib.Path(argument) for argument in sys.argv[1:])
+    try:
+        found = parameter_list.read(sources / LIST)
+    except parameter_list.ListError as error:
+        sys.exit(str(error))
+    for template, writers in TEMPLATES.items():
+        text = (sources / template).read_text(encoding="utf-8")
+        write(build / template.removesuffix(".in"), filled(text, writers, found))
+    for path in [sources / LIST, *(sources / template for template in TEMPLATES)]:
+        print(path.as_posix())
+
+
+if __name__ == "__main__":
+    main()

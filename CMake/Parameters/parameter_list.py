@@ -1,0 +1,360 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The list of parameters, Filters/Parameters.json: read, and held against what it must be.
+
+A choice has
+  name        of the type; the core has an enum class of it
+  title       what is chosen, in a few words
+  values      each with its name and its text, from 0 on
+  constants   what stands behind the names of the values in the header of VTK (none)
+  owner       the class of VTK whose enumeration it is; the core does not know it then (none)
+
+A group, which is a table of Documentation/Parameters.md, has
+  key         by which templates name it
+  title       of the section in the struct
+  panel       the group of the panel of ParaView in which its parameters stand; null for none
+  parameters
+
+A parameter has, with what holds without a key in brackets,
+  name        of the property
+  type        bool, int, count, double, or the name of a choice
+  default     the value; of a double "1/3", too, of a choice the name
+  thesis      what the preset of the thesis sets (the default)
+  thesis_text what to say of that in its place
+  range       both ends; null where the type ends; not for bool and choices
+  class       of VTK, which has the property (vtkNeuralMeshAlgorithm)
+  engine      false if the core does not know it; or its type there
+  preset      false if presets leave it alone (true in vtkNeuralMeshAlgorithm, else false)
+  result      false if no result depends on it (true)
+  command     the option of the command line that sets it in place of --set; "" for none
+  fuzz        the range that random runs take in its place, each of them
+  panel       "shown" if the panel shows it at first ("advanced")
+  symbol      in the thesis, with the equation or the chapter
+  unit        of the value
+  variants    those that use it (all)
+  when        conditions under which it counts: "Order is List", "EdgeFlips is on", "FitRounds is not 0"
+  short       a few words: for the struct, the help of the command, the table
+  text        sentences for the header and the panel
+  details     more of them, for the header alone; a list has a line for each paragraph
+  why         what the table says of the default
+"""
+
+import dataclasses
+import fractions
+import json
+import re
+
+CHOICE_KEYS = {"name": str, "title": str, "values": list, "constants": str, "owner": str}
+VALUE_KEYS = {"name": str, "text": str}
+GROUP_KEYS = {"key": str, "title": str, "panel": (str, type(None)), "parameters": list}
+PARAMETER_KEYS = {
+    "name": str, "type": str, "default": (bool, int, float, str), "thesis": (bool, int, float, str),
+    "thesis_text": str, "range": list, "class": str, "engine": (bool, str), "preset": bool,
+    "result": bool, "command": str, "fuzz": list, "panel": str, "symbol": str, "unit": str,
+    "variants": list, "when": list, "short": str, "text": str, "details": (str, list), "why": str,
+}
+NEEDED = {
+    "choice": ("name", "title", "values"),
+    "value": ("name", "text"),
+    "group": ("key", "title", "panel", "parameters"),
+    "parameter": ("name", "type", "default", "short", "text"),
+}
+CLASSES = ("vtkNeuralMeshAlgorithm", "vtkNeuralMesh", "vtkNeuralMeshEnsemble")
+ENGINE_TYPES = ("std::uint64_t", "std::size_t", "unsigned")
+# Where a type ends, for a range that does not say.
+ENDS = {"int": (-(2**31), 2**31 - 1), "count": (0, 2**63 - 1), "double": (None, None)}
+# What is longer makes the table of the command too wide.
+LONGEST_SHORT = 75
+
+
+class ListError(Exception):
+    """What is wrong with the list: a line each."""
+
+
+def spaced(name):
+    """RemovalLimit as Removal Limit."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", name)
+
+
+def snake_case(name):
+    """RemovalLimit as removal_limit."""
+    return spaced(name).replace(" ", "_").lower()
+
+
+def first_small(name):
+    """RemovalLimit as removalLimit."""
+    return name[0].lower() + name[1:]
+
+
+@dataclasses.dataclass
+class Value:
+    """One that can be chosen."""
+
+    name: str
+    text: str
+    constant: str  # in the header of VTK
+
+
+@dataclasses.dataclass
+class Choice:
+    """Some values to choose from."""
+
+    name: str
+    title: str
+    owner: str
+    values: list
+
+    def index(self, name):
+        return [value.name for value in self.values].index(name)
+
+
+@dataclasses.dataclass
+class Parameter:
+    """An entry of the list."""
+
+    name: str
+    type: str
+    choice: Choice
+    default: object
+    thesis: object
+    low: object
+    high: object
+    keys: dict
+
+    def __getattr__(self, key):
+        """What the list says, or nothing."""
+        return self.__dict__["keys"].get(key)
+
+    @property
+    def owner(self):
+        return self.keys.get("class", CLASSES[0])
+
+    @property
+    def in_preset(self):
+        return self.keys.get("preset", self.owner == CLASSES[0])
+
+    @property
+    def in_engine(self):
+        return self.engine is not False
+
+    @property
+    def field(self):
+        """The name in the core."""
+        return first_small(self.name)
+
+    @property
+    def is_open(self):
+        """Whether the range ends where the type does."""
+        return self.type in ENDS and self.high == ENDS[self.type][1]
+
+    def number(self, value):
+        """The value as a number."""
+        if self.choice:
+            return self.choice.index(value)
+        return float(fractions.Fraction(value)) if isinstance(value, str) else value
+
+
+@dataclasses.dataclass
+class Group:
+    """Parameters that belong together."""
+
+    key: str
+    title: str
+    panel: str
+    parameters: list
+
+
+class ParameterList:
+    """All that the list says."""
+
+    def __init__(self, choices, groups):
+        self.choices = choices
+        self.groups = groups
+        self.parameters = [parameter for group in groups for parameter in group.parameters]
+
+    def group(self, key):
+        return next(group for group in self.groups if group.key == key)
+
+    def parameter(self, name):
+        return next(parameter for parameter in self.parameters if parameter.name == name)
+
+    def choice(self, name):
+        return next(choice for choice in self.choices if choice.name == name)
+
+
+class Reader:
+    """Reads the list, and notes what is wrong with it."""
+
+    def __init__(self):
+        self.errors = []
+
+    def raise_errors(self, path):
+        if self.errors:
+            raise ListError("\n".join(f"{path}: {error}" for error in self.errors))
+
+    def check(self, condition, place, message):
+        if not condition:
+            self.errors.append(f"{place}: {message}")
+        return condition
+
+    def keys(self, entry, kind, known, place):
+        """Whether an entry has the keys that it needs, and no others, of the right types."""
+        if not self.check(isinstance(entry, dict), place, f"a {kind} must be an object"):
+            return False
+        count = len(self.errors)
+        for key, value in entry.items():
+            if self.check(key in known, place, f"there is no key {key!r}"):
+                wanted = known[key]
+                # In Python, True is an integer.
+                is_right = isinstance(value, wanted) and (
+                    not isinstance(value, bool) or bool in (wanted if isinstance(wanted, tuple) else (wanted,))
+                )
+                self.check(is_right, place, f"{key} cannot be {value!r}")
+        for key in NEEDED[kind]:
+            self.check(key in entry and entry[key] != "", place, f"{key} is missing")
+        return len(self.errors) == count
+
+    def names(self, entries, place):
+        """Whether names are those of types in C++, each once."""
+        seen = set()
+        for entry in entries:
+            self.check(re.fullmatch("[A-Z][A-Za-z0-9]+", entry), place, f"{entry!r} is no name")
+            self.check(entry not in seen, place, f"{entry} is there twice")
+            seen.add(entry)
+
+    def choices(self, entries):
+        choices = []
+        for entry in entries:
+            place = entry.get("name", "a choice") if isinstance(entry, dict) else "a choice"
+            if not self.keys(entry, "choice", CHOICE_KEYS, place):
+                continue
+            if not all([self.keys(value, "value", VALUE_KEYS, place) for value in entry["values"]]):
+                continue
+            self.names([value["name"] for value in entry["values"]], place)
+            self.check(len(entry["values"]) > 1, place, "there is nothing to choose")
+            suffix = entry.get("constants", "")
+            values = [
+                Value(value["name"], value["text"], snake_case(value["name"]).upper() + suffix)
+                for value in entry["values"]
+            ]
+            choices.append(Choice(entry["name"], entry["title"], entry.get("owner"), values))
+        self.names([choice.name for choice in choices], "choices")
+        constants = [value.constant for choice in choices for value in choice.values]
+        for constant in {constant for constant in constants if constants.count(constant) > 1}:
+            self.check(False, "choices", f"{constant} is the constant of two values")
+        return choices
+
+    def value(self, entry, key, choice, ends, place):
+        """Notes if a value is none of the type, or outside of the range."""
+        value, kind = entry[key], entry["type"]
+        if choice:
+            names = [value.name for value in choice.values]
+            self.check(value in names, place, f"{key} {value!r} is none of {', '.join(names)}")
+            return
+        number = value
+        if kind == "double" and isinstance(value, str) and re.fullmatch(r"\d+/[1-9]\d*", value):
+            number = float(fractions.Fraction(value))
+        wanted = {"bool": bool, "double": (int, float)}.get(kind, int)
+        is_right = isinstance(number, wanted) and isinstance(number, bool) == (kind == "bool")
+        if self.check(is_right, place, f"{key} {value!r} is no {kind}") and ends:
+            is_within = (ends[0] is None or number >= ends[0]) and (ends[1] is None or number <= ends[1])
+            self.check(is_within, place, f"{key} {value!r} is outside the range {ends[0]} to {ends[1]}")
+
+    def ends(self, entry, key, place):
+        """Both ends of a range, or nothing if it is none."""
+        pair = entry[key]
+        is_pair = len(pair) == 2 and all(
+            end is None or (isinstance(end, (int, float)) and not isinstance(end, bool)) for end in pair
+        )
+        if not self.check(is_pair, place, f"{key} must have two ends"):
+            return None
+        kind = entry["type"]
+        ends = tuple(ENDS[kind][i] if end is None else end for i, end in enumerate(pair))
+        if not self.check(None not in ends, place, f"{key} of a double must have two numbers"):
+            return None
+        is_whole = kind == "double" or all(isinstance(end, int) for end in ends)
+        self.check(is_whole, place, f"{key} of an {kind} must have whole ends")
+        is_right = is_whole and self.check(ends[0] < ends[1], place, f"{key} {pair} is empty")
+        return ends if is_right else None
+
+    def parameter(self, entry, choices):
+        place = entry.get("name", "a parameter") if isinstance(entry, dict) else "a parameter"
+        if not self.keys(entry, "parameter", PARAMETER_KEYS, place):
+            return None
+        choice = next((choice for choice in choices if choice.name == entry["type"]), None)
+        is_type = choice or entry["type"] in ("bool", *ENDS)
+        if not self.check(is_type, place, f"there is no type {entry['type']}"):
+            return None
+        ends = None
+        if choice or entry["type"] == "bool":
+            self.check("range" not in entry, place, f"a {entry['type']} has no range")
+            ends = (0, len(choice.values) - 1) if choice else (0, 1)
+        elif self.check("range" in entry, place, "range is missing"):
+            ends = self.ends(entry, "range", place)
+            if "fuzz" in entry:
+                self.ends(entry, "fuzz", place)
+        is_number = not choice and entry["type"] != "bool"
+        for key in ("default", "thesis"):
+            if key in entry:
+                self.value(entry, key, choice, ends if is_number else None, place)
+        self.check(entry.get("class", CLASSES[0]) in CLASSES, place, "class is none that has parameters")
+        self.check(entry.get("engine", False) in (False, *ENGINE_TYPES), place, "engine is no type")
+        self.check(entry.get("panel", "shown") == "shown", place, "panel can only be 'shown'")
+        self.check(len(entry["short"]) <= LONGEST_SHORT, place, f"short has more than {LONGEST_SHORT} letters")
+        self.check(entry["text"].endswith("."), place, "text must end with a full stop")
+        low, high = ends or (None, None)
+        parameter = Parameter(
+            entry["name"], entry["type"], choice, entry["default"],
+            entry.get("thesis", entry["default"]), low, high, entry,
+        )
+        is_preset_right = not parameter.in_preset or parameter.owner == CLASSES[0]
+        self.check(is_preset_right, place, f"a preset sets nothing of {parameter.owner}")
+        is_engine_right = parameter.in_engine or parameter.owner == CLASSES[1]
+        self.check(is_engine_right, place, f"the engine must know what {parameter.owner} has")
+        if "thesis" in entry or "thesis_text" in entry:
+            self.check(parameter.in_preset, place, "no preset sets it: it has no value of the thesis")
+        return parameter
+
+    def conditions(self, found):
+        """Notes variants and conditions that name nothing."""
+        variants = next((choice for choice in found.choices if choice.name == "Variant"), None)
+        known = {value.name for value in variants.values} if variants else set()
+        by_name = {parameter.name: parameter for parameter in found.parameters}
+        for parameter in found.parameters:
+            for variant in parameter.variants or ():
+                self.check(variant in known, parameter.name, f"there is no variant {variant!r}")
+            for condition in parameter.when or ():
+                match = re.fullmatch(r"(\w+) is (not )?(\w+)", str(condition))
+                other = by_name.get(match[1]) if match else None
+                if not self.check(other, parameter.name, f"the condition {condition!r} names no parameter"):
+                    continue
+                values = [value.name for value in other.choice.values] if other.choice else ["on", "off"]
+                is_value = match[3] in values or (other.type in ENDS and match[3].isdigit())
+                self.check(is_value, parameter.name, f"{match[3]} in {condition!r} is no value of {match[1]}")
+
+
+def read(path):
+    """The list in a file. Raises ListError."""
+    reader = Reader()
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise ListError(f"{path}: {error}") from error
+    if not isinstance(content, dict) or set(content) != {"choices", "groups"}:
+        raise ListError(f"{path}: there must be choices and groups, and nothing else")
+    choices = reader.choices(content["choices"])
+    # Without all choices the entries that have them would seem wrong, too.
+    reader.raise_errors(path)
+    groups = []
+    for entry in content["groups"]:
+        place = entry.get("key", "a group") if isinstance(entry, dict) else "a group"
+        if reader.keys(entry, "group", GROUP_KEYS, place):
+            parameters = [reader.parameter(parameter, choices) for parameter in entry["parameters"]]
+            known = [parameter for parameter in parameters if parameter]
+            groups.append(Group(entry["key"], entry["title"], entry["panel"], known))
+    found = ParameterList(choices, groups)
+    reader.names([parameter.name for parameter in found.parameters], "parameters")
+    # Likewise conditions that name them.
+    reader.raise_errors(path)
+    reader.conditions(found)
+    reader.raise_errors(path)
+    return found

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The list of parameters: what is wrong with a bad one, and what follows from a new entry."""
+
+import copy
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+ROOT = pathlib.Path(__file__).parents[2]
+LIST = "Filters/Parameters.json"
+SCRIPT = ROOT / "CMake" / "Parameters" / "generate.py"
+GOOD = json.loads((ROOT / LIST).read_text(encoding="utf-8"))
+
+NEW = {
+    "name": "TestedShare", "type": "double", "default": 0.25, "thesis": 0, "range": [0, 1],
+    "symbol": "alpha_t of (1.2)", "variants": ["NoiseFiltering"], "when": ["EdgeFlips is on"],
+    "unit": "part", "short": "how much of it is tested",
+    "text": "How much of it is tested. RemovalLimit counts, too.", "why": "it does",
+}
+
+
+def entry_of(content, name):
+    """The entry of a parameter in a list."""
+    return next(entry for group in content["groups"] for entry in group["parameters"]
+                if entry["name"] == name)
+
+
+class ListTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.sources = pathlib.Path(folder.name, "sources")
+        self.build = pathlib.Path(folder.name, "build")
+        for template in [LIST, *self.inputs()]:
+            (self.sources / template).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / template, self.sources / template)
+
+    def inputs(self):
+        """What the script reads, relative to the sources."""
+        output = self.generate(ROOT).stdout
+        return [str(pathlib.Path(line).relative_to(ROOT)) for line in output.splitlines()]
+
+    def generate(self, sources):
+        command = [sys.executable, "-B", SCRIPT, sources, self.build]
+        return subprocess.run(command, capture_output=True, text=True, check=False)
+
+    def write(self, content):
+        text = content if isinstance(content, str) else json.dumps(content)
+        (self.sources / LIST).write_text(text, encoding="utf-8")
+
+    def written(self, name):
+        return (self.build / name).read_text(encoding="utf-8")
+
+
+class BadLists(ListTest):
+    def check_refused(self, content, message):
+        """One line says what is wrong, and nothing is written."""
+        shutil.rmtree(self.build, ignore_errors=True)
+        self.write(content)
+        process = self.generate(self.sources)
+        self.assertEqual(process.returncode, 1, process.stderr)
+        self.assertIn(message, process.stderr)
+        self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
+        self.assertTrue(process.stderr.startswith(str(self.sources / LIST)), process.stderr)
+        self.assertFalse(self.build.exists())
+
+    # Promise: what is wrong with an entry is said in a line, with its name.
+    def test_entries(self):
+        wrong = {
+            "RemovalLimit: there is no key 'defualt'": {"defualt": 1},
+            "RemovalLimit: short is missing": {"short": ""},
+            "RemovalLimit: text is missing": {"text": None},
+            "RemovalLimit: short cannot be 3": {"short": 3},
+            "RemovalLimit: preset cannot be 1": {"preset": 1},
+            "RemovalLimit: there is no type float": {"type": "float"},
+            "RemovalLimit: range is missing": {"range": None},
+            "RemovalLimit: range must have two ends": {"range": [0]},
+            "RemovalLimit: range [5, 1] is empty": {"range": [5, 1], "default": 2, "thesis": 2},
+            "RemovalLimit: range of a double must have two numbers": {"range": [0, None]},
+            "RemovalLimit: fuzz must have two ends": {"fuzz": ["a", 2]},
+            "RemovalLimit: default 2000 is outside the range 0 to 1000": {"default": 2000},
+            "RemovalLimit: thesis -1 is outside the range 0 to 1000": {"thesis": -1},
+            "RemovalLimit: default True is no double": {"default": True},
+            "RemovalLimit: default '1/0' is no double": {"default": "1/0"},
+            "RemovalLimit: no preset sets it": {"preset": False},
+            "RemovalLimit: class is none that has parameters": {"class": "vtkPoints", "thesis": None},
+            "RemovalLimit: engine is no type": {"engine": "long"},
+            "RemovalLimit: the engine must know what vtkNeuralMeshAlgorithm has": {"engine": False},
+            "RemovalLimit: a preset sets nothing of vtkNeuralMesh": {"class": "vtkNeuralMesh", "preset": True},
+            "RemovalLimit: panel can only be 'shown'": {"panel": "hidden"},
+            "RemovalLimit: short has more than": {"short": "x" * 100},
+            "RemovalLimit: text must end with a full stop": {"text": "Some limit"},
+            "RemovalLimit: there is no variant 'Noisy'": {"variants": ["Noisy"]},
+            "RemovalLimit: the condition 'Oder is List' names no parameter": {"when": ["Oder is List"]},
+            "RemovalLimit: Lost in 'Order is Lost' is no value": {"when": ["Order is Lost"]},
+            "parameters: EdgeFlips is there twice": {"name": "EdgeFlips"},
+            "parameters: 'Removal-Limit' is no name": {"name": "Removal-Limit"},
+        }
+        for message, change in wrong.items():
+            content = copy.deepcopy(GOOD)
+            entry = entry_of(content, "RemovalLimit")
+            entry.update(change)
+            for key in [key for key, value in change.items() if value is None]:
+                del entry[key]
+            with self.subTest(message):
+                self.check_refused(content, message)
+
+    # Promise: so it is with values of other types, and with choices.
+    def test_choices(self):
+        wrong = [
+            ("SamplesPerAddition", {"default": 1.5}, "SamplesPerAddition: default 1.5 is no int"),
+            ("EdgeFlips", {"default": 1}, "EdgeFlips: default 1 is no bool"),
+            ("EdgeFlips", {"range": [0, 1]}, "EdgeFlips: a bool has no range"),
+            ("Order", {"default": "Random"}, "Order: default 'Random' is none of Exact, List"),
+        ]
+        for name, change, message in wrong:
+            content = copy.deepcopy(GOOD)
+            entry_of(content, name).update(change)
+            with self.subTest(message):
+                self.check_refused(content, message)
+        content = copy.deepcopy(GOOD)
+        content["choices"][-2]["values"][0]["name"] = "Exact"
+        entry_of(content, content["choices"][-2]["name"])["default"] = "Exact"
+        self.check_refused(content, "choices: EXACT is the constant of two values")
+        content = copy.deepcopy(GOOD)
+        content["choices"][0]["values"][0]["words"] = "b"
+        self.check_refused(content, "Variant: there is no key 'words'")
+
+    # Promise: a file that is no list is refused, too.
+    def test_files(self):
+        self.check_refused("{", "Expecting property name")
+        self.check_refused({"choices": []}, "there must be choices and groups")
+
+
+class NewEntries(ListTest):
+    def setUp(self):
+        super().setUp()
+        content = copy.deepcopy(GOOD)
+        group = next(group for group in content["groups"] if group["key"] == "growth")
+        group["parameters"].append(NEW)
+        self.write(content)
+        process = self.generate(self.sources)
+        self.assertEqual(process.returncode, 0, process.stderr)
+
+    # Promise: a new entry is all that a parameter takes in the core, VTK, the command and the plugin.
+    def test_everywhere(self):
+        self.assertIn(
+            "  /// alpha_t of (1.2): how much of it is tested\n  double testedShare = 0.25;\n",
+            self.written("Filters/Core/learn/Parameters.h"))
+        self.assertIn('.name = "TestedShare",\n', self.written("Filters/Core/learn/ParameterTable.h"))
+        self.assertIn(
+            "  ///@{\n  /**\n"
+            "   * alpha_t of (1.2), noise-filtering variant, with EdgeFlips: how much of it is tested.\n"
+            "   * RemovalLimit counts, too. Default 0.25 (thesis 0), range 0 to 1.\n   */\n"
+            "  vtkNeuralMeshSetClampMacro(TestedShare, double, 0.0, 1.0);\n"
+            "  vtkGetMacro(TestedShare, double);\n  ///@}\n",
+            self.written("Filters/vtkNeuralMeshAlgorithm.h"))
+        self.assertIn("  double TestedShare = 0.25;\n", self.written("Filters/vtkNeuralMeshAlgorithm.h"))
+        table = self.written("Filters/vtkNeuralMeshParameters.h")
+        self.assertIn("  use(TestedShare, testedShare) ", table)
+        self.assertIn('  use(TestedShare, 0.0, 1.0, "how much of it is tested") ', table)
+        self.assertIn(
+            "| `TestedShare` | α_t of (1.2): how much of it is tested | part | 0.25 | 0 | it does |\n",
+            self.written("Documentation/Parameters.md"))
+
+    # Promise: the panel of ParaView has it in its group, and shows it where it counts.
+    def test_panel(self):
+        path = self.build / "Wrapping/ParaView/NeuralMesh/NeuralMeshLearning.xml"
+        proxy = xml.etree.ElementTree.parse(path)
+        (found,) = proxy.iterfind(".//DoubleVectorProperty[@name='TestedShare']")
+        self.assertEqual(found.get("default_values"), "0.25")
+        self.assertEqual(found.find("DoubleRangeDomain").attrib, {"name": "range", "min": "0", "max": "1"})
+        self.assertEqual(" ".join(found.find("Documentation").text.split()),
+                         "How much of it is tested. Removal Limit counts, too.")
+        deciders = [(e.get("property"), e.get("value")) for e in found.find("Hints")]
+        self.assertEqual(deciders, [("Variant", "1"), ("EdgeFlips", "1")])
+        names = [e.get("name") for e in proxy.iterfind(".//PropertyGroup[@label='Growth']/Property")]
+        self.assertEqual(names[names.index("EdgeFlips") + 1], "TestedShare")
+
+    # Promise: what would not change is not written again, so that nothing is built again.
+    def test_unchanged(self):
+        files = [path for path in self.build.rglob("*") if path.is_file()]
+        self.assertGreater(len(files), 10)
+        times = [path.stat().st_mtime_ns for path in files]
+        self.generate(self.sources)
+        self.assertEqual([path.stat().st_mtime_ns for path in files], times)
+        entry = copy.deepcopy(GOOD)
+        entry_of(entry, "RemovalLimit")["why"] = "another reason"
+        self.write(entry)
+        self.generate(self.sources)
+        self.assertIn("another reason", self.written("Documentation/Parameters.md"))
+
+    # Promise: no place of a template is left open.
+    def test_places(self):
+        for path in self.build.rglob("*"):
+            if path.is_file():
+                self.assertNotRegex(path.read_text(encoding="utf-8"), r"(?m)^ *@[a-z].*@$")
+
+
+if __name__ == "__main__":
+    unittest.main()
