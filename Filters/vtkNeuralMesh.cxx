@@ -53,6 +53,7 @@ constexpr vtkIdType FewestPoints = 1000000;
 
 vtkNeuralMesh::vtkNeuralMesh()
   : Growth(std::make_unique<vtkNeuralMeshGrowth>())
+  , Times(std::make_unique<neuralmesh::PhaseTimes>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
@@ -105,6 +106,19 @@ vtkTable* vtkNeuralMesh::GetLearningCurve()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
 }
+
+#define GET_TIME(phase)                                                                            \
+  double vtkNeuralMesh::Get##phase##Time() const                                                   \
+  {                                                                                                \
+    return this->Times->seconds(neuralmesh::Phase::phase);                                         \
+  }
+GET_TIME(Drawing)
+GET_TIME(Cloud)
+GET_TIME(Choice)
+GET_TIME(Start)
+GET_TIME(Learning)
+GET_TIME(Finish)
+#undef GET_TIME
 
 void vtkNeuralMesh::SetPointFileName(const char* name)
 {
@@ -234,7 +248,7 @@ int vtkNeuralMesh::ExecuteOnCloud(
 {
   const bool hasInput = inputVector[0]->GetNumberOfInformationObjects() > 0;
   const bool hasFile = !this->PointFileName.empty();
-  this->DrawingTime = 0.0;
+  *this->Times = {};
   if (hasInput == hasFile)
   {
     vtkErrorMacro(<< (hasInput ? "There are both an input and a PointFileName."
@@ -245,8 +259,7 @@ int vtkNeuralMesh::ExecuteOnCloud(
   {
     return this->Superclass::ProcessRequest(request, inputVector, outputVector);
   }
-  neuralmesh::PhaseTimes times;
-  times.enter(neuralmesh::Phase::Drawing);
+  this->Times->enter(neuralmesh::Phase::Drawing);
   vtkSmartPointer<vtkPolyData> points;
   try
   {
@@ -260,8 +273,7 @@ int vtkNeuralMesh::ExecuteOnCloud(
     vtkErrorMacro(<< error.what());
     return 0;
   }
-  times.leave();
-  this->DrawingTime = times.seconds(neuralmesh::Phase::Drawing);
+  this->Times->leave();
   if (!points)
   {
     this->StopReason = neuralmesh::name(neuralmesh::StopReason::Cancelled).data();
@@ -324,45 +336,18 @@ neuralmesh::CheckpointPlan vtkNeuralMesh::PlanCheckpoint()
 int vtkNeuralMesh::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
-  vtkTable* learningCurve = vtkTable::GetData(outputVector, 1);
   this->StopReason = "none";
   this->ResumedIterations = 0;
-  if (!this->CheckParameters())
-  {
-    return 0;
-  }
-  if (this->GrowthAsTime && !this->CheckpointFileName.empty())
-  {
-    vtkErrorMacro(
-      << "CheckpointFileName and GrowthAsTime exclude each other: a checkpoint holds no "
-         "snapshots.");
-    return 0;
-  }
-
   vtkPointCloudCollector collector;
-  collector.Collect(vtkDataObject::GetData(inputVector[0]));
-  if (collector.GetNumberOfOtherLeaves() > 0)
+  std::vector<double> weights;
+  if (!this->CheckParameters() || !this->CollectPoints(inputVector[0], collector, weights))
   {
-    vtkWarningMacro(<< collector.GetNumberOfOtherLeaves()
-                    << " blocks are no point sets and were left out.");
+    return 0;
   }
   if (collector.GetPoints().empty())
   {
-    vtkNeuralMeshReport::FillLearningCurve({}, learningCurve);
+    vtkNeuralMeshReport::FillLearningCurve({}, vtkTable::GetData(outputVector, 1));
     return 1;
-  }
-  std::vector<double> weights;
-  if (!this->CollectWeights(collector, weights))
-  {
-    return 0;
-  }
-  if (!weights.empty() &&
-    std::none_of(weights.begin(), weights.end(),
-      [](double weight) { return weight > 0.0 && std::isfinite(weight); }))
-  {
-    vtkErrorMacro(<< "No weight is positive.");
-    return 0;
   }
   std::optional<vtkPointDataCarrier> carrier;
   if (this->CarryPointData)
@@ -371,25 +356,94 @@ int vtkNeuralMesh::RequestData(
   }
   const bool carries = carrier && carrier->HasArrays();
   const neuralmesh::ThreadPool executor(vtkNeuralMeshThreads(this->NumberOfThreads));
-  neuralmesh::PhaseTimes times;
-  times.enter(neuralmesh::Phase::Cloud);
+  this->Times->enter(neuralmesh::Phase::Cloud);
   const neuralmesh::PointCloud cloud(collector.GetPoints(), weights, carries, executor);
-  times.leave();
+  this->Times->leave();
   collector.ReleasePoints();
   std::vector<double>().swap(weights);
-  if (!cloud.hasExtent())
+
+  vtkNeuralMeshRun run{ cloud, {}, this->GetUsedPrecision(collector.HasDoublePoints()),
+    vtkNeuralMeshProgress(this), {}, executor, {}, carries ? EndOfMesh : 1.0 };
+  if (!this->BeginRun(run, inputVector, outputVector))
   {
-    vtkErrorMacro(<< (cloud.points().empty() ? "No point of the input is finite."
-                                             : "All points of the input coincide."));
     return 0;
   }
-
-  int precision = this->OutputPointsPrecision;
-  if (precision == DEFAULT_PRECISION)
+  if (this->IsHelper())
   {
-    precision = collector.HasDoublePoints() ? DOUBLE_PRECISION : SINGLE_PRECISION;
+    return 1;
   }
-  vtkNeuralMeshRun run{ cloud, {}, precision, vtkNeuralMeshProgress(this), {}, executor };
+  neuralmesh::Reconstruction result;
+  if (!this->Learn(run, result))
+  {
+    return 0;
+  }
+  vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
+  this->FillOutput(run, result, output, vtkTable::GetData(outputVector, 1));
+  bool isComplete = result.isComplete();
+  if (carries && result.stopReason != neuralmesh::StopReason::Cancelled)
+  {
+    isComplete = this->Carry(run, result, *carrier, output) && isComplete;
+  }
+  if (!this->KeepCheckpoint && isComplete)
+  {
+    this->RemoveCheckpoint();
+  }
+  return 1;
+}
+
+/// The points of the input and their weights. False if there is an error in them.
+bool vtkNeuralMesh::CollectPoints(
+  vtkInformationVector* input, vtkPointCloudCollector& collector, std::vector<double>& weights)
+{
+  if (this->GrowthAsTime && !this->CheckpointFileName.empty())
+  {
+    vtkErrorMacro(
+      << "CheckpointFileName and GrowthAsTime exclude each other: a checkpoint holds no "
+         "snapshots.");
+    return false;
+  }
+  collector.Collect(vtkDataObject::GetData(input));
+  if (collector.GetNumberOfOtherLeaves() > 0)
+  {
+    vtkWarningMacro(<< collector.GetNumberOfOtherLeaves()
+                    << " blocks are no point sets and were left out.");
+  }
+  if (collector.GetPoints().empty())
+  {
+    return true;
+  }
+  if (!this->CollectWeights(collector, weights))
+  {
+    return false;
+  }
+  const auto isPositive = [](double weight) { return weight > 0.0 && std::isfinite(weight); };
+  if (!weights.empty() && std::none_of(weights.begin(), weights.end(), isPositive))
+  {
+    vtkErrorMacro(<< "No weight is positive.");
+    return false;
+  }
+  return true;
+}
+
+int vtkNeuralMesh::GetUsedPrecision(bool hasDoublePoints) const
+{
+  if (this->OutputPointsPrecision != DEFAULT_PRECISION)
+  {
+    return this->OutputPointsPrecision;
+  }
+  return hasDoublePoints ? DOUBLE_PRECISION : SINGLE_PRECISION;
+}
+
+/// Parameters and first mesh. False if no run can be made of them.
+bool vtkNeuralMesh::BeginRun(
+  vtkNeuralMeshRun& run, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!run.Cloud.hasExtent())
+  {
+    vtkErrorMacro(<< (run.Cloud.points().empty() ? "No point of the input is finite."
+                                                 : "All points of the input coincide."));
+    return false;
+  }
   this->FillParameters(run.Parameters);
 #define SET_PARAMETER(property, parameter)                                                         \
   run.Parameters.parameter =                                                                       \
@@ -398,7 +452,7 @@ int vtkNeuralMesh::RequestData(
 #undef SET_PARAMETER
   if (!this->IsHelper())
   {
-    for (const std::string& warning : run.Parameters.warnings(cloud.points().size()))
+    for (const std::string& warning : run.Parameters.warnings(run.Cloud.points().size()))
     {
       vtkWarningMacro(<< warning);
     }
@@ -410,63 +464,64 @@ int vtkNeuralMesh::RequestData(
   catch (const std::runtime_error& error)
   {
     vtkErrorMacro(<< "Learning cannot start from the first mesh: " << error.what() << ".");
-    return 0;
+    return false;
   }
-  if (this->IsHelper())
-  {
-    return 1;
-  }
-  if (run.FirstMesh && run.FirstMesh->vertexCount() > run.Parameters.numberOfVertices)
+  if (!this->IsHelper() && run.FirstMesh &&
+    run.FirstMesh->vertexCount() > run.Parameters.numberOfVertices)
   {
     vtkWarningMacro(<< "The mesh to start from has " << run.FirstMesh->vertexCount()
                     << " vertices, more than " << this->NumberOfVertices
                     << ": it comes out as it is.");
   }
+  return true;
+}
+
+/// Chooses parameters, if that is asked for, and learns. False if the checkpoint does not go with it.
+bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& result)
+{
   const neuralmesh::Progress progress = [&run](double fraction)
   { return run.Progress.Report(fraction); };
-  const double endOfMesh = carries ? EndOfMesh : 1.0;
-  neuralmesh::Tuning tuning;
   if (this->Automatic)
   {
-    times.enter(neuralmesh::Phase::Choice);
+    this->Times->enter(neuralmesh::Phase::Choice);
     // Whoever aborts while parameters are chosen ends the run with them as they were.
-    tuning = neuralmesh::tune(
-      cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, EndOfChoice), executor)
-               .value_or(neuralmesh::Tuning{ run.Parameters, {}, {}, {} });
-    run.Parameters = tuning.parameters;
-    times.leave();
-    vtkNeuralMeshReport::Log(tuning, this);
+    run.Tuning = neuralmesh::tune(
+      run.Cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, EndOfChoice), run.Executor)
+                   .value_or(neuralmesh::Tuning{ run.Parameters, {}, {}, {} });
+    run.Parameters = run.Tuning->parameters;
+    this->Times->leave();
+    vtkNeuralMeshReport::Log(*run.Tuning, this);
   }
-  neuralmesh::Reconstruction result;
   try
   {
-    result = neuralmesh::reconstruct(cloud, run.Parameters,
-      neuralmesh::partOf(progress, this->Automatic ? EndOfChoice : 0.0, endOfMesh), run.FirstMesh,
-      this->WatchGrowth(precision), this->PlanCheckpoint(), executor);
+    result = neuralmesh::reconstruct(run.Cloud, run.Parameters,
+      neuralmesh::partOf(progress, this->Automatic ? EndOfChoice : 0.0, run.EndOfMesh),
+      run.FirstMesh, this->WatchGrowth(run.PointsPrecision), this->PlanCheckpoint(), run.Executor);
   }
   catch (const std::runtime_error& error)
   {
     vtkErrorMacro(<< "Of the checkpoint: " << error.what() << ".");
-    return 0;
+    return false;
   }
+  this->AbortExecute = 0;
+  this->Times->add(result.times);
   this->ResumedIterations = static_cast<vtkIdType>(result.resumedIterations);
   this->StopReason = neuralmesh::name(result.stopReason).data();
-  times.add(result.times);
-  this->CloudTime = times.seconds(neuralmesh::Phase::Cloud);
-  this->ChoiceTime = times.seconds(neuralmesh::Phase::Choice);
-  this->StartTime = times.seconds(neuralmesh::Phase::Start);
-  this->LearningTime = times.seconds(neuralmesh::Phase::Learning);
-  this->FinishTime = times.seconds(neuralmesh::Phase::Finish);
-  this->AbortExecute = 0;
   if (result.stopReason == neuralmesh::StopReason::Stalled)
   {
     vtkWarningMacro(<< "The mesh has stopped growing, at " << result.mesh.points.size()
                     << " vertices: as many are removed as are added. More RemovalPatience or less "
                        "SamplesPerAddition may help.");
   }
-  vtkNeuralMeshReport::FillLearningCurve(result.curve.rows(), learningCurve);
+  return true;
+}
 
-  output->SetPoints(vtkTriangleMeshCollector::MakePoints(result.mesh, precision));
+/// Mesh, arrays and report.
+void vtkNeuralMesh::FillOutput(const vtkNeuralMeshRun& run,
+  const neuralmesh::Reconstruction& result, vtkPolyData* output, vtkTable* learningCurve)
+{
+  vtkNeuralMeshReport::FillLearningCurve(result.curve.rows(), learningCurve);
+  output->SetPoints(vtkTriangleMeshCollector::MakePoints(result.mesh, run.PointsPrecision));
   output->SetPolys(vtkTriangleMeshCollector::MakeCells(result.mesh));
   output->GetPointData()->SetNormals(vtkMeshArrays::MakeNormals(result.normals));
   output->GetPointData()->AddArray(vtkMeshArrays::MakeNumbers("Activity", result.activities));
@@ -475,41 +530,38 @@ int vtkNeuralMesh::RequestData(
     output->GetPointData()->AddArray(
       vtkMeshArrays::MakeNumbers("FeatureStrength", result.featureStrengths));
   }
-
-  bool isComplete = result.isComplete();
-  if (carries && result.stopReason != neuralmesh::StopReason::Cancelled)
-  {
-    const neuralmesh::Progress carrying = neuralmesh::partOf(progress, endOfMesh, 1.0);
-    const neuralmesh::CloudPlaces places(
-      cloud, result.surface, neuralmesh::partOf(carrying, 0.0, 0.5), executor);
-    carrier->Carry(
-      places, output->GetPointData(), executor, neuralmesh::partOf(carrying, 0.5, 1.0));
-    isComplete = isComplete && !this->AbortExecute;
-    this->AbortExecute = 0;
-  }
-
-  vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(
-    output, "NumberOfVertices", output->GetNumberOfPoints());
-  vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(
-    output, "Iterations", static_cast<vtkIdType>(result.counts.iterations));
-  vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, "Seed", this->Seed);
+  const auto addCount = [output](const char* name, auto count)
+  { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count)); };
+  addCount("NumberOfVertices", output->GetNumberOfPoints());
+  addCount("Iterations", result.counts.iterations);
+  addCount("Seed", this->Seed);
   vtkMeshArrays::AddFieldValue<vtkStringArray>(output, "StopReason", this->StopReason);
-  vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(
-    output, "DroppedPoints", static_cast<vtkIdType>(cloud.droppedCount()));
+  addCount("DroppedPoints", run.Cloud.droppedCount());
   vtkNeuralMeshReport::RemoveFrom(output);
-  if (this->Automatic)
+  if (run.Tuning)
   {
-    vtkNeuralMeshReport::AddTuning(tuning, output);
+    vtkNeuralMeshReport::AddTuning(*run.Tuning, output);
   }
   if (result.quality)
   {
-    vtkNeuralMeshReport::AddQuality(result, cloud.unit(), output);
+    vtkNeuralMeshReport::AddQuality(result, run.Cloud.unit(), output);
   }
-  if (!this->KeepCheckpoint && isComplete)
-  {
-    this->RemoveCheckpoint();
-  }
-  return 1;
+}
+
+/// Point data of the input goes over to the mesh. False if that was aborted.
+bool vtkNeuralMesh::Carry(vtkNeuralMeshRun& run, const neuralmesh::Reconstruction& result,
+  const vtkPointDataCarrier& carrier, vtkPolyData* output)
+{
+  const neuralmesh::Progress progress = [&run](double fraction)
+  { return run.Progress.Report(fraction); };
+  const neuralmesh::Progress carrying = neuralmesh::partOf(progress, run.EndOfMesh, 1.0);
+  const neuralmesh::CloudPlaces places(
+    run.Cloud, result.surface, neuralmesh::partOf(carrying, 0.0, 0.5), run.Executor);
+  carrier.Carry(
+    places, output->GetPointData(), run.Executor, neuralmesh::partOf(carrying, 0.5, 1.0));
+  const bool isDone = !this->AbortExecute;
+  this->AbortExecute = 0;
+  return isDone;
 }
 
 void vtkNeuralMesh::PrepareRun(
@@ -535,10 +587,10 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CheckpointFileName: " << this->CheckpointFileName << "\n";
   os << indent << "ResumedIterations: " << this->ResumedIterations << "\n";
   os << indent << "StopReason: " << this->StopReason << "\n";
-  os << indent << "DrawingTime: " << this->DrawingTime << "\n";
-  os << indent << "CloudTime: " << this->CloudTime << "\n";
-  os << indent << "ChoiceTime: " << this->ChoiceTime << "\n";
-  os << indent << "StartTime: " << this->StartTime << "\n";
-  os << indent << "LearningTime: " << this->LearningTime << "\n";
-  os << indent << "FinishTime: " << this->FinishTime << "\n";
+  os << indent << "DrawingTime: " << this->GetDrawingTime() << "\n";
+  os << indent << "CloudTime: " << this->GetCloudTime() << "\n";
+  os << indent << "ChoiceTime: " << this->GetChoiceTime() << "\n";
+  os << indent << "StartTime: " << this->GetStartTime() << "\n";
+  os << indent << "LearningTime: " << this->GetLearningTime() << "\n";
+  os << indent << "FinishTime: " << this->GetFinishTime() << "\n";
 }

@@ -2,8 +2,8 @@
 #include "vtkNeuralMeshEnsemble.h"
 
 #include "cloud/MeshBuilder.h"
-#include "mesh/Simplification.h"
 #include "run/Ensemble.h"
+#include "run/EnsembleAverage.h"
 #include "vtkNeuralMeshParameters.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkTriangleMeshCollector.h"
@@ -33,13 +33,6 @@ vtkStandardNewMacro(vtkNeuralMeshEnsemble);
 
 namespace
 {
-/// The refined mesh has so many times the vertices of the average mesh, at least.
-constexpr std::uint64_t VerticesPerAverageVertex = 4;
-
-/// Solid shapes of enough points have 0.9 and more, open ones about 0.7, planes less than 0.2.
-constexpr double GoodAgreement = 0.8;
-constexpr double LeastAgreement = 0.5;
-
 /// What phantoms and voxels take, as a fraction of the time in which members are learnt.
 constexpr double TimeOfAveraging = 0.3;
 
@@ -187,18 +180,15 @@ void FillVotes(const neuralmesh::VoxelVotes& votes, vtkImageData* image)
     { return static_cast<float>(count) / static_cast<float>(votes.voters); });
 }
 
-/// The surface of the solid that most members hold, in the coordinates of the grid.
-neuralmesh::TriangleMesh AverageSurface(
-  const neuralmesh::VoxelVotes& votes, const std::vector<std::uint8_t>& solid)
+neuralmesh::TriangleMesh Contour(
+  const neuralmesh::VoteField& field, const neuralmesh::VoxelGrid& grid)
 {
-  const neuralmesh::VoteField field = neuralmesh::voteField(votes, solid);
   vtkNew<vtkFloatArray> values;
   values->SetNumberOfValues(static_cast<vtkIdType>(field.values.size()));
   std::copy(field.values.begin(), field.values.end(), values->GetPointer(0));
-  // In voxels, as points come out in single precision.
   vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(votes.grid.counts[0]),
-    static_cast<int>(votes.grid.counts[1]), static_cast<int>(votes.grid.counts[2]));
+  image->SetDimensions(static_cast<int>(grid.counts[0]), static_cast<int>(grid.counts[1]),
+    static_cast<int>(grid.counts[2]));
   image->GetPointData()->SetScalars(values);
   vtkNew<vtkFlyingEdges3D> contour;
   contour->SetInputData(image);
@@ -207,12 +197,7 @@ neuralmesh::TriangleMesh AverageSurface(
   contour->ComputeGradientsOff();
   contour->ComputeScalarsOff();
   contour->Update();
-  neuralmesh::TriangleMesh mesh = vtkTriangleMeshCollector::Collect(contour->GetOutput());
-  for (Eigen::Vector3d& point : mesh.points)
-  {
-    point = votes.grid.first + votes.grid.width * point;
-  }
-  return mesh;
+  return vtkTriangleMeshCollector::Collect(contour->GetOutput());
 }
 }
 
@@ -297,29 +282,23 @@ void vtkNeuralMeshEnsemble::PrepareRun(
     return;
   }
   FillVotes(*votes, vtkImageData::GetData(outputVector, 3));
-  const std::vector<std::uint8_t> solid = neuralmesh::averageSolid(*votes);
-  const double agreement = neuralmesh::agreement(*votes, solid);
-  const auto percent = std::lround(100.0 * agreement);
-  if (agreement < LeastAgreement)
+  neuralmesh::EnsembleAverage average =
+    neuralmesh::averageOf(*votes, run.Cloud, run.Parameters.numberOfVertices, Contour);
+  if (average.agreement < neuralmesh::EnsembleAverage::GoodAgreement)
   {
-    vtkWarningMacro(<< "The members agree on " << percent
-                    << " % of what they hold only, for the cloud is open, flat or of too few "
-                       "points: learning starts as Start says.");
-    return;
+    vtkWarningMacro(<< "The members agree on " << std::lround(100.0 * average.agreement)
+                    << " % of what they hold only, for the cloud is open, "
+                    << (average.mesh ? "thin or of too few points: the topology is left to chance."
+                                     : "flat or of too few points: learning starts as Start says."));
   }
-  if (agreement < GoodAgreement)
+  if (average.mesh)
   {
-    vtkWarningMacro(<< "The members agree on " << percent
-                    << " % of what they hold only, for the cloud is open, thin or of too few "
-                       "points: the topology is left to chance.");
+    const neuralmesh::TriangleMesh triangles = neuralmesh::trianglesOf(*average.mesh, run.Cloud);
+    vtkPolyData* output = vtkPolyData::GetData(outputVector, 2);
+    output->SetPoints(vtkTriangleMeshCollector::MakePoints(triangles, run.PointsPrecision));
+    output->SetPolys(vtkTriangleMeshCollector::MakeCells(triangles));
+    run.FirstMesh = std::move(average.mesh);
   }
-  neuralmesh::Mesh average = neuralmesh::buildMesh(AverageSurface(*votes, solid), run.Cloud);
-  neuralmesh::simplify(average, run.Parameters.numberOfVertices / VerticesPerAverageVertex);
-  const neuralmesh::TriangleMesh triangles = neuralmesh::trianglesOf(average, run.Cloud);
-  vtkPolyData* output = vtkPolyData::GetData(outputVector, 2);
-  output->SetPoints(vtkTriangleMeshCollector::MakePoints(triangles, run.PointsPrecision));
-  output->SetPolys(vtkTriangleMeshCollector::MakeCells(triangles));
-  run.FirstMesh = std::move(average);
 }
 
 void vtkNeuralMeshEnsemble::PrintSelf(ostream& os, vtkIndent indent)

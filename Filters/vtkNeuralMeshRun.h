@@ -13,6 +13,7 @@
 #include "cloud/PointCloud.h"
 #include "learn/Parameters.h"
 #include "mesh/Mesh.h"
+#include "run/Tuning.h"
 
 #include <chrono>
 #include <optional>
@@ -60,6 +61,8 @@ struct vtkNeuralMeshRun
   vtkNeuralMeshProgress Progress;
   std::optional<neuralmesh::Mesh> FirstMesh;
   const neuralmesh::Executor& Executor;
+  std::optional<neuralmesh::Tuning> Tuning; ///< if parameters were chosen
+  double EndOfMesh;                         ///< as a fraction of the run; then arrays are carried over
 };
 
 #endif
