@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshWriter.h"
 
-#include "base/WholeFile.h"
+#include "base/AtomicFile.h"
 #include "ErrorCollector.h"
 #include "FileExtension.h"
 #include "WrittenMesh.h"
@@ -106,7 +106,7 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path)
 {
   RequireWritableExtension(path);
   const std::string extension = FileExtension(path);
-  neuralmesh::writeWholeFile(path,
+  neuralmesh::writeAtomicFile(path,
     [&](const std::string& temporary)
     {
       Writers().at(extension)(mesh, temporary);

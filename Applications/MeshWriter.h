@@ -12,7 +12,7 @@ void RequireWritableExtension(const std::string& path);
 /**
  * Writes a mesh, by the extension: .vtp .ply .obj .stl. A .vtp keeps all data, a .ply the active
  * scalars if they are colours (unsigned char, 3 or 4 components). Whole or not at all, as
- * neuralmesh::writeWholeFile().
+ * neuralmesh::writeAtomicFile().
  * Throws std::runtime_error, with a message that names the file, on failure.
  */
 void WriteMesh(vtkPolyData* mesh, const std::string& path);

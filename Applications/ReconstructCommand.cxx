@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReconstructCommand.h"
 
-#include "base/WholeFile.h"
+#include "base/AtomicFile.h"
 #include "ErrorCollector.h"
 #include "FileExtension.h"
 #include "Interruption.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TableWriter.h"
 
-#include "base/WholeFile.h"
+#include "base/AtomicFile.h"
 #include "FileExtension.h"
 
 #include "vtkDelimitedTextWriter.h"
@@ -27,6 +27,6 @@ void WriteTable(vtkTable* table, const std::string& path)
   writer->SetInputData(table);
   writer->Write();
   const std::unique_ptr<char[]> text(writer->RegisterAndGetOutputString());
-  neuralmesh::writeWholeFile(
+  neuralmesh::writeAtomicFile(
     path, [&](const std::string& temporary) { neuralmesh::writeText(text.get(), temporary); });
 }

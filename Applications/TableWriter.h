@@ -11,7 +11,7 @@ void RequireTableExtension(const std::string& path);
 
 /**
  * Writes a table as .csv, with a line of column names. Whole or not at all, as
- * neuralmesh::writeWholeFile().
+ * neuralmesh::writeAtomicFile().
  * Throws std::runtime_error, with a message that names the file, on failure.
  */
 void WriteTable(vtkTable* table, const std::string& path);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMesh.h"
 
+#include "base/AtomicFile.h"
 #include "base/ThreadPool.h"
-#include "base/WholeFile.h"
 #include "cloud/MeshBuilder.h"
 #include "run/Reconstruction.h"
 #include "run/Tuning.h"
@@ -324,7 +324,7 @@ void vtkNeuralMesh::SetCheckpointFileName(const char* name)
   }
 }
 
-void vtkNeuralMesh::RemoveCheckpoint() { neuralmesh::removeWholeFile(this->CheckpointFileName); }
+void vtkNeuralMesh::RemoveCheckpoint() { neuralmesh::removeAtomicFile(this->CheckpointFileName); }
 
 neuralmesh::CheckpointPlan vtkNeuralMesh::PlanCheckpoint()
 {

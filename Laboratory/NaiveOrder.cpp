@@ -81,17 +81,17 @@ void NaiveOrder::demoteTop() { this->counters_[this->top()] *= 0.5; }
 
 void NaiveOrder::promoteBottom() { this->counters_[this->bottom()] += 1.; }
 
-void NaiveOrder::renumber(std::span<const VertexIndex> order)
+void NaiveOrder::renumber(std::span<const VertexIndex> permutation)
 {
   this->bringUpToDate();
-  std::vector<double> counters(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
+  std::vector<double> counters(permutation.size());
+  for (std::size_t i = 0; i < permutation.size(); ++i)
   {
-    counters[i] = this->counters_[order[i]];
+    counters[i] = this->counters_[permutation[i]];
   }
   this->counters_ = std::move(counters);
-  this->updates_.assign(order.size(), this->logDecay_);
-  this->isAlive_.assign(order.size(), true);
+  this->updates_.assign(permutation.size(), this->logDecay_);
+  this->isAlive_.assign(permutation.size(), true);
 }
 
 void NaiveOrder::exchange(Archive& archive, std::span<const VertexIndex> vertices)

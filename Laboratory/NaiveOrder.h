@@ -37,7 +37,7 @@ public:
     this->counters_.reserve(count);
     this->updates_.reserve(count);
   }
-  void renumber(std::span<const VertexIndex> order) override;
+  void renumber(std::span<const VertexIndex> permutation) override;
   void exchange(Archive& archive, std::span<const VertexIndex> vertices) override;
 
 private:

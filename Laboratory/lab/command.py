@@ -9,7 +9,7 @@ from pathlib import Path
 
 from .._command import add_processes_option, run_command
 from .._parameters import hint
-from ..batch.whole_file import alone_in, write_text
+from ..batch.atomic_file import alone_in, write_text
 from .catalogue import EXPERIMENTS
 from .experiment import Experiment, Run, Scale
 from .models import MODELS, ModelError, absolute, model_name, require_models

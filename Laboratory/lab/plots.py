@@ -11,7 +11,7 @@ from typing import Any, Callable, Sequence
 
 import numpy as np
 
-from ..batch.whole_file import whole_file
+from ..batch.atomic_file import atomic_file
 from .store import read_stored_mesh
 from .table import COLUMNS, Table
 
@@ -48,7 +48,7 @@ def _pyplot() -> Any:
 
 
 def _save(figure: Any, path: Path) -> None:
-    with whole_file(path) as temporary:
+    with atomic_file(path) as temporary:
         # No date: the same results give the same bytes.
         figure.savefig(temporary, bbox_inches="tight", metadata={"Software": None})
     _pyplot().close(figure)

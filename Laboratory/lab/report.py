@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Iterator
 
 from .. import __version__
-from ..batch.whole_file import write_text
+from ..batch.atomic_file import write_text
 from .experiment import (
     HOLDS,
     NOT_JUDGED,

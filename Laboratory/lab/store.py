@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from ..batch.whole_file import whole_file, write_json
+from ..batch.atomic_file import atomic_file, write_json
 from .experiment import Case, Run
 from .measuring import arrays_of
 from .models import model_name
@@ -35,7 +35,7 @@ def store_result(
     """Store what came out: the mesh first, so that no result lacks it."""
     if mesh is not None:
         points, triangles = arrays_of(mesh)
-        with whole_file(mesh_path(folder, run.key)) as path:
+        with atomic_file(mesh_path(folder, run.key)) as path:
             np.savez(path, points=points.astype("f4"), triangles=triangles.astype("i4"))
     write_json(
         _result_path(folder, run), {"run": run.content(), "figures": figures, "curve": curve}

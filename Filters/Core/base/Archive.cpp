@@ -46,7 +46,7 @@ void Archive::bytes(std::span<std::byte> values)
   {
     if (place_ == end_)
     {
-      turn();
+      exchangeBuffer();
     }
     const std::size_t size = std::min(values.size(), end_ - place_);
     std::byte* const place = buffer_.data() + place_;
@@ -63,7 +63,7 @@ void Archive::bytes(std::span<std::byte> values)
   }
 }
 
-void Archive::turn()
+void Archive::exchangeBuffer()
 {
   if (isReading())
   {
@@ -92,7 +92,7 @@ void Archive::finish()
   }
   else
   {
-    turn();
+    exchangeBuffer();
   }
 }
 }

@@ -128,7 +128,7 @@ private:
 
   void bytes(std::span<std::byte> values);
   /// Writes the buffer out, or fills it anew.
-  void turn();
+  void exchangeBuffer();
 
   Sink sink_;
   Source source_;

@@ -48,7 +48,7 @@ public:
   /// Memory for `count` indices: up to there no operation allocates.
   virtual void reserve(std::size_t count) = 0;
   /// As Mesh::renumber().
-  virtual void renumber(std::span<const VertexIndex> order) = 0;
+  virtual void renumber(std::span<const VertexIndex> permutation) = 0;
 
   /// Writes the order of the `vertices`, or reads it: which ones there are is known by the mesh.
   virtual void exchange(Archive& archive, std::span<const VertexIndex> vertices) = 0;

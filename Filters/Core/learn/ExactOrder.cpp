@@ -90,9 +90,9 @@ double ExactOrder::activity(VertexIndex v) const
   return mostActive_.key(v).in(inverseS_.epoch) / inverseS_.significand;
 }
 
-void ExactOrder::renumber(std::span<const VertexIndex> order)
+void ExactOrder::renumber(std::span<const VertexIndex> permutation)
 {
-  const std::vector<VertexIndex> newIndex = newIndices(order);
+  const std::vector<VertexIndex> newIndex = newIndices(permutation);
   mostActive_.renumber(newIndex);
   leastActive_.renumber(newIndex);
 }

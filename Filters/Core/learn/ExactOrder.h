@@ -32,7 +32,7 @@ public:
   void promoteBottom() override;
   double activity(VertexIndex v) const override;
   void reserve(std::size_t count) override;
-  void renumber(std::span<const VertexIndex> order) override;
+  void renumber(std::span<const VertexIndex> permutation) override;
   void exchange(Archive& archive, std::span<const VertexIndex> vertices) override;
 
 private:

@@ -57,10 +57,10 @@ GrowthRecorder::GrowthRecorder(
   , growth_(std::pow(std::max(1., double(vertices) / first_), 1. / double(watch.snapshots)))
   , next_(learner.mesh().vertexCount())
 {
-  look();
+  takeIfDue();
 }
 
-void GrowthRecorder::look()
+void GrowthRecorder::takeIfDue()
 {
   const std::size_t vertices = learner_.mesh().vertexCount();
   if (watch_.snapshots == 0 || vertices < next_ || learner_.hasAllVertices())

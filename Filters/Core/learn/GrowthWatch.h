@@ -46,7 +46,7 @@ public:
     std::size_t vertices);
 
   /// Takes a snapshot if one is due: to be called after each batch.
-  void look();
+  void takeIfDue();
 
 private:
   const GrowthWatch& watch_;

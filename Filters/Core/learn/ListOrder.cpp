@@ -66,7 +66,10 @@ double ListOrder::activity(VertexIndex v) const
   return double(list_.position(v) + 1) / double(list_.size());
 }
 
-void ListOrder::renumber(std::span<const VertexIndex> order) { list_.renumber(newIndices(order)); }
+void ListOrder::renumber(std::span<const VertexIndex> permutation)
+{
+  list_.renumber(newIndices(permutation));
+}
 
 void ListOrder::exchange(Archive& archive, std::span<const VertexIndex> vertices)
 {

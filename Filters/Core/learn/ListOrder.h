@@ -35,7 +35,7 @@ public:
   /// The position over the length of the list, above 0 up to 1.
   double activity(VertexIndex v) const override;
   void reserve(std::size_t count) override { list_.reserve(count); }
-  void renumber(std::span<const VertexIndex> order) override;
+  void renumber(std::span<const VertexIndex> permutation) override;
   void exchange(Archive& archive, std::span<const VertexIndex> vertices) override;
 
 private:

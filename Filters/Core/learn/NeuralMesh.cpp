@@ -140,7 +140,7 @@ unsigned NeuralMesh::triangulateAnew(const Ring& polygon, VertexIndex kept)
 
 TopologyLearning::Result NeuralMesh::learnTopology(const TopologyLearning& rules)
 {
-  TopologyLearning::Result result = rules.learn(mesh_, *boundaries_);
+  TopologyLearning::Result result = rules.apply(mesh_, *boundaries_);
   erase(result.removedVertices);
   return result;
 }

@@ -25,7 +25,7 @@ TopologyLearning::TopologyLearning(const Parameters& parameters)
 {
 }
 
-TopologyLearning::Result TopologyLearning::learn(Mesh& mesh, BoundaryManager& boundaries) const
+TopologyLearning::Result TopologyLearning::apply(Mesh& mesh, BoundaryManager& boundaries) const
 {
   Result result;
   const double meanArea = meanTriangleArea(mesh);

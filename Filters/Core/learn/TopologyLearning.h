@@ -29,7 +29,7 @@ public:
     std::vector<VertexIndex> removedVertices;
   };
   /// Triangle Removal and Boundary Merging. `boundaries` are those of the mesh, before and after.
-  Result learn(Mesh& mesh, BoundaryManager& boundaries) const;
+  Result apply(Mesh& mesh, BoundaryManager& boundaries) const;
 
   /// Whether a boundary vertex that is due for removal, but without a legal collapse, may go
   /// together with its triangles: as stray pieces do in the end.

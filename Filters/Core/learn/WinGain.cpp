@@ -59,9 +59,9 @@ void WinGain::setWeights(double constant, double normal, double area, double vol
 void WinGain::beginBatch(std::size_t stride)
 {
   stride_ = std::max<std::size_t>(1, stride / (iterationMask_ + 1));
-  for (Figure* figure : { &normal_, &area_, &volume_ })
+  for (RelativeChange* relativeChange : { &normal_, &area_, &volume_ })
   {
-    figure->mean = figure->changes.mean();
+    relativeChange->mean = relativeChange->changes.mean();
   }
 }
 
@@ -82,17 +82,17 @@ double WinGain::ofMove(const Mesh& mesh, VertexIndex winner, Vector4 position)
   return gain;
 }
 
-double WinGain::relative(Figure& figure, double change, bool isObserved) const
+double WinGain::relative(RelativeChange& relativeChange, double change, bool isObserved) const
 {
   // The limit holds in the mean, too: else what is far beyond it would raise it.
   const double limit = parameters_.gainLimit;
-  const bool isLimited = limit > 0. && figure.changes.isFull() && figure.mean > 0.;
-  const double counted = isLimited ? std::min(change, limit * figure.mean) : change;
+  const bool isLimited = limit > 0. && relativeChange.changes.isFull() && relativeChange.mean > 0.;
+  const double counted = isLimited ? std::min(change, limit * relativeChange.mean) : change;
   if (isObserved)
   {
-    figure.changes.add(counted);
+    relativeChange.changes.add(counted);
   }
   // Where nothing changes, all moves are alike.
-  return figure.mean > 0. ? counted / figure.mean : 1.;
+  return relativeChange.mean > 0. ? counted / relativeChange.mean : 1.;
 }
 }

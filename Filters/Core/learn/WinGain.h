@@ -47,8 +47,8 @@ public:
   }
 
 private:
-  /// One figure of a move: its part in the gain, and how much moves change it.
-  struct Figure
+  /// How much moves change something, and its part in the gain.
+  struct RelativeChange
   {
     MovingStatistics changes;
     double weight = 0.;
@@ -57,13 +57,13 @@ private:
 
   void setWeights(double constant, double normal, double area, double volume);
   /// The change over its mean.
-  double relative(Figure& figure, double change, bool isObserved) const;
+  double relative(RelativeChange& relativeChange, double change, bool isObserved) const;
 
   Parameters parameters_;
   double constantWeight_ = 1.;
-  Figure normal_;
-  Figure area_;
-  Figure volume_;
+  RelativeChange normal_;
+  RelativeChange area_;
+  RelativeChange volume_;
   double normalGain_ = 1.;
   std::uint64_t iterationMask_ = 0;
   std::size_t stride_ = 1;

@@ -72,16 +72,16 @@ void BoundaryManager::retrace(const Mesh& mesh, std::span<const VertexIndex> cha
   }
 }
 
-void BoundaryManager::renumber(std::span<const VertexIndex> order)
+void BoundaryManager::renumber(std::span<const VertexIndex> permutation)
 {
   std::vector<LoopIndex> loopOfNew;
-  loopOfNew.reserve(order.size());
-  for (const VertexIndex v : order)
+  loopOfNew.reserve(permutation.size());
+  for (const VertexIndex v : permutation)
   {
     loopOfNew.push_back(loopOf(v));
   }
   loopOf_ = std::move(loopOfNew);
-  const std::vector<VertexIndex> newIndex = newIndices(order);
+  const std::vector<VertexIndex> newIndex = newIndices(permutation);
   for (Loop& loop : loops_)
   {
     if (loop.size > 0)

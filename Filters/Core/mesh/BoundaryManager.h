@@ -52,7 +52,7 @@ public:
   /// they were, and traces those in which they are.
   void retrace(const Mesh& mesh, std::span<const VertexIndex> changed);
   /// As Mesh::renumber().
-  void renumber(std::span<const VertexIndex> order);
+  void renumber(std::span<const VertexIndex> permutation);
 
   /// Writes the boundaries of the mesh, or reads them.
   void exchange(Archive& archive, const Mesh& mesh);

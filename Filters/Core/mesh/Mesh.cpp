@@ -298,24 +298,24 @@ std::vector<VertexIndex> Mesh::dropErased()
   return alive;
 }
 
-void Mesh::renumber(std::span<const VertexIndex> order)
+void Mesh::renumber(std::span<const VertexIndex> permutation)
 {
-  assert(order.size() == vertexCount());
-  const std::vector<VertexIndex> newIndex = newIndices(order);
-  LargeVector<Ring> rings(order.size());
-  LargeVector<Vector4> positions(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
+  assert(permutation.size() == vertexCount());
+  const std::vector<VertexIndex> newIndex = newIndices(permutation);
+  LargeVector<Ring> rings(permutation.size());
+  LargeVector<Vector4> positions(permutation.size());
+  for (std::size_t i = 0; i < permutation.size(); ++i)
   {
-    rings[i] = rings_[order[i]];
+    rings[i] = rings_[permutation[i]];
     for (unsigned slot = 0; slot < rings[i].size(); ++slot)
     {
       rings[i].replace(slot, newIndex[rings[i][slot]]);
     }
-    positions[i] = positions_[order[i]];
+    positions[i] = positions_[permutation[i]];
   }
   rings_ = std::move(rings);
   positions_ = std::move(positions);
-  properties_.renumber(order);
+  properties_.renumber(permutation);
   erased_.clear();
   reusable_.clear();
 }

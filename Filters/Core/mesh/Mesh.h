@@ -140,8 +140,8 @@ public:
   /// Closes the gaps in the indices that erased vertices leave; vertices keep their order. Returns
   /// the old index of each.
   std::vector<VertexIndex> dropErased();
-  /// Gives the vertex `order[i]` the index i, for all vertices; erased ones vanish.
-  void renumber(std::span<const VertexIndex> order);
+  /// Gives the vertex `permutation[i]` the index i, for all vertices; erased ones vanish.
+  void renumber(std::span<const VertexIndex> permutation);
 
   /// Turns all triangles of the given vertices, which must be whole components, inside out.
   void reverseOrientation(std::span<const VertexIndex> component);

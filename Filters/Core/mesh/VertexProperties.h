@@ -73,14 +73,14 @@ public:
   }
 
   /// As Mesh::renumber().
-  void renumber(std::span<const VertexIndex> order)
+  void renumber(std::span<const VertexIndex> permutation)
   {
     forEachColumn(
       [=](auto& column)
       {
         std::remove_reference_t<decltype(column.values)> values;
-        values.reserve(order.size());
-        for (const VertexIndex v : order)
+        values.reserve(permutation.size());
+        for (const VertexIndex v : permutation)
         {
           values.push_back(column.values[v]);
         }

@@ -2,7 +2,7 @@
 #include "run/Checkpoint.h"
 
 #include "base/Archive.h"
-#include "base/WholeFile.h"
+#include "base/AtomicFile.h"
 #include "learn/ParameterTable.h"
 
 #include <array>
@@ -148,7 +148,7 @@ std::uint64_t Checkpoint::resume(LearningState& state, bool isStartWhole)
   return savedIterations_;
 }
 
-void Checkpoint::look(LearningState& state)
+void Checkpoint::saveIfDue(LearningState& state)
 {
   const bool isNew = isOn() && state.learner.counts().iterations != savedIterations_;
   const std::chrono::duration<double> interval(plan_.interval);
@@ -169,7 +169,7 @@ void Checkpoint::write(LearningState& state)
   }
   try
   {
-    writeWholeFile(plan_.path,
+    writeAtomicFile(plan_.path,
       [&](const std::string& temporary)
       {
         std::ofstream file(temporary, std::ios::binary);

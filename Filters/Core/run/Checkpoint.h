@@ -51,7 +51,7 @@ public:
 
   /// Writes the file if it is time to, or if learning has ended: to be called between batches. Not
   /// if nothing was learnt since the last time.
-  void look(LearningState& state);
+  void saveIfDue(LearningState& state);
 
 private:
   using Clock = std::chrono::steady_clock;

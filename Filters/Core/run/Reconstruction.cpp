@@ -30,7 +30,7 @@ StopReason learnAll(LearningState state, Checkpoint& checkpoint, const PointClou
   }
   for (;;)
   {
-    checkpoint.look(state);
+    checkpoint.saveIfDue(state);
     if (reason != StopReason::None || curve.isRowDue(learner))
     {
       curve.add(learner, cloud.unit(), rules.seconds());
@@ -40,7 +40,7 @@ StopReason learnAll(LearningState state, Checkpoint& checkpoint, const PointClou
       return reason;
     }
     reason = learn(
-      learner, rules, parameters, SamplesPerCheck, progress, [&recorder] { recorder.look(); });
+      learner, rules, parameters, SamplesPerCheck, progress, [&recorder] { recorder.takeIfDue(); });
   }
 }
 }
@@ -60,24 +60,24 @@ std::size_t firstVertices(std::uint64_t vertices)
   return std::size_t(std::max(vertices / 8, std::min<std::uint64_t>(vertices / 2, 1500)));
 }
 
-Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, const Progress& tell,
-  const std::optional<Mesh>& first, const GrowthWatch& watch, const CheckpointPlan& plan,
-  const Executor& executor)
+Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
+  const Progress& report, const std::optional<Mesh>& first, const GrowthWatch& watch,
+  const CheckpointPlan& plan, const Executor& executor)
 {
   Reconstruction result;
   // Once the caller has ended the run, it is asked no more.
   bool isCancelled = false;
   const Progress progress = [&](double fraction)
-  { return !isCancelled && !(isCancelled = !tell(fraction)); };
-  Checkpoint checkpoint(plan, all, wanted);
+  { return !isCancelled && !(isCancelled = !report(fraction)); };
+  Checkpoint checkpoint(plan, input, requested);
 
   result.times.enter(Phase::Start);
-  const Parameters parameters = first ? wanted : learnable(wanted, all);
+  const Parameters parameters = first ? requested : learnable(requested, input);
   const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
   const double startOfLearning = startsFromSpace ? StartOfLearning : 0.;
   const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
-  const std::optional<PointCloud> cleaned = startsFromSpace ? withoutClusters(all) : std::nullopt;
-  const PointCloud& cloud = cleaned ? *cleaned : all;
+  const std::optional<PointCloud> cleaned = startsFromSpace ? withoutClusters(input) : std::nullopt;
+  const PointCloud& cloud = cleaned ? *cleaned : input;
   Beginning beginning = first
     ? Beginning{ first, {}, {} }
     : begin(cloud, parameters, partOf(progress, 0., startOfLearning), executor);
@@ -99,7 +99,7 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, cons
   if (parameters.fitRounds > 0 && result.isComplete() && result.counts.iterations > 0)
   {
     const std::size_t vertices = result.stopReason == StopReason::Vertices
-      ? std::size_t(wanted.numberOfVertices)
+      ? std::size_t(requested.numberOfVertices)
       : learnt.mesh.vertexCount();
     const Progress finishing = partOf(progress, endOfLearning, 1.);
     result.finish = finish(
@@ -116,8 +116,8 @@ Reconstruction reconstruct(const PointCloud& all, const Parameters& wanted, cons
       result.stopReason = isCancelled ? StopReason::Cancelled : StopReason::TimeLimit;
     }
   }
-  describe(
-    std::move(learnt), cloud, result.stopReason == StopReason::Cancelled ? nullptr : &all, result);
+  describe(std::move(learnt), cloud, result.stopReason == StopReason::Cancelled ? nullptr : &input,
+    result);
   result.times.leave();
   return result;
 }

@@ -45,7 +45,7 @@ public:
       {
         if (isNew(index))
         {
-          follow(index);
+          flood(index);
         }
       });
   }
@@ -78,7 +78,7 @@ private:
     return inside_[voxel] == kind_ && pieceOf_[voxel] == NoPiece;
   }
 
-  void follow(std::size_t first)
+  void flood(std::size_t first)
   {
     const auto number = std::uint32_t(pieces_.size());
     Piece& piece = pieces_.emplace_back();

@@ -13,7 +13,7 @@ from .gallery import write_gallery
 from .recipe import Job, Recipe, RecipeError, read_recipe
 from .report import is_done, write_summary
 from .running import run_jobs
-from .whole_file import alone_in
+from .atomic_file import alone_in
 
 _EPILOG = """\
 A recipe is JSON; of its keys only `scans` must be there:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (the renderer behind the classes)
 from neuralmesh.batch.meshes import colors_of, read_points
-from neuralmesh.batch.whole_file import whole_file
+from neuralmesh.batch.atomic_file import atomic_file
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
@@ -68,7 +68,7 @@ def draw(window, mesh, path, view):
     image = vtkWindowToImageFilter()
     image.SetInput(window)
     image.ReadFrontBufferOff()
-    with whole_file(path) as temporary:
+    with atomic_file(path) as temporary:
         writer = vtkPNGWriter()
         writer.SetFileName(str(temporary))
         writer.SetInputConnection(image.GetOutputPort())

@@ -16,7 +16,7 @@ from .page_mesh import page_mesh
 from .pictures import draw_pictures
 from .recipe import Job, Recipe
 from .report import read_report, result_path
-from .whole_file import write_text
+from .atomic_file import write_text
 
 _PAGE = Path(__file__).with_name("page")
 _VIEWER = ("vtk.js", "vtk.js.LICENSE")

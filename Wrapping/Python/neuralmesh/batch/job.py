@@ -28,7 +28,7 @@ from .report import (
     result_path,
 )
 from .recipe import Job
-from .whole_file import write_json
+from .atomic_file import write_json
 
 
 def main() -> None:

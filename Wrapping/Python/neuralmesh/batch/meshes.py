@@ -19,7 +19,7 @@ from vtkmodules.vtkIOXML import (
 
 from .._execution import execute
 from .._points import as_dataset
-from .whole_file import whole_file
+from .atomic_file import atomic_file
 
 
 def read_points(path: Path) -> vtkPointSet:
@@ -80,7 +80,7 @@ def _merge_equal_points(mesh: vtkPolyData) -> vtkPolyData:
 
 def write_mesh(mesh: vtkPolyData, path: Path) -> None:
     """Write a mesh, whole or not at all, in the format that the extension tells."""
-    with whole_file(path) as temporary:
+    with atomic_file(path) as temporary:
         WRITERS[path.suffix[1:]](mesh, temporary)
 
 

@@ -14,7 +14,7 @@ from typing import Any
 from .. import VTK_VERSION, __version__
 from .._parameters import snake_case
 from .recipe import Job, Recipe
-from .whole_file import write_text
+from .atomic_file import write_text
 
 PHASES = ("cloud", "start", "learning", "finish")
 SECONDS = ("reading", "reconstruction", "writing")

@@ -15,7 +15,7 @@ from typing import IO, Callable
 
 from .recipe import Job
 from .report import identity_of, report_path, result_path
-from .whole_file import write_json
+from .atomic_file import write_json
 
 _PAUSE = 0.02  # seconds between looks at the processes
 _LONGEST_MESSAGE = 4000  # characters of what a process says in the end

@@ -14,7 +14,7 @@ _MARK = ".part"
 
 
 @contextlib.contextmanager
-def whole_file(path: Path) -> Iterator[Path]:
+def atomic_file(path: Path) -> Iterator[Path]:
     """A name to write to, with the extension of the path, to which it is renamed at the end."""
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{_MARK}{path.suffix}")
     try:
@@ -25,7 +25,7 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 
 def write_text(path: Path, text: str) -> None:
-    with whole_file(path) as temporary:
+    with atomic_file(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
 

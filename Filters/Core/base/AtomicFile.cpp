@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/WholeFile.h"
+#include "base/AtomicFile.h"
 
 #include <algorithm>
 #include <array>
@@ -97,7 +97,7 @@ void requireWritablePlace(const std::string& path)
   }
 }
 
-void writeWholeFile(const std::string& path, const std::function<void(const std::string&)>& write)
+void writeAtomicFile(const std::string& path, const std::function<void(const std::string&)>& write)
 {
   requireWritablePlace(path);
   const fs::path target(path);
@@ -137,7 +137,7 @@ void writeText(const std::string& text, const std::string& path)
   }
 }
 
-void removeWholeFile(const std::string& path)
+void removeAtomicFile(const std::string& path)
 {
   std::error_code ignored;
   if (fs::remove(path, ignored))

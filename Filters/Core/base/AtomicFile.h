@@ -7,7 +7,7 @@
 namespace neuralmesh
 {
 /// Throws std::runtime_error, with a message that names the file, where it can be told beforehand
-/// that writeWholeFile() would fail: there is no such folder, it takes no files, or `path` is a
+/// that writeAtomicFile() would fail: there is no such folder, it takes no files, or `path` is a
 /// folder.
 void requireWritablePlace(const std::string& path);
 
@@ -18,7 +18,7 @@ void requireWritablePlace(const std::string& path);
 /// writes leaves it behind; the next one that writes the same file on the same machine removes it.
 /// Throws std::runtime_error, with a message that names the file, where `write` throws or the renaming
 /// fails.
-void writeWholeFile(
+void writeAtomicFile(
   const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
 /// Writes `text` to a file. Throws std::runtime_error if not all of it could be written.
@@ -26,5 +26,5 @@ void writeText(const std::string& text, const std::string& path);
 
 /// Removes a file, if it is there, and what processes that were killed while they wrote it have left
 /// beside it.
-void removeWholeFile(const std::string& path);
+void removeAtomicFile(const std::string& path);
 }
