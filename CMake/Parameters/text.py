@@ -91,9 +91,12 @@ def begun_small(text):
 
 
 def range_words(parameter):
-    """ "range 0 to 1", or "at least 4"."""
+    """The range in words; of one that ends with the type, or far off, the beginning comes first."""
     low, high = (shown(parameter, end) for end in (parameter.low, parameter.high))
-    return f"at least {low}" if parameter.is_open else f"range {low} to {high}"
+    if parameter.is_open:
+        return f"at least {low}"
+    is_far = parameter.type != "double" and parameter.high >= 1e9
+    return f"at least {low}, at most {high}" if is_far else f"range {low} to {high}"
 
 
 def default_sentence(parameter):

@@ -6,14 +6,12 @@ The blocks of diff are applied to a copy of the engine, what follows from the li
 the files of the page are added, and all of it is compiled. The tests among them must pass.
 """
 
+import pathlib
 import subprocess
 import sys
 
 from markdown_pages import Page
 from repository_copy import repository_copy
-
-# What the page adds to the list.
-PARAMETER = "StallVertices"
 
 
 def run(command, **options):
@@ -25,14 +23,18 @@ def run(command, **options):
         sys.exit(f"{command[0]}: status {process.returncode}")
 
 
-def check_places(folder, core):
-    """The parameter of the page stands in the list, in its use, in its test and on the page alone."""
-    wanted = [core / "learn" / "StoppingRules.cpp", core / f"Test{PARAMETER}.cpp",
-              folder / "Documentation" / "Developers.md", folder / "Filters" / "Parameters.json"]
-    found = [path for path in folder.rglob("*") if path.is_file()
-             and PARAMETER.lower().encode() in path.read_bytes().lower()]
-    if sorted(found) != sorted(path.resolve() for path in wanted):
-        sys.exit(f"{PARAMETER} is in " + ", ".join(map(str, found)))
+def check_places(folder, files):
+    """A new parameter stands in the list, in its use, in its test and on the page alone."""
+    text = (folder / "Filters" / "Parameters.json").read_text(encoding="utf-8")
+    tested = [pathlib.Path(name).stem.removeprefix("Test") for name in files]
+    (parameter,) = (name for name in tested if f'"name": "{name}", "type"' in text)
+    found = {
+        path.name for path in folder.rglob("*")
+        if path.is_file() and parameter.lower().encode() in path.read_bytes().lower()
+    }
+    wanted = {"Parameters.json", "StoppingRules.cpp", f"Test{parameter}.cpp", "Developers.md"}
+    if found != wanted:
+        sys.exit(f"{parameter} stands in {', '.join(sorted(found))}")
 
 
 def main():
@@ -46,7 +48,7 @@ def main():
         run(["patch", "-p1"], input="".join(patches), cwd=folder)
         for name, text in files.items():
             (core / name).write_text(text, encoding="utf-8")
-        check_places(folder, core)
+        check_places(folder, files)
         run([sys.executable, "CMake/Parameters/generate.py", ".", "build"], cwd=folder)
         names = sorted(str(path.relative_to(core)) for path in core.rglob("*.cpp"))
         # In one go: most of the time goes into the headers.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Promise: a value out of its range is clamped, with one warning that names the property, the value
 // and the range; NaN changes nothing; a value in its range is taken without a word. So it is with every
-// property that the headers declare with a range, in every class that has it.
+// property that the headers declare with a range, in every class that has it. Ranges are those of the
+// parameters of the core.
 #include "FilterTesting.h"
 
+#include "learn/ParameterTable.h"
 #include "vtkNeuralMesh.h"
 #include "vtkNeuralMeshComparison.h"
 #include "vtkNeuralMeshEnsemble.h"
@@ -67,6 +69,26 @@ int CheckProperty(const Property<FilterT, T>& property)
   return EXIT_SUCCESS;
 }
 
+/** Whether the range is that of the parameter of the core, if it is one. */
+template <typename FilterT, typename T>
+int CheckRange(const Property<FilterT, T>& property, const std::string& declaring)
+{
+  bool isRight = true;
+  neuralmesh::forEachParameter(
+    [&](const auto& entry)
+    {
+      const bool isParameter =
+        declaring == "vtkNeuralMesh" || declaring == "vtkNeuralMeshAlgorithm";
+      if (isParameter && std::string(entry.name) == property.Name)
+      {
+        isRight = static_cast<double>(property.Minimum) == entry.range.low &&
+          static_cast<double>(property.Maximum) == entry.range.high;
+      }
+    });
+  CHECK(isRight);
+  return EXIT_SUCCESS;
+}
+
 int CheckPreset()
 {
   vtkNew<vtkNeuralMesh> filter;
@@ -92,6 +114,7 @@ int TestNeuralMeshClamping(int, char*[])
     const Property<FilterT, decltype(filter->Get##name())> property{ #name, &FilterT::Set##name,   \
       &FilterT::Get##name, filter->Get##name##MinValue(), filter->Get##name##MaxValue() };         \
     CHECK(CheckProperty(property) == EXIT_SUCCESS);                                                \
+    CHECK(CheckRange(property, #DeclaringT) == EXIT_SUCCESS);                                      \
     ++counts[#FilterT];                                                                            \
   }
 #define SWITCH_PROPERTY(FilterT, DeclaringT, name)
