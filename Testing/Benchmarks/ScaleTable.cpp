@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints, as a table in Markdown, whole runs of up to a million vertices: what a sample costs, how
-// much memory a vertex takes beyond the cloud, and how good the mesh is. Sizes in thousands of
-// vertices are arguments.
+// Prints what it takes to make a cloud ready and, as a table in Markdown, whole runs of up to a million
+// vertices: what a sample costs, how much memory a vertex takes beyond the cloud, and how good the mesh
+// is. Sizes in thousands of vertices are arguments.
 #include "base/ThreadPool.h"
 #include "cloud/CloudGenerator.h"
 #include "run/Reconstruction.h"
@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <string>
 #include <vector>
 
 namespace
@@ -55,6 +56,39 @@ private:
   double begin_, end_;
   double bytes_ = 0.;
 };
+
+/// Bytes of memory that were in use at most since the last call.
+double peakBytes()
+{
+  double kilobytes = 0.;
+  std::string word;
+  for (std::ifstream file("/proc/self/status"); file >> word;)
+  {
+    if (word == "VmHWM:")
+    {
+      file >> kilobytes;
+    }
+  }
+  std::ofstream("/proc/self/clear_refs") << 5;
+  return 1024. * kilobytes;
+}
+
+/// Tells what making it took, beside the points themselves.
+PointCloud makeCloud(const std::vector<Eigen::Vector3d>& points, const Executor& executor)
+{
+  peakBytes();
+  const double before = peakBytes();
+  PhaseTimes times;
+  times.enter(Phase::Cloud);
+  PointCloud cloud(points, {}, false, executor);
+  times.leave();
+  std::printf("A torus of %zu points, on %u threads; the cloud of them took %.1f bytes a point at "
+              "its peak, of which it keeps 16, and %.2f CPU s. Bytes in the table are those beyond "
+              "it.\n\n",
+    points.size(), executor.threadCount(), (peakBytes() - before) / double(points.size()),
+    times.seconds(Phase::Cloud));
+  return cloud;
+}
 
 void printRow(const PointCloud& cloud, std::uint64_t vertices, const Executor& executor)
 {
@@ -101,9 +135,7 @@ int main(int argc, char* argv[])
   CloudOptions options;
   options.count = PointCount;
   const ThreadPool executor;
-  const PointCloud cloud(generateCloud(makeTorus(), options), {}, false, executor);
-  std::printf("A torus of %zu points, on %u threads. Bytes are those beyond the cloud.\n\n",
-    PointCount, executor.threadCount());
+  const PointCloud cloud = makeCloud(generateCloud(makeTorus(), options), executor);
   std::printf(
     "| vertices | learning, ns a sample | learning, bytes a vertex | finish, bytes a vertex "
     "| CPU s | wall s | the thesis's time / CPU time | residual / diagonal | handles | folds "

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace neuralmesh
 {
@@ -14,6 +15,8 @@ namespace
 {
 /// Points of a part for the executor.
 constexpr std::size_t PointsPerRange = std::size_t(1) << 18;
+/// Brought into the cache before its turn: the points of a bucket lie anywhere in the input.
+constexpr std::size_t PointsAhead = 24;
 /// So many points of a surface are in a bucket, about: few enough to be sorted in the cache.
 constexpr std::size_t PointsPerBucket = 2048;
 
@@ -77,20 +80,59 @@ struct PointCloud::Input
   Eigen::AlignedBox3d bulk(std::size_t count, const Executor& executor) const
   {
     Eigen::Vector3d low, high;
-    const std::size_t outermost = count / 100;
-    executor.forEachPart(6,
+    executor.forEachPart(3,
       [&](std::size_t part)
       {
-        const auto axis = Eigen::Index(part % 3);
-        const auto forEachCoordinate = [&](const auto& use)
+        const auto axis = Eigen::Index(part);
+        const std::vector<double> sample = sortedSample(axis);
+        const std::size_t lowest = count / 100, highest = count - 1 - lowest;
+        OrderStatisticSearch lowSearch(lowest, bracketOf(lowest, count, sample));
+        OrderStatisticSearch highSearch(highest, bracketOf(highest, count, sample));
+        while (!lowSearch.isFound() || !highSearch.isFound())
         {
-          forEachFinite(
-            0, points.size(), [&](std::size_t, const Eigen::Vector3d& point) { use(point[axis]); });
-        };
-        (part < 3 ? low : high)[axis] =
-          orderStatistic(part < 3 ? outermost : count - 1 - outermost, forEachCoordinate);
+          forEachFinite(0, points.size(),
+            [&](std::size_t, const Eigen::Vector3d& point)
+            {
+              lowSearch.add(point[axis]);
+              highSearch.add(point[axis]);
+            });
+          lowSearch.endSweep();
+          highSearch.endSweep();
+        }
+        low[axis] = lowSearch.value();
+        high[axis] = highSearch.value();
       });
     return { low, high };
+  }
+
+private:
+  static constexpr std::size_t SampleSize = 8192;
+
+  /// Coordinates of points that are spread over the input.
+  std::vector<double> sortedSample(Eigen::Index axis) const
+  {
+    std::vector<double> result;
+    const std::size_t stride = 1 + points.size() / SampleSize;
+    for (std::size_t i = 0; i < points.size(); i += stride)
+    {
+      forEachFinite(i, i + 1,
+        [&](std::size_t, const Eigen::Vector3d& point) { result.push_back(point[axis]); });
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  /// Where the sample lets one expect that place: six standard deviations of it to either side.
+  static OrderStatisticSearch::Bracket bracketOf(
+    std::size_t rank, std::size_t count, const std::vector<double>& sample)
+  {
+    constexpr double Infinity = std::numeric_limits<double>::infinity();
+    const double part = double(rank) / double(count), size = double(sample.size());
+    const double margin = 2. + 6. * std::sqrt(size * part * (1. - part));
+    const double first = size * part - margin, last = size * part + margin;
+    const auto most = std::size_t(2. * (2. * margin + 2.) / std::max(1., size) * double(count));
+    return { first < 0. ? -Infinity : sample[std::size_t(first)],
+      last >= size ? Infinity : sample[std::size_t(last)], std::min(count, most) + 1 };
   }
 };
 
@@ -182,9 +224,13 @@ void PointCloud::takePoints(const Input& input, bool keepsOrigins, const Executo
       std::vector<std::pair<std::uint64_t, std::uint32_t>> order; // key and place
       points.reserve(items.size());
       order.reserve(items.size());
-      for (const std::uint32_t item : items)
+      for (std::size_t i = 0; i < items.size(); ++i)
       {
-        points.push_back(fromInput(input.points[item]));
+        if (i + PointsAhead < items.size())
+        {
+          input.points.prefetch(items[i + PointsAhead]);
+        }
+        points.push_back(fromInput(input.points[items[i]]));
         order.emplace_back(curve.key(points.back()), std::uint32_t(order.size()));
       }
       std::sort(order.begin(), order.end());

@@ -37,6 +37,15 @@ public:
     return piece.point(index - piece.begin);
   }
 
+  /// Brings a point into the cache.
+  void prefetch(std::size_t index) const
+  {
+    const Piece& piece = pieces_.size() == 1 ? pieces_.front() : pieceOf(index);
+    const std::size_t first = 3 * (index - piece.begin);
+    piece.floats.empty() ? __builtin_prefetch(&piece.doubles[first])
+                         : __builtin_prefetch(&piece.floats[first]);
+  }
+
   /// Calls `use(index, point)` for a range of the points, in order.
   template <typename Use>
   void forEach(std::size_t begin, std::size_t end, Use use) const

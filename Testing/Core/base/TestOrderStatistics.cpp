@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace neuralmesh::testing
@@ -14,7 +15,7 @@ TEST(OrderStatistics, AgreesWithSorting)
 {
   constexpr double Infinity = std::numeric_limits<double>::infinity();
   Random random(4);
-  for (const std::size_t count : { 1, 2, 3, 100, 5000 })
+  for (const std::size_t count : { 1, 2, 3, 100, 5000, 50000 })
   {
     for (const double scale : { 1., 1e-300, 1e300 })
     {
@@ -30,11 +31,28 @@ TEST(OrderStatistics, AgreesWithSorting)
       }
       std::vector<double> sorted = numbers;
       std::sort(sorted.begin(), sorted.end());
+      // One that holds all, one that holds nothing, and one that holds too many.
+      const std::array<std::pair<OrderStatisticSearch::Bracket, int>, 3> brackets{
+        { { { -Infinity, Infinity, count + 1 }, 1 }, { { 3., 4., 10 }, 5 },
+          { { -Infinity, Infinity, 1 }, 5 } }
+      };
       for (const std::size_t rank : { std::size_t(0), count / 100, count / 2, count - 1 })
       {
-        const double found = orderStatistic(
-          rank, [&](const auto& use) { std::for_each(numbers.begin(), numbers.end(), use); });
-        EXPECT_EQ(found, sorted[rank]) << rank << " of " << count;
+        for (const auto& [bracket, mostSweeps] : brackets)
+        {
+          OrderStatisticSearch search(rank, bracket);
+          int sweeps = 0;
+          for (; !search.isFound(); ++sweeps)
+          {
+            for (const double number : numbers)
+            {
+              search.add(number);
+            }
+            search.endSweep();
+          }
+          EXPECT_EQ(search.value(), sorted[rank]) << rank << " of " << count;
+          EXPECT_LE(sweeps, mostSweeps);
+        }
       }
     }
   }
