@@ -101,16 +101,17 @@ private:
 
   void endBracket()
   {
-    isBracketed_ = false;
     if (taken_.size() < bracket_.most && rank_ >= below_ && rank_ - below_ < taken_.size())
     {
       const auto place = taken_.begin() + std::ptrdiff_t(rank_ - below_);
       std::nth_element(taken_.begin(), place, taken_.end());
       value_ = *place;
       isFound_ = true;
+      bracket_.most = 0; // whatever is added now
     }
     else
     {
+      isBracketed_ = false;
       counts_.assign(Bins, 0);
     }
     std::vector<double>().swap(taken_);
