@@ -8,6 +8,7 @@ declare -A pictures=(
   [draw.py]="leap errors hard_scans details growth noise topology normals ensemble first_mesh openings
     orders"
   [draw_charts.py]="steps sweep_moves sweep_growth sweep_noise sweep_fit"
+  [draw_house.py]="rooms"
   [draw_tutorial.sh]="tutorial_scan tutorial_mesh tutorial_window tutorial_colours
     tutorial_distances tutorial_step12 tutorial_step17 tutorial_step23"
   [draw_laboratory.sh]="laboratory_smoothing_rate laboratory_smoothing_rate_meshes
@@ -38,7 +39,7 @@ wanted_of()
 }
 
 wanted=$*
-for maker in draw.py draw_charts.py; do
+for maker in draw.py draw_charts.py draw_house.py; do
   names=$(wanted_of "$maker")
   [ -z "$names" ] || xvfb-run -a /usr/bin/python3 "$folder/$maker" "$folder" $names
 done
