@@ -288,8 +288,9 @@ void vtkNeuralMeshEnsemble::PrepareRun(
   {
     vtkWarningMacro(<< "The members agree on " << std::lround(100.0 * average.agreement)
                     << " % of what they hold only, for the cloud is open, "
-                    << (average.mesh ? "thin or of too few points: the topology is left to chance."
-                                     : "flat or of too few points: learning starts as Start says."));
+                    << (average.mesh
+                           ? "thin or of too few points: the topology is left to chance."
+                           : "flat or of too few points: learning starts as Start says."));
   }
   if (average.mesh)
   {

@@ -62,7 +62,7 @@ struct vtkNeuralMeshRun
   std::optional<neuralmesh::Mesh> FirstMesh;
   const neuralmesh::Executor& Executor;
   std::optional<neuralmesh::Tuning> Tuning; ///< if parameters were chosen
-  double EndOfMesh;                         ///< as a fraction of the run; then arrays are carried over
+  double EndOfMesh; ///< as a fraction of the run; then arrays are carried over
 };
 
 #endif
