@@ -44,7 +44,7 @@ make_meshes()
   for way in "${ways[@]}"; do
     # shellcheck disable=SC2086  # words
     "${run[@]}" "$out/"${way%% *} "${options[@]}" $(case $way in *\ *) echo "${way#* }" ;; esac) \
-      2> /dev/null || echo "failed" > "$out/${way%% *}"
+      2> "$out/errors.txt" || { cat "$out/errors.txt" >&2; return 1; }
   done
   # The first command ends half way, the second one goes on.
   local state=(--checkpoint "$out/state")
@@ -81,6 +81,7 @@ for cloud in "$@"; do
     make_meshes "$before" "$folder/before" "$cloud" "$seed" &
     make_meshes "$after" "$folder/after" "$cloud" "$seed"
     wait $!
+    # Both have made all of them, or the script has ended.
     for mesh in "$folder"/before/*; do
       compared=$((compared + 1))
       if ! cmp -s "$mesh" "$folder/after/$(basename "$mesh")"; then
