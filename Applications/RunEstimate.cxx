@@ -17,7 +17,7 @@ constexpr vtkIdType TriedVertices = 5000;
 
 /// The program without data, and what is held at the peak beyond the input itself.
 constexpr double BytesOfProgram = 52e6;
-constexpr double BytesPerPoint = 98.0;
+constexpr double BytesPerPoint = 42.0;
 constexpr double BytesPerVertex = 400.0;
 
 /// Up to about so many vertices the mesh is in the cache. Each doubling beyond adds this part of

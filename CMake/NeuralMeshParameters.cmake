@@ -1,7 +1,7 @@
 # What follows from the list of parameters, Filters/Parameters.json: headers, XML of the ParaView plugin
 # and the page Documentation/Parameters.md, each from a template, in the build tree where that lies in
 # the sources. They are written anew where the list, a template or a script has changed.
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
+find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
 
 set(scripts "${CMAKE_CURRENT_LIST_DIR}/Parameters")
 execute_process(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPointCloudCollector
- * @brief   all points of a dataset, or of all blocks of a composite one, in one array
+ * @brief   all points of a dataset, or of all blocks of a composite one, as one sequence
  *
  * Internal to the module. Ghost points (duplicates of those of another piece) and blanked points
  * are left out.
@@ -27,7 +27,7 @@ public:
   struct Leaf
   {
     vtkPointSet* PointSet;
-    std::size_t Begin;           ///< in the array of all points
+    std::size_t Begin;           ///< among all points
     std::vector<vtkIdType> Kept; ///< ids in the point set; empty if all were taken
 
     vtkIdType IdOf(std::size_t point) const

@@ -30,7 +30,7 @@ for ((room = 0; room < ${#rooms[@]}; ++room)); do
     failed=1
   fi
 done
-# Fit and start are sisters of learning: they are given the values that they need.
+# Fit and start know nothing of learning: they are given the values that they need.
 forbid 'learn/' Filters/Core/{fit,start}/*.{h,h.in,cpp}
 if [ "$(find Filters/Core -mindepth 1 -type d | wc -l)" -ne ${#rooms[@]} ] ||
   find Filters/Core -maxdepth 1 -name '*.h' -o -maxdepth 1 -name '*.cpp' | grep .; then

@@ -172,7 +172,11 @@ class ParameterList:
         self.parameters = [parameter for group in groups for parameter in group.parameters]
 
     def group(self, key):
-        return next(group for group in self.groups if group.key == key)
+        """A group that a template names."""
+        for group in self.groups:
+            if group.key == key:
+                return group
+        raise ListError(f"there is no group {key!r}, which a template names")
 
     def parameter(self, name):
         return next(parameter for parameter in self.parameters if parameter.name == name)
@@ -273,6 +277,9 @@ class Reader:
             return None
         is_whole = kind == "double" or all(isinstance(end, int) for end in ends)
         self.check(is_whole, place, f"{key} of an {kind} must have whole ends")
+        low, high = ENDS[kind]
+        is_within = (low is None or ends[0] >= low) and (high is None or ends[1] <= high)
+        self.check(is_within, place, f"{key} {pair} is beyond the type {kind}")
         is_right = is_whole and self.check(ends[0] < ends[1], place, f"{key} {pair} is empty")
         return ends if is_right else None
 
@@ -301,6 +308,12 @@ class Reader:
         self.check(entry.get("panel", "shown") == "shown", place, "panel can only be 'shown'")
         self.check(len(entry["short"]) <= LONGEST_SHORT, place, f"short has more than {LONGEST_SHORT} letters")
         self.check(entry["text"].endswith("."), place, "text must end with a full stop")
+        self.check(not re.search(r'["\\|\n]', entry["short"]), place, 'short has a ", \\, | or a new line')
+        details = entry.get("details", "")
+        paragraphs = details if isinstance(details, list) else [details]
+        is_text = all(isinstance(paragraph, str) for paragraph in paragraphs)
+        if self.check(is_text, place, "details must be text, or a list of it"):
+            self.check("*/" not in " ".join([entry["text"], *paragraphs]), place, "*/ ends a comment")
         low, high = ends or (None, None)
         parameter = Parameter(
             entry["name"], entry["type"], choice, entry["default"],
@@ -332,15 +345,30 @@ class Reader:
                 self.check(is_value, parameter.name, f"{match[3]} in {condition!r} is no value of {match[1]}")
 
 
+def keys_once(pairs):
+    """An object of JSON, each key of which is there once."""
+    keys = [key for key, _ in pairs]
+    for key in keys:
+        if keys.count(key) > 1:
+            raise ValueError(f"the key {key!r} is there twice")
+    return dict(pairs)
+
+
+def no_number(word):
+    raise ValueError(f"{word} is no number")
+
+
 def read(path):
     """The list in a file. Raises ListError."""
     reader = Reader()
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        content = json.loads(text, object_pairs_hook=keys_once, parse_constant=no_number)
     except (OSError, ValueError) as error:
         raise ListError(f"{path}: {error}") from error
-    if not isinstance(content, dict) or set(content) != {"choices", "groups"}:
-        raise ListError(f"{path}: there must be choices and groups, and nothing else")
+    is_right = isinstance(content, dict) and set(content) == {"choices", "groups"}
+    if not is_right or not all(isinstance(part, list) for part in content.values()):
+        raise ListError(f"{path}: there must be lists of choices and groups, and nothing else")
     choices = reader.choices(content["choices"])
     # Without all choices the entries that have them would seem wrong, too.
     reader.raise_errors(path)
@@ -352,6 +380,8 @@ def read(path):
             known = [parameter for parameter in parameters if parameter]
             groups.append(Group(entry["key"], entry["title"], entry["panel"], known))
     found = ParameterList(choices, groups)
+    keys = [group.key for group in groups]
+    reader.check(len(set(keys)) == len(keys), "groups", "a key is there twice")
     reader.names([parameter.name for parameter in found.parameters], "parameters")
     # Likewise conditions that name them.
     reader.raise_errors(path)

@@ -46,7 +46,7 @@ void printRow(const PointCloud& cloud, std::size_t vertices, Order order)
   Checkpoint first(plan, cloud, parameters);
   first.resume(state, true);
   learner.learn(1000);
-  const double writing = secondsOf([&] { first.look(state); });
+  const double writing = secondsOf([&] { first.saveIfDue(state); });
   const double reading = secondsOf(
     [&]
     {

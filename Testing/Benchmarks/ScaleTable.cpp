@@ -43,7 +43,7 @@ public:
     , end_(end)
   {
   }
-  void look(double fraction)
+  void measure(double fraction)
   {
     if (fraction >= this->begin_ && fraction < this->end_)
     {
@@ -101,8 +101,8 @@ void printRow(const PointCloud& cloud, std::uint64_t vertices, const Executor& e
     cloud, parameters,
     [&](double fraction)
     {
-      learning.look(fraction);
-      finish.look(fraction);
+      learning.measure(fraction);
+      finish.measure(fraction);
       return true;
     },
     {}, {}, {}, executor);

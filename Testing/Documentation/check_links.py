@@ -18,7 +18,7 @@ from markdown_pages import pages
 from repository_copy import repository_copy
 
 # A path from the root of the repository, in code font.
-FOLDERS = "Applications|CMake|Data|Documentation|Filters|Testing|Utilities|Wrapping"
+FOLDERS = "Applications|CMake|Data|Documentation|Filters|Laboratory|Testing|Utilities|Wrapping"
 NAMED_FILE = re.compile(rf"`((?:{FOLDERS})/[\w./-]+\.\w+)`")
 
 

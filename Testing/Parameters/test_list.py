@@ -95,6 +95,11 @@ class BadLists(ListTest):
             "RemovalLimit: panel can only be 'shown'": {"panel": "hidden"},
             "RemovalLimit: short has more than": {"short": "x" * 100},
             "RemovalLimit: text must end with a full stop": {"text": "Some limit"},
+            "RemovalLimit: short has a \", \\, | or a new line": {"short": "this | that"},
+            "RemovalLimit: details must be text": {"details": [3]},
+            "RemovalLimit: */ ends a comment": {"details": "All */ of it."},
+            "SmoothingIterations: range [0, 3000000000] is beyond": {"NAME": "SmoothingIterations",
+                "range": [0, 3000000000]},
             "RemovalLimit: there is no variant 'Noisy'": {"variants": ["Noisy"]},
             "RemovalLimit: the condition 'Oder is List' names no parameter": {"when": ["Oder is List"]},
             "RemovalLimit: Lost in 'Order is Lost' is no value": {"when": ["Order is Lost"]},
@@ -103,7 +108,8 @@ class BadLists(ListTest):
         }
         for message, change in wrong.items():
             content = copy.deepcopy(GOOD)
-            entry = entry_of(content, "RemovalLimit")
+            change = dict(change)
+            entry = entry_of(content, change.pop("NAME", "RemovalLimit"))
             entry.update(change)
             for key in [key for key, value in change.items() if value is None]:
                 del entry[key]
@@ -134,7 +140,7 @@ class BadLists(ListTest):
     # Promise: a file that is no list is refused, too.
     def test_files(self):
         self.check_refused("{", "Expecting property name")
-        self.check_refused({"choices": []}, "there must be choices and groups")
+        self.check_refused({"choices": []}, "there must be lists of choices and groups")
 
 
 class NewEntries(ListTest):

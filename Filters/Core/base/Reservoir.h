@@ -12,9 +12,9 @@
 
 namespace neuralmesh
 {
-/// Of any number of points that come one by one, so many at most, each with the same chance: Algorithm
-/// R (J. S. Vitter, Random sampling with a reservoir, 1985). Which ones depends on the seed and on
-/// how many came, not on how they were grouped. 24 bytes a point.
+/// Keeps a random part of the points that come one by one: no more than its capacity, and each with the
+/// same chance, by Algorithm R (J. S. Vitter, Random sampling with a reservoir, 1985). Which points it
+/// keeps depends on the seed and on how many came, not on how they were grouped. 24 bytes a point.
 class Reservoir
 {
 public:

@@ -20,7 +20,8 @@ namespace neuralmesh
 /// input are, single precision then resolves 10^-7 of the object), in Morton order.
 ///
 /// Beside the points that it is given it writes and reads 40 bytes a point while it is made, and has
-/// at most 20 of them in memory: what it needs to know of all points is found by going over them again.
+/// 20 of them in memory at most: what it needs to know of all points is found by going over them again.
+/// Origins take 4 more, weights 8. What lies on one spot takes up to 32 more, as it is sorted at once.
 class PointCloud
 {
 public:

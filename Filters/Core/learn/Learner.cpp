@@ -74,7 +74,7 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mes
   : parameters_(parameters)
   , executor_(executor)
   , neuralMesh_(std::move(mesh), std::move(order), cloud.bulkMin(), cloud.bulkMax(),
-      std::size_t(parameters.numberOfVertices))
+      std::size_t(parameters.numberOfVertices), executor)
   , samples_(cloud.points(), parameters.seed, cloud.weights())
   , noiseFilter_(parameters)
   , winGain_(parameters)
@@ -89,7 +89,6 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mes
     samplesAfterGrowth_ = std::uint64_t(parameters.featureSamples *
       double(std::max<std::uint64_t>(parameters.numberOfVertices, neuralMesh_.vertexCount())));
   }
-  compact();
   nextAddition_ = std::uint64_t(parameters_.samplesPerAddition);
   nextRemoval_ = removalInterval();
   if (parameters_.topologyLearning)
@@ -151,7 +150,7 @@ void Learner::learnBatch(std::size_t size)
       grow();
       if (hasAllVertices())
       {
-        break;
+        break; // the rest of the samples was drawn for growth
       }
     }
     else if (!isGrowing && wanders_ && isAdditionDue())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Growth and topology learning: what Learner does now and then.
+// The other half of the algorithm: growth and topology learning.
 #include "learn/Learner.h"
 #include "learn/ListOrder.h"
 #include "mesh/VertexRemoval.h"
@@ -54,6 +54,7 @@ void Learner::begin(Step step) const
   }
 }
 
+/// Every C_vs samples. All counters are up to date, as (9.6) and (9.7) have it: they share one decay.
 void Learner::nodeAddition()
 {
   nextAddition_ +=
@@ -112,6 +113,7 @@ void Learner::wander()
   }
 }
 
+/// C_nr additions; in the basic variant n C_ec samples.
 std::uint64_t Learner::removalInterval() const
 {
   // Growth depends on the ratio of C_ec to C_vs, (6.18): patience is with both.
@@ -203,6 +205,7 @@ void Learner::learnTopology()
   updateDecay();
 }
 
+/// n C_top samples.
 std::uint64_t Learner::topologyInterval() const
 {
   return std::uint64_t(parameters_.topologyPatience * double(neuralMesh_.vertexCount())) + 1;

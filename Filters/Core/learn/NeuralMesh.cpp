@@ -8,6 +8,7 @@
 #include "mesh/VertexRemoval.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace neuralmesh
 {
@@ -34,13 +35,14 @@ constexpr double RoomBeyondAll = 1.03;
 }
 
 NeuralMesh::NeuralMesh(Mesh mesh, std::unique_ptr<ActivityOrder> order, Vector4 boxMin,
-  Vector4 boxMax, std::size_t mostVertices)
+  Vector4 boxMax, std::size_t mostVertices, const Executor& executor)
   : mesh_(std::move(mesh))
   , order_(std::move(order))
   , boxMin_(boxMin)
   , boxMax_(boxMax)
   , mostVertices_(mostVertices)
 {
+  compact(executor);
 }
 
 std::vector<VertexIndex> NeuralMesh::vertices() const
@@ -140,6 +142,7 @@ unsigned NeuralMesh::triangulateAnew(const Ring& polygon, VertexIndex kept)
 
 TopologyLearning::Result NeuralMesh::learnTopology(const TopologyLearning& rules)
 {
+  assert(boundaries_);
   TopologyLearning::Result result = rules.apply(mesh_, *boundaries_);
   erase(result.removedVertices);
   return result;
@@ -147,6 +150,7 @@ TopologyLearning::Result NeuralMesh::learnTopology(const TopologyLearning& rules
 
 TopologyLearning::Result NeuralMesh::removeStar(VertexIndex v, const TopologyLearning& rules)
 {
+  assert(boundaries_);
   TopologyLearning::Result result = rules.removeStar(mesh_, *boundaries_, v);
   erase(result.removedVertices);
   return result;

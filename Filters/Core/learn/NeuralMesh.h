@@ -32,10 +32,10 @@ class Archive;
 class NeuralMesh
 {
 public:
-  /// `order` holds the vertices of `mesh`. Memory is taken for growth to `mostVertices`. A searches
-  /// fastest in the box, which need not hold all vertices.
+  /// `order` holds the vertices of `mesh`, which are compacted. Memory is taken for growth to
+  /// `mostVertices`. A searches fastest in the box, which need not hold all vertices.
   NeuralMesh(Mesh mesh, std::unique_ptr<ActivityOrder> order, Vector4 boxMin, Vector4 boxMax,
-    std::size_t mostVertices);
+    std::size_t mostVertices, const Executor& executor = Executor::sequential());
 
   const Mesh& mesh() const { return mesh_; }
   const ActivityOrder& order() const { return *order_; }
@@ -110,7 +110,7 @@ public:
 
   // Topology learning (Algorithm 2)
 
-  /// From now on boundaries are known, as topology learning wants them.
+  /// From now on boundaries are known, as the two calls below must have it.
   void traceBoundaries() { boundaries_.emplace(mesh_); }
   /// Removes large triangles, and merges and fills boundaries.
   TopologyLearning::Result learnTopology(const TopologyLearning& rules);
@@ -134,6 +134,7 @@ public:
     {
       mesh_.setPosition(v, move(mesh_.position(v)));
     }
+    makeGrid();
   }
   void setMostVertices(std::size_t count) { mostVertices_ = count; }
   /// Lets the indices of erased vertices be used again.

@@ -68,7 +68,7 @@ TEST(NeuralMesh, AllAgreeAfterEachCall)
   {
     Random random(seed);
     NeuralMesh mesh = tetrahedron();
-    mesh.compact(Executor::sequential());
+    ASSERT_EQ(disagreementIn(mesh, random), "");
     mesh.traceBoundaries();
     Parameters parameters;
     parameters.triangleRemovalFactor = 2.;
@@ -167,7 +167,6 @@ TEST(NeuralMesh, PropertiesFollow)
 {
   NeuralMesh mesh = tetrahedron();
   const VertexProperty<double> x = mesh.addProperty(0., OnSplit::Copy);
-  mesh.compact(Executor::sequential());
   for (const VertexIndex v : mesh.vertices())
   {
     mesh.values(x)[v] = mesh.mesh().position(v)[0];
@@ -182,5 +181,15 @@ TEST(NeuralMesh, PropertiesFollow)
   {
     EXPECT_EQ(mesh.values(x)[v], mesh.mesh().position(v)[0]);
   }
+}
+
+// All vertices move with a map of the space, and are found where they are then.
+TEST(NeuralMesh, AllMove)
+{
+  Random random(5);
+  NeuralMesh mesh = tetrahedron();
+  mesh.moveAll(Vector4(-3.f, -3.f, -3.f), Vector4(3.f, 3.f, 3.f),
+    [](Vector4 position) { return 3.f * position + Vector4(0.5f, 0.f, 0.f); });
+  EXPECT_EQ(disagreementIn(mesh, random), "");
 }
 }
