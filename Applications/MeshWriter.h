@@ -2,19 +2,31 @@
 #ifndef MeshWriter_h
 #define MeshWriter_h
 
+#include "MeshShift.h"
+
+#include "vtkType.h"
+
 #include <string>
 
+class vtkPointSet;
 class vtkPolyData;
 
 /** Throws std::runtime_error if WriteMesh() would not know the extension: to be asked early. */
 void RequireWritableExtension(const std::string& path);
 
 /**
- * Writes a mesh, by the extension: .vtp .ply .obj .stl. A .vtp keeps all data, a .ply the active
- * scalars if they are colours (unsigned char, 3 or 4 components). Whole or not at all, as
- * neuralmesh::writeAtomicFile().
+ * Throws std::runtime_error, with a message that names the file, if its format cannot hold the digits
+ * of a mesh of so many vertices from these points: to be asked early.
+ */
+void RequireWritableDigits(vtkPointSet* points, vtkIdType numberOfVertices, const MeshShift& shift,
+  const std::string& path);
+
+/**
+ * Writes a mesh, by the extension, as vtkNeuralMeshWriter: .vtp .ply .obj .stl. Whole or not at all.
+ * Returns what was taken off the coordinates.
  * Throws std::runtime_error, with a message that names the file, on failure.
  */
-void WriteMesh(vtkPolyData* mesh, const std::string& path);
+std::array<double, 3> WriteMesh(
+  vtkPolyData* mesh, const std::string& path, const MeshShift& shift = {});
 
 #endif

@@ -7,21 +7,25 @@
 #include "ReadingGuard.h"
 #include "SoundCells.h"
 
+#include "vtkNeuralMeshPLYReader.h"
+#include "vtkNeuralMeshWriter.h"
+
 #include "vtkGenericDataObjectReader.h"
 #include "vtkNew.h"
 #include "vtkOBJReader.h"
 #include "vtkOutputWindow.h"
-#include "vtkPLYReader.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkSTLReader.h"
 #include "vtkXMLPolyDataReader.h"
 #include "vtkXMLUnstructuredGridReader.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <stdexcept>
 
@@ -73,7 +77,29 @@ vtkSmartPointer<vtkPointSet> ReadWith(const std::string& path)
   return points;
 }
 
-/** VTK takes a binary .stl that ends too soon for a shorter one. */
+/** Throws std::runtime_error unless `end` stands in the last bytes of a file. */
+void RequireEnd(const std::string& path, const std::string& end)
+{
+  constexpr std::streamoff bytes = 1024;
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  file.seekg(std::max<std::streamoff>(size - bytes, 0));
+  const std::string last(std::istreambuf_iterator<char>(file), {});
+  if (last.find(end) == std::string::npos)
+  {
+    throw std::runtime_error(path + ": damaged: it ends before its " + end);
+  }
+}
+
+/** Not all versions of VTK notice that data which is appended ends too soon. */
+template <typename ReaderT>
+vtkSmartPointer<vtkPointSet> ReadXML(const std::string& path)
+{
+  RequireEnd(path, "</VTKFile>");
+  return ReadWith<ReaderT>(path);
+}
+
+/** VTK takes an .stl that ends too soon for a shorter one. */
 vtkSmartPointer<vtkPointSet> ReadSTL(const std::string& path)
 {
   constexpr std::size_t titleSize = 80, headerSize = 84, triangleSize = 50;
@@ -91,6 +117,10 @@ vtkSmartPointer<vtkPointSet> ReadSTL(const std::string& path)
   {
     throw std::runtime_error(path + ": damaged: it ends before its last triangle");
   }
+  if (isText)
+  {
+    RequireEnd(path, "endsolid");
+  }
   return ReadWith<vtkSTLReader>(path);
 }
 
@@ -99,10 +129,10 @@ using Read = std::function<vtkSmartPointer<vtkPointSet>(const std::string&)>;
 const std::map<std::string, Read>& Readers()
 {
   static const std::map<std::string, Read> readers{
-    { ".ply", ReadWith<vtkPLYReader> },
-    { ".vtp", ReadWith<vtkXMLPolyDataReader> },
+    { ".ply", ReadWith<vtkNeuralMeshPLYReader> },
+    { ".vtp", ReadXML<vtkXMLPolyDataReader> },
     { ".vtk", ReadWith<vtkGenericDataObjectReader> },
-    { ".vtu", ReadWith<vtkXMLUnstructuredGridReader> },
+    { ".vtu", ReadXML<vtkXMLUnstructuredGridReader> },
     { ".obj", ReadWith<vtkOBJReader> },
     { ".stl", ReadSTL },
     { ".xyz", ReadPointText },
@@ -146,5 +176,7 @@ vtkSmartPointer<vtkPointSet> ReadPoints(const std::string& path)
       ": unknown extension; readable are .ply .vtp .vtk .vtu .obj "
       ".stl .xyz .pts .txt .csv");
   }
-  return reader->second(path);
+  auto points = reader->second(path);
+  vtkNeuralMeshWriter::UndoShift(path.c_str(), points);
+  return points;
 }

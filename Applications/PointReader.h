@@ -10,8 +10,9 @@ class vtkPointSet;
 
 /**
  * Reads a file that holds points, by its extension: .ply .vtp .vtk .vtu .obj .stl, and as text .xyz
- * .pts .txt .csv. Throws std::runtime_error, with a message that names the file, if it cannot be
- * read or is of another kind.
+ * .pts .txt .csv. A .ply has all digits of its coordinates (vtkNeuralMeshPLYReader), and what was
+ * written with a shift lies where it lay before (vtkNeuralMeshWriter). Throws std::runtime_error, with
+ * a message that names the file, if it cannot be read, is of another kind, or ends early.
  */
 vtkSmartPointer<vtkPointSet> ReadPoints(const std::string& path);
 

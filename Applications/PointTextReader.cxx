@@ -49,6 +49,22 @@ bool IsComment(std::string_view word)
 {
   return word.empty() || word.front() == '#' || word.starts_with("//");
 }
+
+std::size_t WordsBeforeComment(std::string_view line)
+{
+  std::size_t words = 0;
+  while (!IsComment(TakeWord(line)))
+  {
+    ++words;
+  }
+  return words;
+}
+
+/** The error that a line is not as it should be. */
+std::runtime_error ErrorIn(const std::string& path, std::size_t lineNumber, const std::string& what)
+{
+  return std::runtime_error(path + ", line " + std::to_string(lineNumber) + ": " + what);
+}
 }
 
 vtkSmartPointer<vtkPolyData> ReadPointText(const std::string& path)
@@ -60,11 +76,11 @@ vtkSmartPointer<vtkPolyData> ReadPointText(const std::string& path)
   }
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  std::string text;
+  std::string text, lastPoint;
   std::size_t lineNumber = 0;
-  while (std::getline(file, text))
+  double announced = 0.0;
+  for (; std::getline(file, text); ++lineNumber)
   {
-    ++lineNumber;
     std::string_view line = text;
     const std::string_view first = TakeWord(line);
     if (IsComment(first))
@@ -77,7 +93,12 @@ vtkSmartPointer<vtkPolyData> ReadPointText(const std::string& path)
     if (ParseNumber(first, point[0]) && ParseNumber(second, point[1]) &&
       ParseNumber(third, point[2]))
     {
+      if (file.eof() && WordsBeforeComment(text) < WordsBeforeComment(lastPoint))
+      {
+        throw ErrorIn(path, lineNumber + 1, "the file ends in the middle of it");
+      }
       points->InsertNextPoint(point.data());
+      lastPoint.swap(text);
       continue;
     }
     double number = 0.0;
@@ -85,15 +106,17 @@ vtkSmartPointer<vtkPolyData> ReadPointText(const std::string& path)
     const bool isNames = !ParseNumber(first, number) && !third.empty();
     if (points->GetNumberOfPoints() > 0 || !(isCount || isNames))
     {
-      std::string message = path;
-      message.append(", line ").append(std::to_string(lineNumber));
-      message.append(": this is not a point: ").append(OneLine(text));
-      throw std::runtime_error(message);
+      throw ErrorIn(path, lineNumber + 1, "this is not a point: " + OneLine(text));
     }
+    announced = isCount ? number : announced;
   }
   if (file.bad())
   {
     throw std::runtime_error(path + ": reading failed");
+  }
+  if (static_cast<double>(points->GetNumberOfPoints()) < announced)
+  {
+    throw std::runtime_error(path + ": damaged: it ends before its last point");
   }
   auto polyData = vtkSmartPointer<vtkPolyData>::New();
   polyData->SetPoints(points);

@@ -14,7 +14,9 @@ class vtkPolyData;
  * and those that begin with # or // are skipped; so are a line of column names and a line with
  * nothing but a count (.pts) before the first point. `nan` and `inf` are numbers.
  * VTK's own readers of such files take only lines of exactly three numbers.
- * Throws std::runtime_error, with the number of the line, if a line is no point.
+ * Throws std::runtime_error, with the number of the line, if a line is no point, or the file ends
+ * without an end of line in one that has fewer words than the line before; and if there are fewer
+ * points than the count says.
  */
 vtkSmartPointer<vtkPolyData> ReadPointText(const std::string& path);
 

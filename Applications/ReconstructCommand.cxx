@@ -7,6 +7,7 @@
 #include "Interruption.h"
 #include "LearningParameters.h"
 #include "MeshReader.h"
+#include "MeshShift.h"
 #include "MeshWriter.h"
 #include "PointReader.h"
 #include "ProgressBar.h"
@@ -63,6 +64,7 @@ struct ReconstructOptions
   int Members = 0; ///< of an ensemble; 0 for none
   std::string Jump;
   std::string Weights;
+  std::string Shift;
   bool Features = false;
   bool Automatic = false;
   int Preset = vtkNeuralMesh::DEFAULT;
@@ -399,6 +401,7 @@ int Reconstruct(const ReconstructOptions& options)
   const vtkSmartPointer<vtkNeuralMesh> filter = MakeFilter(options);
   PrepareFilter(filter, options);
   RequireWritableExtension(options.Output);
+  const MeshShift shift = ParseShift(options.Shift);
   if (options.Features && FileExtension(options.Output) != ".vtp")
   {
     throw UsageError("--features: " + options.Output + " must be a .vtp; no other format keeps it");
@@ -421,6 +424,7 @@ int Reconstruct(const ReconstructOptions& options)
   {
     filter->SetFirstMeshData(ReadMesh(options.Initial));
   }
+  RequireWritableDigits(points, options.Vertices, shift, options.Output);
   const double reading = stopwatch.Lap();
   if (options.DryRun)
   {
@@ -436,7 +440,7 @@ int Reconstruct(const ReconstructOptions& options)
   const double learning = stopwatch.Lap();
 
   vtkPolyData* mesh = filter->GetOutput();
-  WriteMesh(mesh, options.Output);
+  const auto stored = WriteMesh(mesh, options.Output, shift);
   if (!options.Statistics.empty())
   {
     WriteTable(filter->GetLearningCurve(), options.Statistics);
@@ -456,6 +460,10 @@ int Reconstruct(const ReconstructOptions& options)
     std::printf("triangles  %lld\n", static_cast<long long>(mesh->GetNumberOfPolys()));
     std::printf(
       "samples    %lld, ended by: %s\n", FieldValue(mesh, "Iterations"), filter->GetStopReason());
+    if (!options.Shift.empty())
+    {
+      PrintShift(stored, options.Output);
+    }
     PrintCheckpoint(filter);
     PrintPhases(filter, sampler);
     std::printf("time       %.2f s (reading %.2f, learning %.2f, writing %.2f)\n",
@@ -524,6 +532,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   AddChoice(command, "--topology", options->Topology, { { "off", 0 }, { "on", 1 } },
     "on: learn handles and openings (default with --ensemble); off (default without): the surface "
     "keeps the topology of its start");
+  AddShiftOption(command, options->Shift);
   AddChoice(command, "--boundaries", options->Boundaries,
     { { "keep", vtkNeuralMesh::KEEP }, { "close", vtkNeuralMesh::CLOSE } },
     "Gaps in the scan; keep (default): the mesh ends where the data ends; close: it is watertight");

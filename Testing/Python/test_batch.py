@@ -63,7 +63,7 @@ class Example(BatchTest):
 
         failed = self.report("broken_vertices-200_seed-1")
         self.assertEqual(failed["status"], "failed")
-        self.assertIn("nd of file", failed["error"])
+        self.assertIn("ends before its last vertex", failed["error"])
         self.assertNotIn("result", failed)
 
     # Promise: the summary has a row for each job, with its parameters, figures and its error.

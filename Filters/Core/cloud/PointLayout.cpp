@@ -1,177 +1,52 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/PointLayout.h"
 
+#include "cloud/PlyHeader.h"
+
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace neuralmesh
 {
 namespace
 {
-using Words = std::vector<std::string_view>;
-
-Words wordsOf(std::string_view line)
-{
-  constexpr std::string_view blanks = " \t\r";
-  Words words;
-  for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;)
-  {
-    const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(blanks, end);
-  }
-  return words;
-}
-
-std::uint64_t numberOf(std::string_view text)
-{
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size())
-  {
-    throw std::runtime_error(
-      "damaged: '" + std::string(text) + "' is no number of bytes or points");
-  }
-  return number;
-}
-
-/// The sum of `offset` and `count` times `size`.
-std::uint64_t behind(std::uint64_t offset, std::uint64_t count, std::uint64_t size)
-{
-  std::uint64_t bytes = 0, sum = 0;
-  if (__builtin_mul_overflow(count, size, &bytes) || __builtin_add_overflow(offset, bytes, &sum))
-  {
-    throw std::runtime_error("damaged: it claims more bytes than any file has");
-  }
-  return sum;
-}
-
-// --- PLY -----------------------------------------------------------------------------------------
-
-std::uint64_t plySize(std::string_view type)
-{
-  static const std::map<std::string_view, std::uint64_t> sizes{ { "char", 1 }, { "uchar", 1 },
-    { "int8", 1 }, { "uint8", 1 }, { "short", 2 }, { "ushort", 2 }, { "int16", 2 }, { "uint16", 2 },
-    { "int", 4 }, { "uint", 4 }, { "int32", 4 }, { "uint32", 4 }, { "float", 4 }, { "float32", 4 },
-    { "double", 8 }, { "float64", 8 } };
-  const auto size = sizes.find(type);
-  if (size == sizes.end())
-  {
-    throw std::runtime_error("damaged: there is no type " + std::string(type));
-  }
-  return size->second;
-}
-
-struct PlyElement
-{
-  struct Property
-  {
-    std::string_view type;
-    std::uint64_t place;
-  };
-
-  std::string_view name;
-  std::uint64_t count = 0;
-  std::uint64_t size = 0; ///< of a record
-  bool hasList = false;
-  std::map<std::string_view, Property> properties;
-};
-
-void addProperty(PlyElement& element, const Words& words)
-{
-  if (words.size() > 1 && words[1] == "list")
-  {
-    element.hasList = true;
-    return;
-  }
-  if (words.size() != 3)
-  {
-    throw std::runtime_error("damaged: a property has no type or no name");
-  }
-  element.properties[words[2]] = { words[1], element.size };
-  element.size += plySize(words[1]);
-}
-
-/// Up to and with that of the vertices. Reads the format, too.
-std::vector<PlyElement> plyElements(std::string_view header, PointLayout& layout)
-{
-  std::vector<PlyElement> elements;
-  bool hasFormat = false;
-  while (!header.empty())
-  {
-    const std::size_t end = std::min(header.find('\n'), header.size());
-    const Words words = wordsOf(header.substr(0, end));
-    header.remove_prefix(std::min(end + 1, header.size()));
-    if (words.empty())
-    {
-      continue;
-    }
-    if (words[0] == "format" && words.size() > 1)
-    {
-      if (words[1] != "binary_little_endian" && words[1] != "binary_big_endian")
-      {
-        throw std::runtime_error("its points are text; only binary ones can be sampled in place");
-      }
-      hasFormat = true;
-      layout.isBigEndian = words[1] == "binary_big_endian";
-    }
-    else if (words[0] == "element" && words.size() == 3)
-    {
-      elements.push_back({ words[1], numberOf(words[2]), 0, false, {} });
-    }
-    else if (words[0] == "property" && !elements.empty())
-    {
-      addProperty(elements.back(), words);
-    }
-  }
-  if (!hasFormat)
-  {
-    throw std::runtime_error("damaged: the header names no format");
-  }
-  return elements;
-}
-
 PointLayout layoutOfVertices(const PlyElement& vertices, PointLayout layout)
 {
-  if (vertices.hasList)
+  if (vertices.hasList())
   {
     throw std::runtime_error("its vertices have lists: such cannot be sampled in place");
   }
-  layout.stride = vertices.size;
+  layout.stride = vertices.size();
   layout.count = vertices.count;
-  const std::array<std::string_view, 3> names{ "x", "y", "z" };
+  const std::array<const char*, 3> names{ "x", "y", "z" };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const auto property = vertices.properties.find(names[axis]);
-    if (property == vertices.properties.end())
+    const PlyProperty* property = vertices.find(names[axis]);
+    if (!property)
     {
       throw std::runtime_error("its vertices have no " + std::string(names[axis]));
     }
-    const auto& [type, place] = property->second;
-    const bool isDouble = plySize(type) == 8;
-    const bool isReal = isDouble || type == "float" || type == "float32";
-    if (!isReal || (axis > 0 && isDouble != layout.isDouble))
+    const bool isDouble = property->type.size == 8;
+    if (!property->type.isReal() || (axis > 0 && isDouble != layout.isDouble))
     {
       throw std::runtime_error("its coordinates are not all floats, nor all doubles");
     }
     layout.isDouble = isDouble;
-    layout.coordinates[axis] = place;
+    layout.coordinates[axis] = vertices.placeOf(*property);
   }
-  const auto red = vertices.properties.find("red");
-  const auto isByteAt = [&](std::string_view name, std::uint64_t place)
+  const PlyProperty* red = vertices.find("red");
+  const auto isByteBehindRed = [&](std::string_view name, std::uint64_t bytes)
   {
-    const auto property = vertices.properties.find(name);
-    return property != vertices.properties.end() && property->second.place == place &&
-      (property->second.type == "uchar" || property->second.type == "uint8");
+    const PlyProperty* property = vertices.find(name);
+    return red && property && property->type.size == 1 &&
+      property->type.kind == PlyType::Kind::Unsigned &&
+      vertices.placeOf(*property) == vertices.placeOf(*red) + bytes;
   };
-  if (red != vertices.properties.end() && isByteAt("red", red->second.place) &&
-    isByteAt("green", red->second.place + 1) && isByteAt("blue", red->second.place + 2))
+  if (isByteBehindRed("red", 0) && isByteBehindRed("green", 1) && isByteBehindRed("blue", 2))
   {
-    layout.color = red->second.place;
+    layout.color = vertices.placeOf(*red);
   }
   return layout;
 }
@@ -272,37 +147,31 @@ void readArrayTag(const Tag& tag, PointLayout& layout)
     throw std::runtime_error("its points are not three floats or doubles");
   }
   layout.isDouble = tag["type"] == "Float64";
-  layout.offset = numberOf(tag["offset"]);
+  layout.offset = countOf(tag["offset"]);
 }
 }
 
 PointLayout layoutOfPly(std::string_view beginning)
 {
-  constexpr std::string_view lastLine = "\nend_header";
-  if (!beginning.starts_with("ply\n") && !beginning.starts_with("ply\r\n"))
+  const PlyHeader header = readPlyHeader(beginning);
+  if (header.isText)
   {
-    throw std::runtime_error("this is no .ply with lines as they should be");
-  }
-  const std::size_t end = beginning.find(lastLine);
-  const std::size_t begin =
-    end == std::string_view::npos ? end : beginning.find('\n', end + lastLine.size());
-  if (begin == std::string_view::npos)
-  {
-    throw std::runtime_error("damaged: its header does not end");
+    throw std::runtime_error("its points are text; only binary ones can be sampled in place");
   }
   PointLayout layout;
-  layout.offset = begin + 1;
-  for (const PlyElement& element : plyElements(beginning.substr(0, end), layout))
+  layout.isBigEndian = header.isBigEndian;
+  layout.offset = header.size;
+  for (const PlyElement& element : header.elements)
   {
     if (element.name == "vertex")
     {
       return layoutOfVertices(element, layout);
     }
-    if (element.hasList && element.count > 0)
+    if (element.hasList() && element.count > 0)
     {
       throw std::runtime_error("lists stand before its vertices: such cannot be sampled in place");
     }
-    layout.offset = behind(layout.offset, element.count, element.size);
+    layout.offset = behind(layout.offset, element.count, element.size());
   }
   throw std::runtime_error("there are no vertices in it");
 }
@@ -325,7 +194,7 @@ PointLayout layoutOfVtp(std::string_view beginning)
       {
         throw std::runtime_error("its points are in several pieces");
       }
-      layout.count = numberOf((*tag)["NumberOfPoints"]);
+      layout.count = countOf((*tag)["NumberOfPoints"]);
     }
     else if (tag->name == "Points" || tag->name == "/Points")
     {

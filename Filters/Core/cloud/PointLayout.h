@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "cloud/PlyHeader.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -26,9 +28,6 @@ struct PointLayout
 
   std::uint64_t coordinateSize() const { return isDouble ? 8 : 4; }
 };
-
-/// Bytes of a file in which its header must end.
-constexpr std::size_t LongestHeader = std::size_t(1) << 20;
 
 /// What the header of a .ply says, given the beginning of the file, up to LongestHeader bytes of it.
 /// The points must be binary, of either byte order. Throws std::runtime_error, without the name of

@@ -32,6 +32,8 @@ scans    files of points, relative to the recipe, with wildcards or without:
 matrix   parameters of neuralmesh.reconstruct(), except progress; a list holds the values to try,
          and all lists are crossed; first_mesh is a path, relative to the recipe
 format   of the meshes: vtp (default), ply, obj or stl
+shift    what is taken off their coordinates, and noted in them: [X, Y, Z], or "auto" for a round
+         vector where they are too large for floats (default: none)
 time_limit
          seconds after which a job is ended, and has failed (default: none); in the matrix it is
          another one, which ends learning and keeps the mesh

@@ -17,7 +17,7 @@ from typing import Any
 
 from .._execution import execute
 from .._reconstruct import make_filter, result_of, set_input
-from .meshes import read_mesh, read_points, write_mesh
+from .meshes import read_mesh, read_points, require_digits, write_mesh
 from .report import (
     PHASES,
     SECONDS,
@@ -34,7 +34,8 @@ from .atomic_file import write_json
 def main() -> None:
     content = json.load(sys.stdin)
     first_mesh = content["first_mesh"] and Path(content["first_mesh"])
-    job = Job(content["name"], Path(content["scan"]), content["parameters"], first_mesh)
+    scan, parameters = Path(content["scan"]), content["parameters"]
+    job = Job(content["name"], scan, parameters, first_mesh, content["shift"])
     try:
         run(job, Path(content["folder"]), content["format"])
     except Exception as error:  # whatever it is: it goes into the report
@@ -60,11 +61,12 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
         set_input(mesh_filter, points, weights)
         if first_mesh is not None:
             mesh_filter.SetFirstMeshData(first_mesh)
+        path = result_path(folder, job.name, mesh_format)
+        require_digits(points, mesh_filter.GetNumberOfVertices(), path, job.shift)
         execute(mesh_filter, _end_with(os.getppid()))
         mesh = result_of(mesh_filter)
     times.append(time.perf_counter())
-    path = result_path(folder, job.name, mesh_format)
-    write_mesh(mesh, path)
+    shift = write_mesh(mesh, path, job.shift)
     times.append(time.perf_counter())
     seconds = (round(after - before, 4) for before, after in zip(times, times[1:]))
     report: dict[str, Any] = {
@@ -77,6 +79,7 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
             "points": points.GetNumberOfPoints(),
             "vertices": mesh.GetNumberOfPoints(),
             "triangles": mesh.GetNumberOfPolys(),
+            **({} if job.shift is None else {"shift": shift}),
         },
         "seconds": dict(zip(SECONDS, seconds)),
         "phases": {

@@ -8,17 +8,13 @@ from pathlib import Path
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPointSet, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData
-from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkOBJWriter, vtkSTLReader, vtkSTLWriter
+from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOLegacy import vtkGenericDataObjectReader
-from vtkmodules.vtkIOPLY import vtkPLYReader, vtkPLYWriter
-from vtkmodules.vtkIOXML import (
-    vtkXMLPolyDataReader,
-    vtkXMLPolyDataWriter,
-    vtkXMLUnstructuredGridReader,
-)
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
-from .._execution import execute
+from .._execution import execute, observed_call
 from .._points import as_dataset
+from ..vtkFiltersNeuralMesh import vtkNeuralMeshPLYReader, vtkNeuralMeshWriter
 from .atomic_file import atomic_file
 
 
@@ -37,14 +33,14 @@ def read_points(path: Path) -> vtkPointSet:
     if extension not in _READERS:
         readable = " ".join((*_READERS, *_TEXT))
         raise ValueError(f"unknown extension; readable are {readable}")
-    if extension == ".stl":
-        _require_whole_stl(path)
+    _require_end(path, extension)
     reader = _READERS[extension]()
     reader.SetFileName(str(path))
     execute(reader)
     points = reader.GetOutputDataObject(0)
     if not isinstance(points, vtkPointSet):
         raise ValueError("this holds no point set")
+    vtkNeuralMeshWriter.UndoShift(str(path), points)
     return points
 
 
@@ -78,15 +74,37 @@ def _merge_equal_points(mesh: vtkPolyData) -> vtkPolyData:
     return clean.GetOutput()
 
 
-def write_mesh(mesh: vtkPolyData, path: Path) -> None:
-    """Write a mesh, whole or not at all, in the format that the extension tells."""
+def mesh_writer(path: Path, shift: object = None) -> vtkNeuralMeshWriter:
+    """A writer of the format that the extension tells; shift is None, "auto" or three numbers."""
+    writer = vtkNeuralMeshWriter()
+    writer.SetFileName(str(path))
+    writer.SetAutomaticShift(shift == "auto")
+    if shift not in (None, "auto"):
+        writer.SetShift(*shift)
+    return writer
+
+
+def require_digits(points: vtkPointSet, vertices: int, path: Path, shift: object = None) -> None:
+    """Raise ValueError if the format cannot hold the digits of a mesh of these points."""
+    writer = mesh_writer(path, shift)
+    observed_call(writer, None, writer.CheckCoordinates, points, vertices)
+
+
+def write_mesh(mesh: vtkPolyData, path: Path, shift: object = None) -> list[float]:
+    """Write a mesh, whole or not at all; what was taken off the coordinates.
+
+    The format is that of the extension; shift is None, "auto" or three numbers.
+    """
     with atomic_file(path) as temporary:
-        WRITERS[path.suffix[1:]](mesh, temporary)
+        writer = mesh_writer(temporary, shift)
+        writer.SetInputData(mesh)
+        execute(writer)
+    return list(writer.GetStoredShift())
 
 
 _TEXT = (".xyz", ".pts", ".txt", ".csv")
 _READERS = {
-    ".ply": vtkPLYReader,
+    ".ply": vtkNeuralMeshPLYReader,
     ".vtp": vtkXMLPolyDataReader,
     ".vtk": vtkGenericDataObjectReader,
     ".vtu": vtkXMLUnstructuredGridReader,
@@ -97,7 +115,7 @@ _READERS = {
 
 def _read_text(path: Path) -> np.ndarray:
     """The first three numbers of each line, between blanks, commas or semicolons."""
-    delimiter, skipped = None, 0
+    delimiter, skipped, announced = None, 0, 0.0
     with open(path, encoding="utf-8", errors="replace") as file:
         for line in file:
             words = line.replace(",", " ").replace(";", " ").split()
@@ -105,10 +123,12 @@ def _read_text(path: Path) -> np.ndarray:
                 delimiter = next((sign for sign in ",;" if sign in line), None)
                 break
             # Names of columns, or a count of points, or a comment.
+            announced = float(words[0]) if len(words) == 1 and _is_number(words[0]) else announced
             skipped += 1
         else:
             raise ValueError("there are no points in it")
-    return np.loadtxt(
+    _require_whole_last_line(path)
+    points = np.loadtxt(
         path,
         comments=["#", "//"],
         delimiter=delimiter,
@@ -117,6 +137,20 @@ def _read_text(path: Path) -> np.ndarray:
         ndmin=2,
         encoding="utf-8",
     )
+    if len(points) < announced:
+        raise ValueError("damaged: it ends before its last point")
+    return points
+
+
+def _require_whole_last_line(path: Path) -> None:
+    """Raise ValueError if the file has no end of line, and fewer words in its last than before."""
+    with open(path, "rb") as file:
+        file.seek(max(file.seek(0, 2) - 4096, 0))
+        lines = [line.split(b"#")[0].split(b"//")[0] for line in file.read().split(b"\n")]
+    counts = [len(line.replace(b",", b" ").replace(b";", b" ").split()) for line in lines]
+    before = next((count for count in reversed(counts[:-1]) if count > 0), 0)
+    if 0 < counts[-1] < before:
+        raise ValueError("damaged: it ends in the middle of a line")
 
 
 def _is_number(word: str) -> bool:
@@ -127,57 +161,25 @@ def _is_number(word: str) -> bool:
     return True
 
 
-def _require_whole_stl(path: Path) -> None:
-    """VTK takes a binary .stl that ends too soon for a shorter one."""
+def _require_end(path: Path, extension: str) -> None:
+    """Raise ValueError if the file ends early; of .ply its reader knows. VTK takes an .stl that ends
+    too soon for a shorter one, and not all versions of it notice that data which is appended does.
+    """
     with open(path, "rb") as file:
         header = file.read(84)
-    triangles = int.from_bytes(header[80:], "little")
-    if b"\0" in header and path.stat().st_size < 84 + 50 * triangles:
-        raise ValueError("damaged: it ends before its last triangle")
+        size = file.seek(0, 2)
+        file.seek(max(size - 1024, 0))
+        end = file.read()
+    is_binary = b"\0" in header
+    if extension == ".stl" and is_binary:
+        if size < 84 + 50 * int.from_bytes(header[80:], "little"):
+            raise ValueError("damaged: it ends before its last triangle")
+    elif extension in _ENDS and _ENDS[extension] not in end:
+        raise ValueError(f"damaged: it ends before its {_ENDS[extension].decode()}")
 
 
-def _write_vtp(mesh: vtkPolyData, path: Path) -> None:
-    # By way of a string, as VTK 9.2 crashes if the disk is full. Data in the elements, not appended
-    # behind them, of which VTK 9.2 reads little with newer versions of expat.
-    writer = vtkXMLPolyDataWriter()
-    writer.SetDataModeToBinary()
-    writer.WriteToOutputStringOn()
-    writer.SetInputData(mesh)
-    execute(writer)
-    path.write_text(writer.GetOutputString(), encoding="utf-8")
-
-
-def _write_ply(mesh: vtkPolyData, path: Path) -> None:
-    writer = vtkPLYWriter()
-    colors = colors_of(mesh)
-    if colors is not None:
-        writer.SetArrayName(colors.GetName())
-        writer.SetEnableAlpha(colors.GetNumberOfComponents() == 4)
-    _write(writer, vtkPLYReader(), mesh, path)
-
-
-def _write_obj(mesh: vtkPolyData, path: Path) -> None:
-    _write(vtkOBJWriter(), vtkOBJReader(), mesh, path)
-
-
-def _write_stl(mesh: vtkPolyData, path: Path) -> None:
-    writer = vtkSTLWriter()
-    writer.SetFileTypeToBinary()
-    _write(writer, vtkSTLReader(), mesh, path)
-
-
-def _write(writer, reader, mesh: vtkPolyData, path: Path) -> None:
-    """Write, and read again: these writers do not notice that a disk is full."""
-    for algorithm in (writer, reader):
-        algorithm.SetFileName(str(path))
-    writer.SetInputData(mesh)
-    execute(writer)
-    execute(reader)
-    if reader.GetOutput().GetNumberOfPolys() != mesh.GetNumberOfPolys():
-        raise OSError("not all of the mesh could be written; is the disk full?")
-
-
-WRITERS = {"vtp": _write_vtp, "ply": _write_ply, "obj": _write_obj, "stl": _write_stl}
+_ENDS = {".vtp": b"</VTKFile>", ".vtu": b"</VTKFile>", ".stl": b"endsolid"}
+FORMATS = ("vtp", "ply", "obj", "stl")
 
 
 def colors_of(mesh: vtkPolyData):

@@ -17,9 +17,9 @@ from typing import Any
 from .._execution import check_parameters
 from .._parameters import hint
 from .._reconstruct import ENSEMBLE_PARAMETERS, PARAMETERS, make_filter, require_one_start
-from .meshes import WRITERS
+from .meshes import FORMATS
 
-KEYS = ("scans", "matrix", "format", "time_limit", "gallery", "view")
+KEYS = ("scans", "matrix", "format", "shift", "time_limit", "gallery", "view")
 VIEW = {"up": "y", "azimuth": 30.0, "elevation": 15.0}
 
 _SIGNATURE = inspect.signature(make_filter).parameters.values()
@@ -37,13 +37,15 @@ class RecipeError(ValueError):
 class Job:
     """One scan and one set of parameters. The name is that of its files, unique in the recipe.
 
-    first_mesh is where the mesh lies that the parameter of that name means, if any does.
+    first_mesh is where the mesh lies that the parameter of that name means, if any does; shift is
+    what is taken off the coordinates of the mesh: "auto", three numbers, or None.
     """
 
     name: str
     scan: Path
     parameters: dict[str, Any]
     first_mesh: Path | None = None
+    shift: str | list[float] | None = None
 
 
 @dataclass(frozen=True)
@@ -82,15 +84,16 @@ def _recipe(content: Any, folder: Path) -> Recipe:
     scans = _scans(content.get("scans"), folder)
     matrix = _matrix(content.get("matrix", {}))
     mesh_format = content.get("format", "vtp")
-    if mesh_format not in tuple(WRITERS):
-        raise RecipeError(f"format: must be one of {', '.join(WRITERS)}, not {_shown(mesh_format)}")
+    if mesh_format not in FORMATS:
+        raise RecipeError(f"format: must be one of {', '.join(FORMATS)}, not {_shown(mesh_format)}")
+    shift = _shift(content.get("shift"))
     time_limit = content.get("time_limit")
     if time_limit is not None and not (_is_number(time_limit) and 0 < time_limit < math.inf):
         raise RecipeError(f"time_limit: must be seconds, above 0, not {_shown(time_limit)}")
     gallery = content.get("gallery", True)
     if not isinstance(gallery, bool):
         raise RecipeError(f"gallery: must be true or false, not {_shown(gallery)}")
-    jobs = _jobs(scans, matrix, content.get("matrix", {}), folder)
+    jobs = _jobs(scans, matrix, content.get("matrix", {}), folder, shift)
     view = _view(content.get("view", {}))
     return Recipe(jobs, list(matrix), mesh_format, time_limit, gallery, view)
 
@@ -147,7 +150,11 @@ def _check_value(place: str, name: str, value: Any) -> None:
 
 
 def _jobs(
-    scans: list[Path], matrix: dict[str, list], content: dict[str, Any], folder: Path
+    scans: list[Path],
+    matrix: dict[str, list],
+    content: dict[str, Any],
+    folder: Path,
+    shift: str | list[float] | None,
 ) -> list[Job]:
     """Each scan with each combination of the values, of which those in lists are in the names."""
     jobs: dict[str, Job] = {}
@@ -161,7 +168,7 @@ def _jobs(
         for parameters, ending in zip(combinations, endings):
             first_mesh = parameters.get("first_mesh")
             path = first_mesh and Path(os.path.normpath(folder / first_mesh))
-            job = Job(scan_name + ending, scan, parameters, path)
+            job = Job(scan_name + ending, scan, parameters, path, shift)
             if job.name in jobs:
                 raise RecipeError(f"matrix: two jobs would have the same name, {job.name}")
             jobs[job.name] = job
@@ -193,6 +200,13 @@ def _in_name(value: Any) -> str:
     """A value or a file's name as a part of names of files; no word begins with a dot."""
     text = value if isinstance(value, str) else json.dumps(value)
     return re.sub(r"[^\w.+-]|^\.", "_", text)
+
+
+def _shift(content: Any) -> str | list[float] | None:
+    is_vector = isinstance(content, list) and len(content) == 3 and all(map(_is_number, content))
+    if content is None or content == "auto" or (is_vector and all(map(math.isfinite, content))):
+        return content
+    raise RecipeError(f"shift: must be \"auto\" or three numbers, not {_shown(content)}")
 
 
 def _view(content: Any) -> dict[str, Any]:

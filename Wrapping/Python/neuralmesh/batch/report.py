@@ -40,6 +40,7 @@ def identity_of(job: Job, mesh_format: str) -> dict[str, Any]:
     return {
         "scan": _identity_of_file(job.scan),
         **first_mesh,
+        "shift": job.shift,
         "parameters": job.parameters,
         "format": mesh_format,
         "version": __version__,

@@ -77,6 +77,7 @@ class _Process:
             "name": job.name,
             "scan": str(job.scan),
             "first_mesh": str(job.first_mesh) if job.first_mesh else None,
+            "shift": job.shift,
             "parameters": job.parameters,
             "folder": str(folder),
             "format": mesh_format,
