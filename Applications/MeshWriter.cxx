@@ -30,8 +30,8 @@ void RequireWritableExtension(const std::string& path)
   }
 }
 
-void RequireWritableDigits(vtkPointSet* points, vtkIdType numberOfVertices, const MeshShift& shift,
-  const std::string& path)
+void RequireWritableDigits(
+  vtkPointSet* points, vtkIdType numberOfVertices, const MeshShift& shift, const std::string& path)
 {
   vtkNew<vtkNeuralMeshWriter> writer;
   vtkNew<ErrorCollector> errors;

@@ -18,8 +18,8 @@ void RequireWritableExtension(const std::string& path);
  * Throws std::runtime_error, with a message that names the file, if its format cannot hold the digits
  * of a mesh of so many vertices from these points: to be asked early.
  */
-void RequireWritableDigits(vtkPointSet* points, vtkIdType numberOfVertices, const MeshShift& shift,
-  const std::string& path);
+void RequireWritableDigits(
+  vtkPointSet* points, vtkIdType numberOfVertices, const MeshShift& shift, const std::string& path);
 
 /**
  * Writes a mesh, by the extension, as vtkNeuralMeshWriter: .vtp .ply .obj .stl. Whole or not at all.

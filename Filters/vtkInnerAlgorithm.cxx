@@ -38,8 +38,8 @@ public:
 void vtkInnerAlgorithm::Update(vtkAlgorithm* algorithm)
 {
   vtkNew<FirstMessage> first;
-  for (vtkObject* object : { static_cast<vtkObject*>(algorithm),
-         static_cast<vtkObject*>(algorithm->GetExecutive()) })
+  for (vtkObject* object :
+    { static_cast<vtkObject*>(algorithm), static_cast<vtkObject*>(algorithm->GetExecutive()) })
   {
     object->AddObserver(vtkCommand::ErrorEvent, first);
     object->AddObserver(vtkCommand::WarningEvent, first);

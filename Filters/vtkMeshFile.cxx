@@ -215,7 +215,8 @@ Eigen::Vector3d vtkMeshFile::NotedShift(const std::string& path)
   if (extension == ".stl")
   {
     note.resize(TitleOfSTL);
-    std::ifstream(path, std::ios::binary).read(note.data(), static_cast<std::streamsize>(TitleOfSTL));
+    std::ifstream(path, std::ios::binary)
+      .read(note.data(), static_cast<std::streamsize>(TitleOfSTL));
     note.resize(std::min(note.find('\0'), note.size()));
   }
   else if (extension == ".obj")

@@ -43,8 +43,8 @@ bool NeedsDoubles(vtkPointSet* points, vtkIdType vertices, const Eigen::Vector3d
 }
 
 /** Throws std::runtime_error where the format cannot hold a mesh that needs doubles. */
-void RequireDigits(vtkPointSet* points, vtkIdType vertices, const Eigen::Vector3d& shift,
-  const std::string& path)
+void RequireDigits(
+  vtkPointSet* points, vtkIdType vertices, const Eigen::Vector3d& shift, const std::string& path)
 {
   if (vtkMeshFile::HasOnlyFloats(vtkMeshFile::Extension(path)) &&
     NeedsDoubles(points, vertices, shift))
@@ -138,8 +138,8 @@ void vtkNeuralMeshWriter::WriteMesh(vtkPolyData* mesh)
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   RequireDigits(shifted, vertices, none, this->FileName);
   const bool hasDoubles = NeedsDoubles(shifted, vertices, none);
-  neuralmesh::writeAtomicFile(this->FileName, [&](const std::string& temporary)
-    { vtkMeshFile::Write(shifted, temporary, hasDoubles); });
+  neuralmesh::writeAtomicFile(this->FileName,
+    [&](const std::string& temporary) { vtkMeshFile::Write(shifted, temporary, hasDoubles); });
   Eigen::Map<Eigen::Vector3d>(this->StoredShift) = vtkShift::Stored(shifted);
 }
 
@@ -167,8 +167,8 @@ void vtkNeuralMeshWriter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << this->FileName << "\n";
   os << indent << "AutomaticShift: " << this->AutomaticShift << "\n";
-  for (const auto& [name, shift] : { std::pair{ "Shift", this->Shift },
-         std::pair{ "StoredShift", this->StoredShift } })
+  for (const auto& [name, shift] :
+    { std::pair{ "Shift", this->Shift }, std::pair{ "StoredShift", this->StoredShift } })
   {
     os << indent << name << ": (" << shift[0] << ", " << shift[1] << ", " << shift[2] << ")\n";
   }

@@ -43,6 +43,7 @@ forbid 'vtkPV|vtkSM([^P]|P[^T])|vtkSI|pq|CLI/|ErrorCollector|LearningParameters|
 for header in Filters/vtkNeuralMesh.h.in Filters/vtkNeuralMeshAlgorithm.h.in \
   Filters/vtkNeuralMeshEnsemble.h.in Filters/vtkNeuralMeshComparison.h Filters/vtkNeuralMeshScan.h \
   Filters/vtkNeuralMeshFileSampler.h Filters/vtkNeuralMeshStream.h.in \
+  Filters/vtkNeuralMeshPLYReader.h Filters/vtkNeuralMeshWriter.h \
   Filters/vtkPNeuralMesh.h Filters/vtkPNeuralMeshEnsemble.h; do
   if grep -nE '^ *# *include +"[^v]' "$header"; then
     failed=1

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FileTest.h"
+#include "MeshWriter.h"
 #include "PointReader.h"
 
 #include "vtkOBJWriter.h"
@@ -16,6 +17,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <stdexcept>
 
 namespace
 {
@@ -87,6 +90,90 @@ TEST_F(PointReader, KeepsDoublePrecision)
   const auto points = ReadPoints(this->WriteText("a.xyz", "4500000.125 512345.0625 7.000001\n"));
   EXPECT_EQ(points->GetPoint(0)[0], 4500000.125);
   EXPECT_EQ(points->GetPoint(0)[2], 7.000001);
+}
+
+/** The message with which a file is refused; empty if it is not. */
+std::string Refusal(const std::string& path)
+{
+  try
+  {
+    ReadPoints(path);
+    return "";
+  }
+  catch (const std::runtime_error& error)
+  {
+    return error.what();
+  }
+}
+
+// Promise: text that ends in the middle of a line, or before as many points as it counts, is refused;
+// a last line without its end, or with a comment less, is none of that.
+TEST_F(PointReader, RefusesTextThatEndsEarly)
+{
+  EXPECT_NE(
+    Refusal(this->WriteText("a.csv", "x,y,z,red\n0,0,0,255\n1,0,0")).find("line 3: the file"),
+    std::string::npos);
+  EXPECT_NE(Refusal(this->WriteText("a.xyz", "0 0 0\n1 0")).find("line 2"), std::string::npos);
+  EXPECT_NE(Refusal(this->WriteText("a.pts", "3\n0 0 0\n1 0 0\n")).find("before its last point"),
+    std::string::npos);
+  EXPECT_EQ(Refusal(this->WriteText("b.pts", "2\n0 0 0\n1 0 0")), "");
+  EXPECT_EQ(Refusal(this->WriteText("b.csv", "0,0,0,1 // first\n1,0,0,2")), "");
+  EXPECT_EQ(Refusal(this->WriteText("c.csv", "0,0,0,1\n1,0,0\n")), "");
+}
+
+// Promise: what VTK takes for a shorter file is refused: XML without its last tag, .stl of text without
+// its last line.
+TEST_F(PointReader, RefusesWhatLacksItsEnd)
+{
+  const auto mesh = Tetrahedron<vtkPolyData>();
+  const auto grid = Tetrahedron<vtkUnstructuredGrid>();
+  const auto raw = [](auto* writer) { writer->EncodeAppendedDataOff(); };
+  for (const std::string& path : { this->WriteWith<vtkXMLPolyDataWriter>("a.vtp", mesh, raw),
+         this->WriteWith<vtkXMLUnstructuredGridWriter>("a.vtu", grid, raw),
+         this->WriteWith<vtkSTLWriter>("a.stl", mesh) })
+  {
+    SCOPED_TRACE(path);
+    EXPECT_EQ(Refusal(path), "");
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) - 12);
+    EXPECT_NE(Refusal(path).find("damaged: it ends before its "), std::string::npos)
+      << Refusal(path);
+  }
+}
+
+// Promise: coordinates of a .ply keep their digits, and a mesh written with a shift lies where it lay
+// before, whatever the format.
+TEST_F(PointReader, KeepsPlaces)
+{
+  const auto near = Tetrahedron<vtkPolyData>();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    const double* point = near->GetPoint(i);
+    points->InsertNextPoint(500000.3 + point[0], 5400000.7 + point[1], point[2]);
+  }
+  const auto mesh = Tetrahedron<vtkPolyData>();
+  mesh->SetPoints(points);
+  for (const char* name : { "a.ply", "a.vtp", "a.obj", "a.stl" })
+  {
+    for (const bool isShifted : { false, true })
+    {
+      SCOPED_TRACE(std::string(name) + (isShifted ? " shifted" : ""));
+      const std::string path = this->Path(name);
+      if (!isShifted && std::string(name) == "a.stl")
+      {
+        EXPECT_THROW(WriteMesh(mesh, path), std::runtime_error);
+        EXPECT_FALSE(std::filesystem::exists(path));
+        continue;
+      }
+      const auto stored = WriteMesh(mesh, path, MeshShift{ isShifted, {} });
+      EXPECT_EQ(stored[1], isShifted ? 5400000. : 0.);
+      double bounds[6];
+      ReadPoints(path)->GetBounds(bounds);
+      EXPECT_NEAR(bounds[0], 500000.3, isShifted ? 1e-7 : 0.);
+      EXPECT_NEAR(bounds[3], 5400002.7, isShifted ? 1e-7 : 0.);
+    }
+  }
 }
 
 // Promise: what is no point is an error that names file and line.

@@ -73,7 +73,8 @@ test_no_points()
   [ "$(wc -c < err)" -lt 1000 ] || fail "the message is as long as the file"
 }
 
-# Promise: formats that say how much they hold are refused if they end too soon, wherever that is.
+# Promise: formats that say how much they hold are refused if they end too soon, wherever that is, be it
+# as a scan or as a first mesh; so is text that ends within a line.
 test_truncated()
 {
   local extension size part
@@ -83,7 +84,24 @@ test_truncated()
     for part in 1 5 20 40 60 80 95; do
       head -c "$((size * part / 100))" "whole.$extension" > "part.$extension"
       refused "part.$extension"
+      expect 1 "$neuralmesh" info "part.$extension"
+      is_one_line_about "part.$extension"
     done
+  done
+  { printf 'ply\nformat ascii 1.0\nelement vertex 3000\nproperty double x\nproperty double y\n'
+    printf 'property double z\nend_header\n'; cat cloud.xyz; } > whole.ply
+  expect 0 reconstruct whole.ply mesh.obj
+  for part in 50 2000 70000; do
+    head -c "$part" whole.ply > part.ply
+    refused part.ply
+  done
+  sed 's/$/ 255/' cloud.xyz | head -c 50000 > part.xyz
+  sed 's/ /,/g; s/$/,255/' cloud.xyz | head -c 50000 > part.csv
+  { wc -l < cloud.xyz; head -n 2000 cloud.xyz; } > part.pts
+  for extension in xyz csv pts; do
+    # As far as the cut falls between the numbers of a line.
+    [ "$extension" = pts ] || sed -i '$ s/[^ ,]*$//' "part.$extension"
+    refused "part.$extension"
   done
 }
 

@@ -105,6 +105,37 @@ class Files(BatchTest):
                 self.assertTrue(support.is_closed_manifold(mesh))
         self.assertFalse(self.results.exists())
 
+    # Promise: coordinates far from the origin keep their digits, from a .ply and into one; an .stl of
+    # them is refused in words, or shifted, which is told and undone.
+    def test_digits(self):
+        points = support.sphere(2000) + [500000, 5400000, 100]
+        header = "ply\nformat binary_little_endian 1.0\nelement vertex 2000\n"
+        header += "".join(f"property double {axis}\n" for axis in "xyz") + "end_header\n"
+        (self.folder / "utm.ply").write_bytes(header.encode() + points.astype("<f8").tobytes())
+        self.assertTrue((support.coordinates(read_points(self.folder / "utm.ply")) == points).all())
+        wanted = support.coordinates(neuralmesh.reconstruct(points, 100))
+        for mesh_format, shift in (("ply", None), ("stl", None), ("stl", "auto"), ("ply", [5e5, 0, 1])):
+            with self.subTest(mesh_format, shift=shift):
+                self.clear()
+                (self.folder / "utm.ply").write_bytes(header.encode() + points.astype("<f8").tobytes())
+                self.write_recipe(scans=["utm.ply"], matrix={"vertices": 100}, format=mesh_format,
+                                  shift=shift)  # fmt: skip
+                _, _, status = self.run_batch()
+                report = self.report("utm")
+                if mesh_format == "stl" and shift is None:
+                    self.assertEqual(status, 1)
+                    self.assertIn(".stl has floats only", report["error"])
+                    self.assertFalse((self.results / "utm.stl").exists())
+                    continue
+                self.assertEqual((status, report["shift"]), (0, shift))
+                if shift is not None:
+                    told = [5e5, 54e5, 100] if shift == "auto" else shift
+                    self.assertEqual(report["result"]["shift"], told)
+                found = support.coordinates(read_points(self.results / f"utm.{mesh_format}"))
+                # An .stl has the vertices in another order.
+                for of in (np.min, np.max, np.mean):
+                    self.assertLess(np.abs(of(found, 0) - of(wanted, 0)).max(), 1e-6)
+
     # Promise: text is read with blanks, commas or semicolons between numbers, with names of columns, a
     # count or comments before them, and more numbers behind them.
     def test_text(self):
@@ -127,7 +158,9 @@ class Files(BatchTest):
         (self.folder / "folder.ply").mkdir()
         os.mkfifo(self.folder / "pipe.ply")
         files = {"empty.xyz": "", "words.txt": "these are no points\n", "a.doc": "",
-                 "rows.csv": "1,2,3\n4,5\n", "one.xyz": "1 2 3\n", "half.vtp": "<VTKFile"}  # fmt: skip
+                 "rows.csv": "1,2,3\n4,5\n", "one.xyz": "1 2 3\n", "half.vtp": "<VTKFile",
+                 "cut.csv": "1,2,3,4\n4,5,6,7\n7,8,9", "fewer.pts": "9\n1 2 3\n4 5 6\n",
+                 "open.stl": "solid\nfacet normal 0 0 1\n"}  # fmt: skip
         for name, text in files.items():
             (self.folder / name).write_text(text, encoding="utf-8")
         stl = b"a title".ljust(80, b"\0") + (100).to_bytes(4, "little") + bytes(60)
@@ -148,6 +181,9 @@ class Files(BatchTest):
             "pipe": "no regular file",
             "none": "no such file",
             "half.stl": "damaged",
+            "cut": "in the middle of a line",
+            "fewer": "before its last point",
+            "open": "before its endsolid",
         }
         for job in (path.stem for path in self.results.glob("[!.]*.json")):
             report = self.report(job)

@@ -61,7 +61,7 @@ class Gallery(BatchTest):
     def test_page(self):
         page = Page(self.results / "index.html")
         self.assertIn("16 jobs: 12 done, 4 failed", page.text)
-        self.assertIn("nd of file", page.text)
+        self.assertIn("ends before its last vertex", page.text)
         self.assertIn("a <b> & 50% + \"ü\".xyz", page.text)
         self.assertIn("vertices 800, seed 2, variant noise", page.text)
         for address in page.addresses:

@@ -48,8 +48,8 @@ double CoordinateRange::floatStep(const Eigen::Vector3d& shift) const
   {
     return 0.;
   }
-  const double largest = std::max((box_.min() - shift).cwiseAbs().maxCoeff(),
-    (box_.max() - shift).cwiseAbs().maxCoeff());
+  const double largest = std::max(
+    (box_.min() - shift).cwiseAbs().maxCoeff(), (box_.max() - shift).cwiseAbs().maxCoeff());
   if (largest >= double(std::numeric_limits<float>::max()))
   {
     return std::numeric_limits<double>::infinity();
@@ -79,8 +79,7 @@ Eigen::Vector3d CoordinateRange::roundShift(std::size_t vertices) const
   const double exponent = std::ceil(std::log10(box_.diagonal().stableNorm()));
   const double power = std::pow(10., std::abs(exponent));
   // Only powers that are whole numbers are exact.
-  const auto rounded = [=](double number)
-  {
+  const auto rounded = [=](double number) {
     return exponent < 0. ? std::round(number * power) / power : std::round(number / power) * power;
   };
   return box_.center().unaryExpr(rounded);

@@ -64,7 +64,8 @@ double numberOf(std::string_view word)
   word.remove_prefix(word.starts_with('+') ? 1 : 0);
   double number = 0.;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (end != word.data() + word.size() || (error != std::errc() && error != std::errc::result_out_of_range))
+  if (end != word.data() + word.size() ||
+    (error != std::errc() && error != std::errc::result_out_of_range))
   {
     throw std::runtime_error("damaged: '" + std::string(word.substr(0, 40)) + "' is no coordinate");
   }
@@ -124,8 +125,8 @@ private:
     {
       throwEndsEarly(element);
     }
-    throw std::runtime_error("damaged: the line of " + element.name + " " +
-      std::to_string(number) + " is too short");
+    throw std::runtime_error(
+      "damaged: the line of " + element.name + " " + std::to_string(number) + " is too short");
   }
 
   std::ifstream& file_;

@@ -38,7 +38,8 @@ TEST(CoordinateRange, FloatsHoldWhatIsNear)
 {
   for (const double size : { 1e-30, 1e-3, 1., 1e3, 1e30 })
   {
-    EXPECT_TRUE(CoordinateRange(box(size * Eigen::Vector3d::Ones(), size)).fitsFloats(10000000, Origin))
+    EXPECT_TRUE(
+      CoordinateRange(box(size * Eigen::Vector3d::Ones(), size)).fitsFloats(10000000, Origin))
       << size;
   }
   const CoordinateRange utm(box(Utm));
@@ -73,7 +74,8 @@ TEST(CoordinateRange, OutliersDoNotCount)
 TEST(CoordinateRange, ShiftIsRound)
 {
   EXPECT_EQ(CoordinateRange(box(Utm + Eigen::Vector3d(0.3, -0.3, 0.2))).roundShift(20000), Utm);
-  EXPECT_EQ(CoordinateRange(box(Utm, 700.)).roundShift(20000), Eigen::Vector3d(500000., 5400000., 0.));
+  EXPECT_EQ(
+    CoordinateRange(box(Utm, 700.)).roundShift(20000), Eigen::Vector3d(500000., 5400000., 0.));
   EXPECT_EQ(CoordinateRange(box({ 0., 1234.5678, 0. }, 0.05)).roundShift(20000),
     Eigen::Vector3d(0., 1234.6, 0.));
   EXPECT_EQ(CoordinateRange(box({ 3., 4., 5. })).roundShift(20000), Origin);

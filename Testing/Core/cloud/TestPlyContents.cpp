@@ -62,8 +62,8 @@ protected:
   void SetUp() override
   {
     path_ = std::filesystem::temp_directory_path() /
-      ("neuralmesh-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) +
-        ".ply");
+      ("neuralmesh-" +
+        std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".ply");
   }
   void TearDown() override { std::filesystem::remove(path_); }
 
@@ -105,8 +105,8 @@ TEST_F(PlyFiles, DoublesKeepTheirDigits)
 TEST_F(PlyFiles, OnlyWhatFloatsCannotHoldComesOut)
 {
   const std::vector<double> whole{ 5400000., -1., 0., 3., 4., 5. };
-  EXPECT_EQ(contentsOf(header("binary_big_endian", "int") + binary<std::int32_t>(true)).coordinates,
-    whole);
+  EXPECT_EQ(
+    contentsOf(header("binary_big_endian", "int") + binary<std::int32_t>(true)).coordinates, whole);
   for (const char* type : { "float", "short" })
   {
     EXPECT_TRUE(contentsOf(header("ascii", type) + Text).coordinates.empty()) << type;
@@ -145,8 +145,8 @@ TEST_F(PlyFiles, EveryCutIsRefused)
   }
   EXPECT_NE(refusal(little.substr(0, little.size() - 1)).find("ends before its last face"),
     std::string::npos);
-  EXPECT_NE(refusal(text.substr(0, text.size() - 3)).find("ends before its last face"),
-    std::string::npos);
+  EXPECT_NE(
+    refusal(text.substr(0, text.size() - 3)).find("ends before its last face"), std::string::npos);
 }
 
 // Promise: a header that claims what no file has, or that makes no sense, is an error in words.
@@ -155,20 +155,22 @@ TEST_F(PlyFiles, DamagedOnesAreRefused)
   const std::string xyz = "property double x\nproperty double y\nproperty double z\n";
   const std::string begin = "ply\nformat binary_little_endian 1.0\n", end = "end_header\n";
   const std::string faces = "element face 1\nproperty list char int vertex_indices\n";
-  for (const auto& [bytes, words] : {
-         std::pair{ begin + "element vertex 4000000000\n" + xyz + end, "ends before its last vertex" },
-         { begin + "element vertex 18446744073709551615\n" + xyz + end, "ends before its last vertex" },
-         { begin + "element a 9999999999999999999\nproperty double b\nelement vertex 0\n" + xyz + end,
-           "more bytes than any file" },
-         { begin + "element vertex 0\n" + xyz + faces + end + "\xff", "ends before its last face" },
-         { begin + "element vertex 0\nproperty double x\nproperty double z\n" + end, "have no y" },
-         { begin + faces + end + '\0', "no vertices" },
-         { begin + "element face 0\nproperty list float int i\n" + end, "no whole number" },
-         { "ply\nformat utf8 1.0\nelement vertex 0\n" + xyz + end, "no format utf8" },
-         { std::string("ply\nformat ascii 1.0\nelement vertex 2\n") + xyz + end + "1 2 3\n\n1 2 3\n",
-           "line of vertex 1 is too short" } })
+  for (const auto& [bytes, words] :
+    { std::pair{ begin + "element vertex 4000000000\n" + xyz + end, "ends before its last vertex" },
+      { begin + "element vertex 18446744073709551615\n" + xyz + end,
+        "ends before its last vertex" },
+      { begin + "element a 9999999999999999999\nproperty double b\nelement vertex 0\n" + xyz + end,
+        "more bytes than any file" },
+      { begin + "element vertex 0\n" + xyz + faces + end + "\xff", "ends before its last face" },
+      { begin + "element vertex 0\nproperty double x\nproperty double z\n" + end, "have no y" },
+      { begin + faces + end + '\0', "no vertices" },
+      { begin + "element face 0\nproperty list float int i\n" + end, "no whole number" },
+      { "ply\nformat utf8 1.0\nelement vertex 0\n" + xyz + end, "no format utf8" },
+      { std::string("ply\nformat ascii 1.0\nelement vertex 2\n") + xyz + end + "1 2 3\n\n1 2 3\n",
+        "line of vertex 1 is too short" } })
   {
-    EXPECT_NE(refusal(bytes).find(words), std::string::npos) << refusal(bytes) << " is not " << words;
+    EXPECT_NE(refusal(bytes).find(words), std::string::npos)
+      << refusal(bytes) << " is not " << words;
   }
 }
 
@@ -198,7 +200,8 @@ TEST_F(PlyFiles, DoublesTakeThePlaceOfFloats)
   for (std::size_t i = 0; i < 6; i += 3)
   {
     before += std::string(12, '?') + "norm";
-    after += bytesOf(Coordinates[i]) + bytesOf(Coordinates[i + 1]) + bytesOf(Coordinates[i + 2]) + "norm";
+    after +=
+      bytesOf(Coordinates[i]) + bytesOf(Coordinates[i + 1]) + bytesOf(Coordinates[i + 2]) + "norm";
   }
   EXPECT_EQ(withDoubles(before + "behind", Coordinates), after + "behind");
   EXPECT_EQ(contentsOf(after).coordinates, Coordinates);
