@@ -84,7 +84,7 @@ int vtkNeuralMeshPLYReader::RequestData(
   {
     Read(this->FileName, vtkPolyData::GetData(outputVector));
   }
-  catch (const std::runtime_error& error)
+  catch (const std::exception& error) // there may be too little memory, too
   {
     vtkErrorMacro(<< error.what());
     return 0;

@@ -11,6 +11,7 @@
 #include "vtkPolyDataWriter.h"
 #include "vtkSTLWriter.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkVersionMacros.h"
 #include "vtkXMLPolyDataWriter.h"
 #include "vtkXMLUnstructuredGridWriter.h"
 
@@ -168,6 +169,12 @@ TEST_F(PointReader, KeepsPlaces)
       }
       const auto stored = WriteMesh(mesh, path, MeshShift{ isShifted, {} });
       EXPECT_EQ(stored[1], isShifted ? 5400000. : 0.);
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 2, 0)
+      if (!isShifted && std::string(name) == "a.obj")
+      {
+        continue; // VTK reads floats.
+      }
+#endif
       double bounds[6];
       ReadPoints(path)->GetBounds(bounds);
       EXPECT_NEAR(bounds[0], 500000.3, isShifted ? 1e-7 : 0.);

@@ -129,7 +129,8 @@ int TestNeuralMeshClamping(int, char*[])
   for (const auto& [name, count] : counts)
   {
     std::cout << name << ": " << count << std::endl;
-    CHECK(count >= 2);
+    // Files have no ranges.
+    CHECK(count >= 2 || name == "vtkNeuralMeshPLYReader" || name == "vtkNeuralMeshWriter");
   }
   CHECK(counts["vtkPNeuralMeshEnsemble"] > counts["vtkPNeuralMesh"]);
   CHECK(counts["vtkPNeuralMesh"] == counts["vtkNeuralMesh"]);
