@@ -95,8 +95,11 @@ test_truncated()
     head -c "$part" whole.ply > part.ply
     refused part.ply
   done
-  sed 's/$/ 255/' cloud.xyz | head -c 50000 > part.xyz
-  sed 's/ /,/g; s/$/,255/' cloud.xyz | head -c 50000 > part.csv
+  sed 's/$/ 255/' cloud.xyz > whole.xyz
+  sed 's/ /,/g; s/$/,255/' cloud.xyz > whole.csv
+  for extension in xyz csv; do
+    head -c 50000 "whole.$extension" > "part.$extension"
+  done
   { wc -l < cloud.xyz; head -n 2000 cloud.xyz; } > part.pts
   for extension in xyz csv pts; do
     # As far as the cut falls between the numbers of a line.

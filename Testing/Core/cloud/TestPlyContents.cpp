@@ -199,7 +199,7 @@ TEST_F(PlyFiles, DoublesTakeThePlaceOfFloats)
   std::string after = begin + "property double x\nproperty double y\nproperty double z\n" + more;
   for (std::size_t i = 0; i < 6; i += 3)
   {
-    before += std::string(12, '?') + "norm";
+    before += "xxxxyyyyzzzznorm";
     after +=
       bytesOf(Coordinates[i]) + bytesOf(Coordinates[i + 1]) + bytesOf(Coordinates[i + 2]) + "norm";
   }
