@@ -103,6 +103,7 @@ protected:
   vtkNeuralMeshWriter();
   ~vtkNeuralMeshWriter() override;
 
+  /** Writes the file, or says in an error why not. */
   void WriteData() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
 

@@ -31,9 +31,10 @@ class Annotations(ast.NodeTransformer):
 
 def signatures(method):
     """The signatures of a method: one for each "C++:" in its docstring."""
-    pattern = rf"^({re.escape(method.__name__)}\(.*?\) -> .*?)\nC\+\+: "
+    pattern = rf"^({re.escape(method.__name__)}\(.*?\)\s+-> .*?)\nC\+\+: "
     for match in re.finditer(pattern, method.__doc__ or "", re.MULTILINE | re.DOTALL):
-        function = ast.parse(f"def {match[1]}: ...").body[0]
+        # Long ones are broken into lines.
+        function = ast.parse(f"def {' '.join(match[1].split())}: ...").body[0]
         for argument in function.args.args:
             if argument.annotation:
                 argument.annotation = Annotations().visit(argument.annotation)
