@@ -9,6 +9,7 @@
 #include "MeshReader.h"
 #include "MeshShift.h"
 #include "MeshWriter.h"
+#include "OrientationOptions.h"
 #include "PointReader.h"
 #include "ProgressBar.h"
 #include "RunEstimate.h"
@@ -65,6 +66,7 @@ struct ReconstructOptions
   std::string Jump;
   std::string Weights;
   std::string Shift;
+  OrientationOptions Orientation;
   bool Features = false;
   bool Automatic = false;
   int Preset = vtkNeuralMesh::DEFAULT;
@@ -176,6 +178,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
   filter->SetTimeLimit(options.TimeLimit);
   filter->SetNumberOfThreads(options.Threads);
   filter->SetWeightArrayName(options.Weights.c_str());
+  options.Orientation.Apply(filter);
   if (!options.Jump.empty())
   {
     SetJump(filter, options.Jump);
@@ -453,6 +456,7 @@ int Reconstruct(const ReconstructOptions& options)
     filter->RemoveCheckpoint();
   }
 
+  WarnOfUnknownSides(mesh);
   if (!options.Quiet)
   {
     PrintPointCount(points, sampler, mesh);
@@ -468,6 +472,7 @@ int Reconstruct(const ReconstructOptions& options)
     PrintPhases(filter, sampler);
     std::printf("time       %.2f s (reading %.2f, learning %.2f, writing %.2f)\n",
       reading + learning + writing, reading, learning, writing);
+    PrintSides(mesh);
     PrintReport(mesh);
     PrintChoices(mesh);
   }
@@ -524,6 +529,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     ->add_option("--weights", options->Weights,
       "Trust the points by this point array of INPUT: weights from 0 on, of which ratios count")
     ->type_name("ARRAY");
+  options->Orientation.AddTo(command);
   command
     ->add_option("--jump", options->Jump,
       "With --order list: how far winners jump; FRACTION of the vertices (default 0.3333) times 1 "

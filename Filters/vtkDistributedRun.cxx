@@ -4,6 +4,7 @@
 #include "cloud/CloudSelection.h"
 #include "learn/StoppingRules.h"
 #include "vtkNeuralMesh.h"
+#include "vtkNeuralMeshOrientation.h"
 #include "vtkPointDataCarrier.h"
 
 #include "vtkCommand.h"
@@ -102,6 +103,10 @@ vtkSmartPointer<vtkPolyData> Arrange(vtkPolyData* part, const neuralmesh::CloudS
     {
       arrangedData->SetActiveAttribute(index, vtkDataSetAttributes::SCALARS);
     }
+    if (source == data->GetNormals())
+    {
+      arrangedData->SetActiveAttribute(index, vtkDataSetAttributes::NORMALS);
+    }
   }
   return result;
 }
@@ -170,7 +175,9 @@ int vtkDistributedRun::Execute(vtkInformationVector** inputVector,
   // From here on each process makes the same calls of the controller, whatever its part is like.
   std::vector<double> weights;
   Census own;
-  own.Errors = collectWeights(this->Collector, weights) ? 0 : 1;
+  const vtkNeuralMeshOrientation orientation(
+    this->Filter, vtkDataObject::GetData(inputVector[0]), this->Collector);
+  own.Errors = collectWeights(this->Collector, weights) && orientation.IsSound() ? 0 : 1;
   this->Count(weights, own);
   const Census all = own.SumOfAll(this->Controller);
   if (all.Errors > 0)
@@ -194,6 +201,7 @@ int vtkDistributedRun::Execute(vtkInformationVector** inputVector,
     }
   }
   auto part = this->MakePart(taken, !weights.empty(), all.DoubleParts > 0);
+  orientation.CopyArrays(taken, part);
   this->Gatherer.AgreeOnArrays(part, own.Points > 0);
   this->Collector.ReleasePoints();
   part = Arrange(part, selection);
@@ -210,6 +218,7 @@ int vtkDistributedRun::Execute(vtkInformationVector** inputVector,
     }
   }
 
+  orientation.CopyViewpoints(part);
   const bool hasFirstMesh =
     this->Filter->GetNumberOfInputPorts() > 1 && vtkPolyData::GetData(inputVector[1]) != nullptr;
   vtkSmartPointer<vtkPolyData> first;

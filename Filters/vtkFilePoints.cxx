@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFilePoints.h"
 
+#include "vtkFloatArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -21,6 +22,10 @@ vtkSmartPointer<vtkPolyData> vtkFilePoints::Draw(const neuralmesh::PointFile& fi
   colors->SetName("RGB");
   colors->SetNumberOfComponents(3);
   colors->SetNumberOfTuples(layout.color ? count : 0);
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(layout.normal ? count : 0);
   vtkIdType drawn = 0;
   const auto take = [&](const neuralmesh::PointFile::Point& point)
   {
@@ -28,6 +33,10 @@ vtkSmartPointer<vtkPolyData> vtkFilePoints::Draw(const neuralmesh::PointFile& fi
     if (layout.color)
     {
       colors->SetTypedTuple(drawn, point.color.data());
+    }
+    if (layout.normal)
+    {
+      normals->SetTuple(drawn, point.normal.data());
     }
     ++drawn;
   };
@@ -40,6 +49,10 @@ vtkSmartPointer<vtkPolyData> vtkFilePoints::Draw(const neuralmesh::PointFile& fi
   if (layout.color)
   {
     result->GetPointData()->SetScalars(colors);
+  }
+  if (layout.normal)
+  {
+    result->GetPointData()->SetNormals(normals);
   }
   return result;
 }

@@ -19,7 +19,8 @@ class vtkFilePoints
 {
 public:
   /**
-   * As neuralmesh::PointFile::draw(); colours are the scalars `RGB`. Null if `progress` ends it.
+   * As neuralmesh::PointFile::draw(); colours are the scalars `RGB`, and nx, ny, nz the
+   * `Normals`. Null if `progress` ends it.
    */
   static vtkSmartPointer<vtkPolyData> Draw(const neuralmesh::PointFile& file, std::uint64_t wanted,
     std::uint64_t seed, const neuralmesh::Progress& progress);

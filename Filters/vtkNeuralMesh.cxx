@@ -9,6 +9,7 @@
 #include "vtkFilePoints.h"
 #include "vtkMeshArrays.h"
 #include "vtkNeuralMeshGrowth.h"
+#include "vtkNeuralMeshOrientation.h"
 #include "vtkNeuralMeshParameters.h"
 #include "vtkNeuralMeshReport.h"
 #include "vtkNeuralMeshRun.h"
@@ -107,17 +108,13 @@ vtkTable* vtkNeuralMesh::GetLearningCurve()
   return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
 }
 
+#define FOR_EACH_PHASE(F) F(Drawing) F(Cloud) F(Choice) F(Start) F(Learning) F(Finish)
 #define GET_TIME(phase)                                                                            \
   double vtkNeuralMesh::Get##phase##Time() const                                                   \
   {                                                                                                \
     return this->Times->seconds(neuralmesh::Phase::phase);                                         \
   }
-GET_TIME(Drawing)
-GET_TIME(Cloud)
-GET_TIME(Choice)
-GET_TIME(Start)
-GET_TIME(Learning)
-GET_TIME(Finish)
+FOR_EACH_PHASE(GET_TIME)
 #undef GET_TIME
 
 void vtkNeuralMesh::SetPointFileName(const char* name)
@@ -355,15 +352,23 @@ int vtkNeuralMesh::RequestData(
     carrier.emplace(collector);
   }
   const bool carries = carrier && carrier->HasArrays();
+  const vtkNeuralMeshOrientation orientation(
+    this, vtkDataObject::GetData(inputVector[0]), collector);
+  if (!orientation.IsSound())
+  {
+    return 0;
+  }
+  const neuralmesh::OrientationHints hints = orientation.GetHints();
   const neuralmesh::ThreadPool executor(vtkNeuralMeshThreads(this->NumberOfThreads));
   this->Times->enter(neuralmesh::Phase::Cloud);
-  const neuralmesh::PointCloud cloud(collector.GetPoints(), weights, carries, executor);
+  const neuralmesh::PointCloud cloud(
+    collector.GetPoints(), weights, carries || hints.needOrigins(), executor);
   this->Times->leave();
   collector.ReleasePoints();
   std::vector<double>().swap(weights);
 
   vtkNeuralMeshRun run{ cloud, {}, this->GetUsedPrecision(collector.HasDoublePoints()),
-    vtkNeuralMeshProgress(this), {}, executor, {}, carries ? EndOfMesh : 1.0 };
+    vtkNeuralMeshProgress(this), {}, executor, {}, carries ? EndOfMesh : 1.0, hints };
   if (!this->BeginRun(run, inputVector, outputVector))
   {
     return 0;
@@ -427,11 +432,8 @@ bool vtkNeuralMesh::CollectPoints(
 
 int vtkNeuralMesh::GetUsedPrecision(bool hasDoublePoints) const
 {
-  if (this->OutputPointsPrecision != DEFAULT_PRECISION)
-  {
-    return this->OutputPointsPrecision;
-  }
-  return hasDoublePoints ? DOUBLE_PRECISION : SINGLE_PRECISION;
+  const int ofInput = hasDoublePoints ? DOUBLE_PRECISION : SINGLE_PRECISION;
+  return this->OutputPointsPrecision == DEFAULT_PRECISION ? ofInput : this->OutputPointsPrecision;
 }
 
 /// Parameters and first mesh. False if no run can be made of them.
@@ -496,7 +498,8 @@ bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& res
   {
     result = neuralmesh::reconstruct(run.Cloud, run.Parameters,
       neuralmesh::partOf(progress, this->Automatic ? EndOfChoice : 0.0, run.EndOfMesh),
-      run.FirstMesh, this->WatchGrowth(run.PointsPrecision), this->PlanCheckpoint(), run.Executor);
+      run.FirstMesh, this->WatchGrowth(run.PointsPrecision), this->PlanCheckpoint(), run.Executor,
+      run.Hints);
   }
   catch (const std::runtime_error& error)
   {
@@ -504,6 +507,7 @@ bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& res
     return false;
   }
   this->AbortExecute = 0;
+  vtkNeuralMeshOrientation::Warn(result.orientation, this);
   this->Times->add(result.times);
   this->ResumedIterations = static_cast<vtkIdType>(result.resumedIterations);
   this->StopReason = neuralmesh::name(result.stopReason).data();
@@ -542,6 +546,7 @@ void vtkNeuralMesh::FillOutput(const vtkNeuralMeshRun& run,
   {
     vtkNeuralMeshReport::AddTuning(*run.Tuning, output);
   }
+  vtkNeuralMeshOrientation::AddReport(result.orientation, output);
   if (result.quality)
   {
     vtkNeuralMeshReport::AddQuality(result, run.Cloud.unit(), output);
@@ -587,10 +592,7 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CheckpointFileName: " << this->CheckpointFileName << "\n";
   os << indent << "ResumedIterations: " << this->ResumedIterations << "\n";
   os << indent << "StopReason: " << this->StopReason << "\n";
-  os << indent << "DrawingTime: " << this->GetDrawingTime() << "\n";
-  os << indent << "CloudTime: " << this->GetCloudTime() << "\n";
-  os << indent << "ChoiceTime: " << this->GetChoiceTime() << "\n";
-  os << indent << "StartTime: " << this->GetStartTime() << "\n";
-  os << indent << "LearningTime: " << this->GetLearningTime() << "\n";
-  os << indent << "FinishTime: " << this->GetFinishTime() << "\n";
+#define PRINT_TIME(phase) os << indent << #phase "Time: " << this->Get##phase##Time() << "\n";
+  FOR_EACH_PHASE(PRINT_TIME)
+#undef PRINT_TIME
 }

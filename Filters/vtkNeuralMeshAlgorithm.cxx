@@ -5,6 +5,7 @@
 #include "vtkNeuralMeshParameters.h"
 
 #include <algorithm>
+#include <limits>
 
 vtkNeuralMeshAlgorithm::vtkNeuralMeshAlgorithm() = default;
 
@@ -42,6 +43,63 @@ bool vtkNeuralMeshAlgorithm::ApplyPreset()
   return changed;
 }
 
+void vtkNeuralMeshAlgorithm::SetViewpoint(double x, double y, double z)
+{
+  if (this->Viewpoints != decltype(this->Viewpoints){ { x, y, z } })
+  {
+    this->Viewpoints = { { x, y, z } };
+    this->Modified();
+  }
+}
+
+void vtkNeuralMeshAlgorithm::SetViewpoint(const double place[3])
+{
+  this->SetViewpoint(place[0], place[1], place[2]);
+}
+
+void vtkNeuralMeshAlgorithm::AddViewpoint(double x, double y, double z)
+{
+  this->Viewpoints.push_back({ x, y, z });
+  this->Modified();
+}
+
+void vtkNeuralMeshAlgorithm::AddViewpoint(const double place[3])
+{
+  this->AddViewpoint(place[0], place[1], place[2]);
+}
+
+void vtkNeuralMeshAlgorithm::RemoveAllViewpoints()
+{
+  if (!this->Viewpoints.empty())
+  {
+    this->Viewpoints.clear();
+    this->Modified();
+  }
+}
+
+void vtkNeuralMeshAlgorithm::GetViewpoint(int number, double place[3]) const
+{
+  if (number >= 0 && number < this->GetNumberOfViewpoints())
+  {
+    const auto& viewpoint = this->Viewpoints[static_cast<std::size_t>(number)];
+    std::copy(viewpoint.begin(), viewpoint.end(), place);
+  }
+  else
+  {
+    std::fill_n(place, 3, std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+void vtkNeuralMeshAlgorithm::SetViewArrayName(const char* name)
+{
+  const std::string wanted = name ? name : "";
+  if (this->ViewArrayName != wanted)
+  {
+    this->ViewArrayName = wanted;
+    this->Modified();
+  }
+}
+
 void vtkNeuralMeshAlgorithm::FillParameters(neuralmesh::Parameters& parameters) const
 {
 #define SET_PARAMETER(property, parameter)                                                         \
@@ -72,4 +130,13 @@ void vtkNeuralMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   NEURAL_MESH_FOR_EACH_CHOICE(PRINT_PROPERTY)
   NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(PRINT_PROPERTY)
 #undef PRINT_PROPERTY
+  const auto print = [&](const char* name, const auto& place)
+  { os << indent << name << ": " << place[0] << " " << place[1] << " " << place[2] << "\n"; };
+  os << indent << "NumberOfViewpoints: " << this->Viewpoints.size() << "\n";
+  for (const std::array<double, 3>& viewpoint : this->Viewpoints)
+  {
+    print("Viewpoint", viewpoint);
+  }
+  os << indent << "ViewArrayName: " << this->ViewArrayName << "\n";
+  print("UpDirection", this->UpDirection);
 }

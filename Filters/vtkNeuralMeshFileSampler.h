@@ -26,8 +26,8 @@
  * of so many equal shares of the file, so that each point is as likely as any other. (A point that
  * two shares have in common may be drawn twice.) Of other files all points are taken. Points that are
  * not finite are drawn like others: vtkNeuralMesh counts and drops them. Colours of a .ply, red, green
- * and blue as bytes one behind the other, are the point data `RGB`, as vtkPLYReader has them. Nothing
- * else is read of the file.
+ * and blue as bytes one behind the other, are the point data `RGB`, and nx, ny and nz of the type of the
+ * coordinates the `Normals`, as vtkPLYReader has them. Nothing else is read of the file.
  *
  * The same file and seed give the same bytes. That the file has changed on the disk is not noticed:
  * call Modified().

@@ -10,6 +10,7 @@
 #define vtkNeuralMeshRun_h
 
 #include "base/Executor.h"
+#include "cloud/OrientationHints.h"
 #include "cloud/PointCloud.h"
 #include "learn/Parameters.h"
 #include "mesh/Mesh.h"
@@ -63,6 +64,7 @@ struct vtkNeuralMeshRun
   const neuralmesh::Executor& Executor;
   std::optional<neuralmesh::Tuning> Tuning; ///< if parameters were chosen
   double EndOfMesh; ///< as a fraction of the run; then arrays are carried over
+  neuralmesh::OrientationHints Hints;
 };
 
 #endif

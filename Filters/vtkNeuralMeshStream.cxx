@@ -4,6 +4,7 @@
 #include "learn/Parameters.h"
 #include "run/StreamingReconstruction.h"
 #include "vtkMeshArrays.h"
+#include "vtkNeuralMeshOrientation.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkPointCloudCollector.h"
 #include "vtkTriangleMeshCollector.h"
@@ -33,6 +34,7 @@ void Fill(const neuralmesh::Reconstruction& result, double unit, vtkPolyData* ou
   output->SetPolys(vtkTriangleMeshCollector::MakeCells(result.mesh));
   output->GetPointData()->SetNormals(vtkMeshArrays::MakeNormals(result.normals));
   output->GetPointData()->AddArray(vtkMeshArrays::MakeNumbers("Activity", result.activities));
+  vtkNeuralMeshOrientation::AddReport(result.orientation, output);
   if (!result.quality || !result.finish)
   {
     return;
@@ -95,7 +97,30 @@ void vtkNeuralMeshStream::AddPoints(vtkPointSet* points)
   }
   vtkPointCloudCollector collector;
   collector.Collect(points);
-  this->Stream->addPoints(collector.GetPoints());
+  const vtkNeuralMeshOrientation orientation(this, points, collector);
+  if (!orientation.IsSound())
+  {
+    return;
+  }
+  const neuralmesh::OrientationHints hints = orientation.GetHints();
+  const auto viewOf = [&hints](std::uint32_t point)
+  { return hints.viewOf ? hints.viewOf(point) : 0; };
+  // Of several viewpoints without a view of each point the mesh tells later what was seen from where.
+  const bool haveViews = hints.viewOf || hints.viewpoints.size() == 1;
+  neuralmesh::StreamingReconstruction::DirectionOf directionOf;
+  if (haveViews || hints.normalOf)
+  {
+    directionOf = [&](std::size_t index) -> Eigen::Vector3d
+    {
+      const auto point = static_cast<std::uint32_t>(index);
+      if (haveViews && viewOf(point) < hints.viewpoints.size())
+      {
+        return hints.viewpoints[viewOf(point)] - collector.GetPoints()[index];
+      }
+      return hints.normalOf ? hints.normalOf(point) : Eigen::Vector3d::Zero();
+    };
+  }
+  this->Stream->addPoints(collector.GetPoints(), directionOf);
 }
 
 vtkIdType vtkNeuralMeshStream::Learn(vtkIdType samples)
@@ -177,9 +202,16 @@ int vtkNeuralMeshStream::RequestData(
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   vtkNeuralMeshProgress progress(this);
+  const vtkPointCloudCollector noPoints;
+  neuralmesh::OrientationHints hints = vtkNeuralMeshOrientation(this, nullptr, noPoints).GetHints();
+  if (hints.viewpoints.size() == 1)
+  {
+    hints.viewpoints.clear(); // the points know it that were added while it was there
+  }
   const neuralmesh::Reconstruction result = this->Stream->mesh(
-    this->FinishOutput, [&progress](double fraction) { return progress.Report(fraction); });
+    this->FinishOutput, [&progress](double fraction) { return progress.Report(fraction); }, hints);
   this->AbortExecute = 0;
+  vtkNeuralMeshOrientation::Warn(result.orientation, this);
   Fill(result, this->Stream->unit(), output);
   const auto add = [output](const char* name, vtkIdType value)
   { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, value); };

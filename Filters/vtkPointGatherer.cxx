@@ -35,6 +35,7 @@ struct Description
   int IsNamed = 0;
   int Type = 0;
   int AreScalars = 0;
+  int AreNormals = 0;
   std::vector<std::string> ComponentNames; ///< empty where there is none
 
   bool StandsFor(const Description& other) const
@@ -57,6 +58,7 @@ Descriptions Describe(vtkPointData* data)
     description.Name = array->GetName() ? array->GetName() : "";
     description.Type = array->GetDataType();
     description.AreScalars = array == data->GetScalars() ? 1 : 0;
+    description.AreNormals = array == data->GetNormals() ? 1 : 0;
     for (int component = 0; component < array->GetNumberOfComponents(); ++component)
     {
       const char* name = array->GetComponentName(component);
@@ -74,7 +76,7 @@ vtkMultiProcessStream Pack(const Descriptions& descriptions)
   for (const Description& description : descriptions)
   {
     stream << description.Name << description.IsNamed << description.Type << description.AreScalars
-           << static_cast<int>(description.ComponentNames.size());
+           << description.AreNormals << static_cast<int>(description.ComponentNames.size());
     for (const std::string& name : description.ComponentNames)
     {
       stream << name;
@@ -92,7 +94,7 @@ Descriptions Unpack(vtkMultiProcessStream& stream)
   {
     int components = 0;
     stream >> description.Name >> description.IsNamed >> description.Type >>
-      description.AreScalars >> components;
+      description.AreScalars >> description.AreNormals >> components;
     description.ComponentNames.resize(static_cast<std::size_t>(components));
     for (std::string& name : description.ComponentNames)
     {
@@ -208,6 +210,10 @@ void vtkPointGatherer::AgreeOnArrays(vtkPolyData* part, bool hasPoints)
     if (common[i].AreScalars)
     {
       data->SetActiveAttribute(index, vtkDataSetAttributes::SCALARS);
+    }
+    if (common[i].AreNormals)
+    {
+      data->SetActiveAttribute(index, vtkDataSetAttributes::NORMALS);
     }
   }
 }

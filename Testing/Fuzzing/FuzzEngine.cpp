@@ -182,8 +182,8 @@ void measureTriangles(FuzzInput& input)
   options.gradient = input.number(1e-3, 1e3);
   options.viewpoint = pointOnGrid(input);
   generateCloud(mesh, options, someProgress(input));
-  const Visibility visibility(mesh, pointOnGrid(input));
-  visibility.isSeen(pointOnGrid(input));
+  const Visibility visibility(mesh);
+  visibility.isSeen(pointOnGrid(input), pointOnGrid(input));
   VoxelGrid grid;
   grid.first = -pointOnGrid(input);
   grid.width = input.number(1e-3, 10.);

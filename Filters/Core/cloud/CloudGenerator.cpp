@@ -105,9 +105,9 @@ bool takeAway(Cloud& cloud, const IsGone& isGone, const Progress& progress)
 bool takeUnseen(const TriangleMesh& surface, const Eigen::Vector3d& viewpoint, Cloud& cloud,
   const Progress& progress)
 {
-  const Visibility visibility(surface, viewpoint);
+  const Visibility visibility(surface);
   return takeAway(
-    cloud, [&](const Eigen::Vector3d& point) { return !visibility.isSeen(point); }, progress);
+    cloud, [&](const Eigen::Vector3d& point) { return !visibility.isSeen(point, viewpoint); }, progress);
 }
 
 bool cutHoles(const CloudOptions& options, double diagonal, Cloud& cloud, const Progress& progress)

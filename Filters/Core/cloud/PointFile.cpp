@@ -178,19 +178,32 @@ PointFile::Point PointFile::decode(const unsigned char* record) const
 {
   const PointLayout& layout = layout_;
   Point point{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const std::uint64_t bits =
-      numberIn(record + layout.coordinates[axis], layout.coordinateSize(), layout.isBigEndian);
-    point.position[Eigen::Index(axis)] = layout.isDouble
-      ? std::bit_cast<double>(bits)
-      : double(std::bit_cast<float>(std::uint32_t(bits)));
-  }
+  point.position = numbersAt(record, layout.coordinates);
   if (layout.color)
   {
     std::copy_n(record + *layout.color, 3, point.color.begin());
   }
+  if (layout.normal)
+  {
+    point.normal = numbersAt(record, *layout.normal);
+  }
   return point;
+}
+
+/// Three numbers of the type of the coordinates.
+Eigen::Vector3d PointFile::numbersAt(
+  const unsigned char* record, const std::array<std::uint64_t, 3>& places) const
+{
+  Eigen::Vector3d numbers;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::uint64_t bits =
+      numberIn(record + places[axis], layout_.coordinateSize(), layout_.isBigEndian);
+    numbers[Eigen::Index(axis)] = layout_.isDouble
+      ? std::bit_cast<double>(bits)
+      : double(std::bit_cast<float>(std::uint32_t(bits)));
+  }
+  return numbers;
 }
 
 bool PointFile::draw(std::uint64_t wanted, std::uint64_t seed,

@@ -30,6 +30,7 @@ public:
   {
     Eigen::Vector3d position;
     std::array<std::uint8_t, 3> color; ///< if the layout has one
+    Eigen::Vector3d normal;            ///< if the layout has one
   };
 
   /// Draws `wanted` points (fewer than 2^32), in the order of the file: of that many equal shares of
@@ -64,6 +65,8 @@ private:
 
   void requireWhole() const;
   Point decode(const unsigned char* record) const;
+  Eigen::Vector3d numbersAt(
+    const unsigned char* record, const std::array<std::uint64_t, 3>& places) const;
 
   std::string path_;
   Source source_;

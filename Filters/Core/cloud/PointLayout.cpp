@@ -12,6 +12,23 @@ namespace neuralmesh
 {
 namespace
 {
+/// Those of nx, ny and nz, if all are there and of the type of the coordinates.
+std::optional<std::array<std::uint64_t, 3>> normalPlaces(const PlyElement& vertices, bool isDouble)
+{
+  std::array<std::uint64_t, 3> places{};
+  const std::array<std::string_view, 3> names{ "nx", "ny", "nz" };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const PlyProperty* property = vertices.find(names[axis]);
+    if (!property || !property->type.isReal() || (property->type.size == 8) != isDouble)
+    {
+      return std::nullopt;
+    }
+    places[axis] = vertices.placeOf(*property);
+  }
+  return places;
+}
+
 PointLayout layoutOfVertices(const PlyElement& vertices, PointLayout layout)
 {
   if (vertices.hasList())
@@ -48,6 +65,7 @@ PointLayout layoutOfVertices(const PlyElement& vertices, PointLayout layout)
   {
     layout.color = vertices.placeOf(*red);
   }
+  layout.normal = normalPlaces(vertices, layout.isDouble);
   return layout;
 }
 

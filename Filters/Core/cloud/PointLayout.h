@@ -22,6 +22,8 @@ struct PointLayout
   bool isDouble = false;                      ///< whether they are of 8 bytes, or 4
   bool isBigEndian = false;
   std::optional<std::uint64_t> color; ///< place of red, green and blue, of a byte each
+  /// Places of nx, ny and nz, which are as the coordinates are.
+  std::optional<std::array<std::uint64_t, 3>> normal;
   /// Just before the first record there is a number of so many bytes, which tells how many bytes the
   /// records have; 0: there is none.
   std::uint64_t sizeField = 0;

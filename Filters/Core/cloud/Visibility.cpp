@@ -91,9 +91,8 @@ private:
 };
 }
 
-Visibility::Visibility(const TriangleMesh& surface, const Eigen::Vector3d& viewpoint)
+Visibility::Visibility(const TriangleMesh& surface)
   : surface_(surface)
-  , viewpoint_(viewpoint)
 {
   std::vector<std::uint32_t> indices(surface.triangles.size());
   std::iota(indices.begin(), indices.end(), 0u);
@@ -108,15 +107,16 @@ Visibility::Visibility(const TriangleMesh& surface, const Eigen::Vector3d& viewp
   tolerance_ = boxes.empty() ? 0. : HitTolerance * bounds.diagonal().norm();
 }
 
-bool Visibility::isSeen(const Eigen::Vector3d& point) const
+bool Visibility::isSeen(
+  const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint) const
 {
-  const Eigen::Vector3d way = point - viewpoint_;
+  const Eigen::Vector3d way = point - viewpoint;
   const double length = way.norm();
   if (length <= tolerance_)
   {
     return true;
   }
-  SegmentSearch search(surface_, viewpoint_, viewpoint_ + (1. - tolerance_ / length) * way);
+  SegmentSearch search(surface_, viewpoint, viewpoint + (1. - tolerance_ / length) * way);
   Eigen::BVIntersect(tree_, search);
   return !search.isFound();
 }

@@ -8,24 +8,23 @@
 
 namespace neuralmesh
 {
-/// Finds what of a surface is seen from a place: points with no triangle between them and the place.
+/// Finds what of a surface is seen from places: points with no triangle between them and a place.
 /// Both sides of a triangle hide.
 class Visibility
 {
 public:
   /// The mesh is referred to, not copied.
-  Visibility(const TriangleMesh& surface, const Eigen::Vector3d& viewpoint);
+  explicit Visibility(const TriangleMesh& surface);
 
   /// Triangles closer to the point than a millionth of the diagonal of the surface do not hide it:
   /// one of them is that on which it lies.
-  bool isSeen(const Eigen::Vector3d& point) const;
+  bool isSeen(const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint) const;
 
 private:
   /// By index.
   using Tree = Eigen::KdBVH<double, 3, std::uint32_t>;
 
   const TriangleMesh& surface_;
-  Eigen::Vector3d viewpoint_;
   Tree tree_;
   double tolerance_ = 0.;
 };

@@ -1,66 +1,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/Orientation.h"
 
-#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 namespace neuralmesh
 {
 namespace
 {
-/// Six times the signed volume, with the first vertex as the origin, for precision.
-double signedVolume(const Mesh& mesh, std::span<const VertexIndex> component)
-{
-  const Eigen::Vector3d origin = mesh.position(component.front()).toDouble();
-  double volume = 0.;
-  for (const VertexIndex v : component)
-  {
-    const Ring& ring = mesh.ring(v);
-    const Eigen::Vector3d a = mesh.position(v).toDouble() - origin;
-    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
-    {
-      // Every triangle is seen from its three corners.
-      const Eigen::Vector3d b = mesh.position(ring[slot]).toDouble() - origin;
-      const Eigen::Vector3d c = mesh.position(ring[ring.after(slot)]).toDouble() - origin;
-      volume += a.dot(b.cross(c)) / 3.;
-    }
-  }
-  return volume;
+/// F^1.5 over the volume.
+constexpr double FlattestThatTells = 60.;
 }
+
+std::string_view name(SideEvidence evidence)
+{
+  constexpr std::array<std::string_view, SideEvidences> names{ "nothing", "neighbours", "volume",
+    "normals", "up direction", "viewpoints" };
+  return names[std::size_t(evidence)];
+}
+
+SideEvidence OrientationReport::main() const
+{
+  return SideEvidence(std::max_element(shares.begin(), shares.end()) - shares.begin());
+}
+
+Side sideByVolume(const Piece& piece)
+{
+  const double uncertainty =
+    piece.isClosed ? 0. : std::pow(std::min(piece.area, piece.closingArea), 1.5);
+  const double volume = std::abs(piece.volume);
+  // A volume of 0 tells nothing, nor does one that is not finite.
+  return volume > 0. && uncertainty <= FlattestThatTells * volume
+    ? Side{ SideEvidence::Volume, piece.volume < 0. }
+    : Side{};
+}
+
+OrientationReport turn(Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> sides)
+{
+  OrientationReport report;
+  report.pieces = pieces.size();
+  double area = 0.;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    if (sides[i].isTurned)
+    {
+      mesh.reverseOrientation(pieces[i].vertices);
+    }
+    report.unknownPieces += sides[i].isKnown() ? 0 : 1;
+    report.shares[std::size_t(sides[i].evidence)] += pieces[i].area;
+    area += pieces[i].area;
+  }
+  for (double& share : report.shares)
+  {
+    share = area > 0. ? share / area : 0.;
+  }
+  return report;
 }
 
 std::size_t orientOutwards(Mesh& mesh)
 {
-  std::size_t turned = 0;
-  std::vector<bool> visited(mesh.indexEnd(), false);
-  std::vector<VertexIndex> component;
-  for (VertexIndex seed = 0; seed < mesh.indexEnd(); ++seed)
-  {
-    if (visited[seed] || !mesh.isAlive(seed))
-    {
-      continue;
-    }
-    bool closed = true;
-    visited[seed] = true;
-    component.assign(1, seed);
-    for (std::size_t i = 0; i < component.size(); ++i)
-    {
-      const Ring& ring = mesh.ring(component[i]);
-      closed = closed && !ring.isOpen();
-      for (const VertexIndex neighbor : ring)
-      {
-        if (!visited[neighbor])
-        {
-          visited[neighbor] = true;
-          component.push_back(neighbor);
-        }
-      }
-    }
-    if (closed && signedVolume(mesh, component) < 0.)
-    {
-      mesh.reverseOrientation(component);
-      ++turned;
-    }
-  }
-  return turned;
+  const std::vector<Piece> pieces = findPieces(mesh);
+  std::vector<Side> sides(pieces.size());
+  std::transform(pieces.begin(), pieces.end(), sides.begin(), sideByVolume);
+  turn(mesh, pieces, sides);
+  return std::size_t(
+    std::count_if(sides.begin(), sides.end(), [](const Side& side) { return side.isTurned; }));
 }
 }

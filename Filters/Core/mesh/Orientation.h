@@ -2,11 +2,68 @@
 #pragma once
 
 #include "mesh/Mesh.h"
+#include "mesh/Pieces.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
 
 namespace neuralmesh
 {
-/// Turns every closed component with negative volume inside out, so that its normals point
-/// outwards: a mesh may have grown with its inside out. Components with a boundary stay as they
-/// are. Returns how many were turned.
+/// What tells which side of a piece is the outer one.
+enum class SideEvidence : std::uint8_t
+{
+  Nothing,
+  Neighbors,   ///< a piece near by, whose side is known
+  Volume,      ///< what the piece encloses
+  Normals,     ///< those of the points
+  UpDirection, ///< most of the piece looks upwards
+  Viewpoints   ///< it looks to where its points were seen from
+};
+constexpr std::size_t SideEvidences = 6;
+
+/// "nothing", "neighbours", "volume", "normals", "up direction", "viewpoints".
+std::string_view name(SideEvidence evidence);
+
+/// What is known of the sides of a piece.
+struct Side
+{
+  SideEvidence evidence = SideEvidence::Nothing;
+  bool isTurned = false; ///< whether it is to be turned inside out
+
+  bool isKnown() const { return evidence != SideEvidence::Nothing; }
+};
+
+/// How the pieces of a mesh came to their sides.
+struct OrientationReport
+{
+  std::size_t pieces = 0;
+  std::size_t unknownPieces = 0;
+  /// Of the area, by what told its side; they add up to 1 where there is an area.
+  std::array<double, SideEvidences> shares{};
+  /// By kind: whether it was given, and told nothing of any piece.
+  std::array<bool, SideEvidences> toldNothing{};
+
+  double share(SideEvidence evidence) const { return shares[std::size_t(evidence)]; }
+  bool hasToldNothing(SideEvidence evidence) const { return toldNothing[std::size_t(evidence)]; }
+  double unknownShare() const { return share(SideEvidence::Nothing); }
+  /// By which most of the area has its side.
+  SideEvidence main() const;
+};
+
+/// The side that the volume tells. That of a closed piece always does. An open piece has one that
+/// depends on how its loops are closed, about as much as F^1.5, where F is the area that closes them,
+/// or its own if that is less. So the volume tells where it is more than a 60th of that: objects
+/// scanned on a table have 0 to 15, caps of a sphere 20 where they are 20 degrees wide, but terrain
+/// and views of flat things more than 180.
+Side sideByVolume(const Piece& piece);
+
+/// Turns the pieces that are to be turned, and reports by what.
+OrientationReport turn(Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> sides);
+
+/// Turns those pieces inside out whose volume tells that they are, for a mesh may have grown so.
+/// Others stay as they are. Returns how many were turned.
 std::size_t orientOutwards(Mesh& mesh);
 }

@@ -62,7 +62,7 @@ std::size_t firstVertices(std::uint64_t vertices)
 
 Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
   const Progress& report, const std::optional<Mesh>& first, const GrowthWatch& watch,
-  const CheckpointPlan& plan, const Executor& executor)
+  const CheckpointPlan& plan, const Executor& executor, const OrientationHints& hints)
 {
   Reconstruction result;
   // Once the caller has ended the run, it is asked no more.
@@ -117,7 +117,7 @@ Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
     }
   }
   describe(std::move(learnt), cloud, result.stopReason == StopReason::Cancelled ? nullptr : &input,
-    result);
+    hints, result, executor);
   result.times.leave();
   return result;
 }

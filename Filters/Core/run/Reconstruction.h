@@ -4,11 +4,13 @@
 #include "base/Executor.h"
 #include "base/PhaseTimes.h"
 #include "base/Progress.h"
+#include "cloud/OrientationHints.h"
 #include "fit/Finish.h"
 #include "fit/MeshQuality.h"
 #include "learn/GrowthWatch.h"
 #include "learn/LearningCurve.h"
 #include "learn/StoppingRules.h"
+#include "mesh/Orientation.h"
 #include "mesh/TriangleMesh.h"
 #include "run/Checkpoint.h"
 
@@ -39,6 +41,7 @@ struct Reconstruction
   std::optional<FinishReport> finish;
   /// Nothing if the run was cancelled.
   std::optional<MeshQuality> quality;
+  OrientationReport orientation;
   PhaseTimes times; ///< of start, learning and finish
 };
 
@@ -53,10 +56,12 @@ inline constexpr double EndOfLearning = 0.65;
 
 /// Grows a mesh over a cloud that has an extent: from `first`, or what the parameters have it start
 /// from if there is none, until a stopping rule is met. Then finishes it, unless there is no time
-/// left, or nothing was learnt; and orients it outwards. Snapshots of the growth go to `watch`. The
-/// run goes on from the checkpoint that `plan` names, if there is one, and leaves one there: in the
-/// end, too, for what becomes of the result is not known here. Throws as Checkpoint does.
+/// left, or nothing was learnt; and turns it to its outer side, by `hints` if they tell. Snapshots of
+/// the growth go to `watch`. The run goes on from the checkpoint that `plan` names, if there is one, and
+/// leaves one there: in the end, too, for what becomes of the result is not known here. Throws as
+/// Checkpoint does.
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
   const Progress& progress, const std::optional<Mesh>& first = {}, const GrowthWatch& watch = {},
-  const CheckpointPlan& plan = {}, const Executor& executor = Executor::sequential());
+  const CheckpointPlan& plan = {}, const Executor& executor = Executor::sequential(),
+  const OrientationHints& hints = {});
 }

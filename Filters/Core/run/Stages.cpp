@@ -2,7 +2,7 @@
 #include "run/Stages.h"
 
 #include "cloud/MeshBuilder.h"
-#include "mesh/Orientation.h"
+#include "run/MeshOrientation.h"
 #include "start/CurvatureDensity.h"
 #include "start/FirstSurface.h"
 
@@ -76,10 +76,10 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   return finish.run(progress) ? std::optional(finish.report()) : std::nullopt;
 }
 
-void describe(
-  LearntMesh learnt, const PointCloud& cloud, const PointCloud* all, Reconstruction& result)
+void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
+  const OrientationHints& hints, Reconstruction& result, const Executor& executor)
 {
-  orientOutwards(learnt.mesh);
+  result.orientation = orientMesh(learnt.mesh, cloud, hints, executor);
   result.mesh = trianglesOf(learnt.mesh, cloud);
   result.normals = pointNormals(result.mesh);
   const auto activities = learnt.mesh.values(learnt.activity);

@@ -4,6 +4,7 @@
 
 #include "base/Executor.h"
 #include "base/Progress.h"
+#include "cloud/OrientationHints.h"
 #include "cloud/PointCloud.h"
 #include "fit/Finish.h"
 #include "learn/Learner.h"
@@ -46,8 +47,9 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Parameters& parameters, std::optional<double> bridgeWidth, std::size_t vertexCount,
   const Progress& progress, const Executor& executor = Executor::sequential());
 
-/// Orients the mesh outwards, and adds to `result` all that a user gets of it. Its quality is measured
-/// by `all` points, if there are any.
-void describe(
-  LearntMesh learnt, const PointCloud& cloud, const PointCloud* all, Reconstruction& result);
+/// Turns the mesh to its outer side, and adds to `result` all that a user gets of it. Its quality is
+/// measured by `all` points, if there are any.
+void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
+  const OrientationHints& hints, Reconstruction& result,
+  const Executor& executor = Executor::sequential());
 }

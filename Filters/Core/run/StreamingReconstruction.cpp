@@ -74,14 +74,19 @@ StreamingReconstruction::StreamingReconstruction(
   parameters_.curvatureDensity = 0.;
 }
 
-void StreamingReconstruction::addPoints(const PointSpans& points)
+void StreamingReconstruction::addPoints(const PointSpans& points, const DirectionOf& directionOf)
 {
   points.forEach(0, points.size(),
-    [this](std::size_t, const Eigen::Vector3d& point)
+    [&](std::size_t index, const Eigen::Vector3d& point)
     {
       if (point.allFinite())
       {
-        reservoir_.add(point);
+        Eigen::Vector3f direction = Eigen::Vector3f::Zero();
+        if (directionOf)
+        {
+          direction = directionOf(index).stableNormalized().cast<float>();
+        }
+        reservoir_.add(point, direction.allFinite() ? direction : Eigen::Vector3f::Zero());
       }
       else
       {
@@ -124,7 +129,9 @@ bool StreamingReconstruction::takeInPoints(const Progress& progress)
   {
     return hasMesh();
   }
-  auto cloud = std::make_unique<PointCloud>(reservoir_.points());
+  const bool hasDirections = !reservoir_.directions().empty();
+  auto cloud =
+    std::make_unique<PointCloud>(reservoir_.points(), std::span<const double>(), hasDirections);
   if (!cloud->hasExtent())
   {
     return hasMesh();
@@ -151,6 +158,7 @@ bool StreamingReconstruction::takeInPoints(const Progress& progress)
     }
   }
   cloud_ = std::move(cloud);
+  directions_ = reservoir_.directions();
   takenIn_ = reservoir_.seen();
   return true;
 }
@@ -182,7 +190,8 @@ bool StreamingReconstruction::beginAnew(
   return true;
 }
 
-Reconstruction StreamingReconstruction::mesh(bool isFinished, const Progress& progress) const
+Reconstruction StreamingReconstruction::mesh(
+  bool isFinished, const Progress& progress, const OrientationHints& hints) const
 {
   Reconstruction result;
   LearntMesh learnt = learner_->learntMesh();
@@ -196,7 +205,12 @@ Reconstruction StreamingReconstruction::mesh(bool isFinished, const Progress& pr
     result.finish = finish(learnt, *cloud_, parameters_, bridgeWidth_, vertices, progress);
     result.stopReason = result.finish ? StopReason::None : StopReason::Cancelled;
   }
-  describe(std::move(learnt), *cloud_, result.finish ? cloud_.get() : nullptr, result);
+  OrientationHints allHints{ hints.viewpoints, {}, {}, hints.up };
+  if (!directions_.empty())
+  {
+    allHints.normalOf = [this](std::uint32_t point) { return directions_[point].cast<double>(); };
+  }
+  describe(std::move(learnt), *cloud_, result.finish ? cloud_.get() : nullptr, allHints, result);
   return result;
 }
 }

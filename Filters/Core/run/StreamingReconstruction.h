@@ -5,8 +5,10 @@
 #include "learn/Learner.h"
 #include "run/Reconstruction.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace neuralmesh
 {
@@ -26,8 +28,12 @@ public:
   /// does not count, nor do stopping rules but the number of vertices.
   StreamingReconstruction(const Parameters& parameters, std::size_t reservoirSize);
 
+  /// The direction in which the surface looks at a point, by its index among those that are added; of
+  /// any length, 0 or not finite if that is not known.
+  using DirectionOf = std::function<Eigen::Vector3d(std::size_t)>;
+
   /// Points that are not finite are dropped.
-  void addPoints(const PointSpans& points);
+  void addPoints(const PointSpans& points, const DirectionOf& directionOf = {});
 
   /// Learns so many samples, of all points that have come, and returns how many they were: fewer if
   /// `progress` ends it, none if there are too few points for a mesh.
@@ -36,8 +42,11 @@ public:
   bool hasMesh() const { return learner_.has_value(); }
   /// The mesh as it is, if there is one. With `isFinished` it is fitted to the points of the last
   /// learn(), opened and repaired, and measured, unless `progress` ends that; and if it has all its
-  /// vertices, it has as many as were asked for. The stream itself stays as it is.
-  Reconstruction mesh(bool isFinished, const Progress& progress) const;
+  /// vertices, it has as many as were asked for. The stream itself stays as it is. The mesh is turned to
+  /// its outer side by `hints`, of which viewpoints and up direction count, and by the directions of
+  /// the points.
+  Reconstruction mesh(
+    bool isFinished, const Progress& progress, const OrientationHints& hints = {}) const;
 
   std::uint64_t pointCount() const { return reservoir_.seen(); } ///< that came and are finite
   std::uint64_t droppedCount() const { return droppedCount_; }
@@ -58,6 +67,7 @@ private:
   std::uint64_t takenIn_ = 0; ///< how many had come when the cloud was made
   std::uint64_t clouds_ = 0;
   std::unique_ptr<PointCloud> cloud_;
+  std::vector<Eigen::Vector3f> directions_; ///< of what the cloud was made of
   std::optional<Learner> learner_;
   std::optional<double> bridgeWidth_;
   std::size_t pointsAtBeginning_ = 0;

@@ -33,9 +33,10 @@ TEST(Visibility, ShadowOfASquare)
   addSquare(mesh, 10., 0.);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> coordinate(-9., 9.);
+  const Visibility visibility(mesh);
   for (const double height : { 1.5, 5., 1e6 })
   {
-    const Visibility visibility(mesh, { 0., 0., height });
+    const Eigen::Vector3d viewpoint(0., 0., height);
     const double halfShadow = height / (height - 1.);
     for (int i = 0; i < 2000; ++i)
     {
@@ -43,10 +44,10 @@ TEST(Visibility, ShadowOfASquare)
       const double outside = point.cwiseAbs().maxCoeff() - halfShadow;
       if (std::abs(outside) > 1e-6)
       {
-        EXPECT_EQ(visibility.isSeen(point), outside > 0.) << height << ": " << point.transpose();
+        EXPECT_EQ(visibility.isSeen(point, viewpoint), outside > 0.) << height << ": " << point.transpose();
       }
       const Eigen::Vector3d above(point.x() / 9., point.y() / 9., 1.);
-      EXPECT_TRUE(visibility.isSeen(above));
+      EXPECT_TRUE(visibility.isSeen(above, viewpoint));
     }
   }
 }
@@ -56,7 +57,7 @@ TEST(Visibility, HorizonOfASphere)
 {
   const TriangleMesh sphere = makeSphere(100);
   const Eigen::Vector3d viewpoint(1., 2., 2.);
-  const Visibility visibility(sphere, viewpoint);
+  const Visibility visibility(sphere);
   int seen = 0;
   for (const Eigen::Vector3d& point : sphere.points)
   {
@@ -64,9 +65,9 @@ TEST(Visibility, HorizonOfASphere)
     const double above = point.dot(viewpoint) - 1.;
     if (std::abs(above) > 0.06)
     {
-      EXPECT_EQ(visibility.isSeen(point), above > 0.) << above;
+      EXPECT_EQ(visibility.isSeen(point, viewpoint), above > 0.) << above;
     }
-    seen += visibility.isSeen(point) ? 1 : 0;
+    seen += visibility.isSeen(point, viewpoint) ? 1 : 0;
   }
   EXPECT_GT(seen, 1000);
 }
@@ -78,10 +79,10 @@ TEST(Visibility, OddPlaces)
   TriangleMesh mesh;
   addSquare(mesh, 1., 0.);
   const Eigen::Vector3d above(0.1, 0.2, 1.), below(0.1, 0.3, -1.), on(0.1, 0.2, 0.);
-  EXPECT_FALSE(Visibility(mesh, above).isSeen(below));
-  EXPECT_FALSE(Visibility(mesh, below).isSeen(above));
-  EXPECT_TRUE(Visibility(mesh, above).isSeen(on));
-  EXPECT_TRUE(Visibility(mesh, on).isSeen(on));
-  EXPECT_TRUE(Visibility(TriangleMesh(), above).isSeen(below));
+  EXPECT_FALSE(Visibility(mesh).isSeen(below, above));
+  EXPECT_FALSE(Visibility(mesh).isSeen(above, below));
+  EXPECT_TRUE(Visibility(mesh).isSeen(on, above));
+  EXPECT_TRUE(Visibility(mesh).isSeen(on, on));
+  EXPECT_TRUE(Visibility(TriangleMesh()).isSeen(below, above));
 }
 }

@@ -36,14 +36,47 @@ TEST(Orientation, TurnsClosedMeshOutwards)
   }
 }
 
-// A mesh with a boundary has no outside: it stays as it is.
-TEST(Orientation, LeavesOpenMeshes)
+// An open mesh is turned by the volume that it encloses once its loop is closed.
+TEST(Orientation, TurnsOpenMeshOutwards)
 {
   Mesh mesh = makeBipyramid(6);
-  mesh.reverseOrientation(allVertices(mesh));
   removeTriangle(mesh, { 0, mesh.ring(0)[0], mesh.ring(0)[1] });
-  const auto before = canonical(trianglesOf(mesh));
+  const auto outwards = canonical(trianglesOf(mesh));
   EXPECT_EQ(orientOutwards(mesh), 0u);
-  EXPECT_EQ(canonical(trianglesOf(mesh)), before);
+  mesh.reverseOrientation(allVertices(mesh));
+  EXPECT_EQ(orientOutwards(mesh), 1u);
+  EXPECT_EQ(canonical(trianglesOf(mesh)), outwards);
+}
+
+// A flat mesh has no outside: it stays as it is.
+TEST(Orientation, LeavesFlatMeshes)
+{
+  for (const float height : { 0.f, 0.01f })
+  {
+    Mesh mesh = makeFan(12);
+    mesh.setPosition(0, Vector4(0.f, 0.f, height));
+    for (int i = 0; i < 2; ++i)
+    {
+      mesh.reverseOrientation(allVertices(mesh));
+      const auto before = canonical(trianglesOf(mesh));
+      EXPECT_EQ(orientOutwards(mesh), 0u);
+      EXPECT_EQ(canonical(trianglesOf(mesh)), before);
+    }
+  }
+}
+
+// A piece, here a pyramid without its base, knows its area, its volume, and the area of the base.
+TEST(Orientation, PiecesAreMeasured)
+{
+  Mesh mesh = makeFan(15);
+  mesh.setPosition(0, Vector4(0.f, 0.f, 1.f));
+  const std::vector<Piece> pieces = findPieces(mesh);
+  ASSERT_EQ(pieces.size(), 1u);
+  EXPECT_FALSE(pieces[0].isClosed);
+  EXPECT_EQ(pieces[0].vertices.size(), mesh.vertexCount());
+  const double sine = std::sin(std::numbers::pi / 15.), cosine = std::cos(std::numbers::pi / 15.);
+  EXPECT_NEAR(pieces[0].area, 15. * sine * std::sqrt(1. + cosine * cosine), 1e-6);
+  EXPECT_NEAR(pieces[0].closingArea, 15. * sine * cosine, 1e-6);
+  EXPECT_NEAR(pieces[0].volume, 5. * sine * cosine, 1e-6);
 }
 }

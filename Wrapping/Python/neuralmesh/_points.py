@@ -28,27 +28,76 @@ def as_dataset(points: object, blocks: bool = True) -> vtkPointSet | vtkComposit
     return dataset
 
 
-def with_weights(dataset: vtkPointSet | vtkCompositeDataSet, weights: object) -> tuple:
-    """The dataset and the name of its array of weights; where they are an array, in a copy that
-    refers to the points. ValueError for anything but numbers of shape (N,).
+def with_array(
+    dataset: vtkPointSet | vtkCompositeDataSet, values: object, parameter: str, name: str
+) -> tuple:
+    """The dataset and the name of an array of it that a parameter gives; where the parameter is an
+    array, in a copy that refers to the points. ValueError for anything but numbers of shape (N,).
     """
-    if isinstance(weights, str):
-        return dataset, weights
+    if isinstance(values, str):
+        return dataset, values
+    array = _array_of_points(dataset, values, parameter, "the name of a point array", ())
+    return _with(dataset, array, name), name
+
+
+def with_normals(dataset: vtkPointSet | vtkCompositeDataSet, normals: object) -> vtkPointSet:
+    """A copy of the dataset that refers to the points and has these normals. ValueError for anything
+    but numbers of shape (N, 3).
+    """
+    array = _array_of_points(dataset, normals, "normals", "given with the blocks", (3,))
+    copy = _with(dataset, array, "Normals")
+    copy.GetPointData().SetActiveNormals("Normals")
+    return copy
+
+
+def _array_of_points(dataset, values: object, parameter: str, other: str, shape: tuple) -> np.ndarray:
     if not isinstance(dataset, vtkPointSet):
-        raise ValueError("weights must be the name of a point array where points are in blocks")
-    array = np.asarray(weights)
-    count = dataset.GetNumberOfPoints()
-    if array.shape != (count,) or array.dtype.kind not in "fiub":
+        raise ValueError(f"{parameter} must be {other} where points are in blocks")
+    array = np.asarray(values)
+    wanted = (dataset.GetNumberOfPoints(), *shape)
+    if array.shape != wanted or array.dtype.kind not in "fiub":
+        named = "the name of a point array or " if not shape else ""
         raise ValueError(
-            f"weights must be the name of a point array or numbers of shape ({count},), not "
-            f"{type(weights).__name__} of shape {array.shape} and type {array.dtype}"
+            f"{parameter} must be {named}numbers of shape {wanted}, not "
+            f"{type(values).__name__} of shape {array.shape} and type {array.dtype}"
         )
+    return array
+
+
+def _with(dataset: vtkPointSet, array: np.ndarray, name: str) -> vtkPointSet:
     vtk_array = numpy_to_vtk(np.ascontiguousarray(array, dtype=np.float64))
-    vtk_array.SetName("Weights")
+    vtk_array.SetName(name)
     copy = dataset.NewInstance()
     copy.ShallowCopy(dataset)
     copy.GetPointData().AddArray(vtk_array)
-    return copy, "Weights"
+    return copy
+
+
+def places(values: object, parameter: str) -> np.ndarray:
+    """One or several places as an array of shape (V, 3). ValueError for anything else."""
+    try:
+        array = np.asarray(values)
+    except ValueError:
+        array = np.empty(0)
+    if array.shape[-1:] != (3,) or array.ndim > 2 or array.dtype.kind not in "fiu":
+        raise ValueError(f"{parameter} must be numbers of shape (3,) or (V, 3), not {values!r}")
+    return array.reshape(-1, 3).astype(float)
+
+
+def place(values: object, parameter: str) -> np.ndarray:
+    """A place as an array of shape (3,). ValueError for anything else."""
+    array = places(values, parameter)
+    if len(array) != 1 or not np.isfinite(array).all():
+        raise ValueError(f"{parameter} must be three numbers, not {values!r}")
+    return array[0]
+
+
+def direction(values: object, parameter: str) -> np.ndarray:
+    """The same, not all 0."""
+    array = place(values, parameter)
+    if not array.any():
+        raise ValueError(f"{parameter} must have a length, not {values!r}")
+    return array
 
 
 def _as_array(points: object) -> np.ndarray:

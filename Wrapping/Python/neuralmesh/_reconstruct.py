@@ -10,8 +10,8 @@ from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkP
 
 from ._execution import Progress, execute
 from ._parameters import assign, parameters_of, refuse_unknown, table
-from ._points import as_dataset, with_weights
-from .vtkFiltersNeuralMesh import vtkNeuralMesh, vtkNeuralMeshEnsemble
+from ._points import as_dataset, direction, places, with_array, with_normals
+from .vtkFiltersNeuralMesh import vtkNeuralMesh, vtkNeuralMeshAlgorithm, vtkNeuralMeshEnsemble
 
 # Those that have names or places of their own in the signature.
 _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
@@ -41,6 +41,10 @@ def reconstruct(
     first_mesh: vtkPolyData | None = None,
     ensemble: int | None = None,
     weights: ArrayLike | str | None = None,
+    viewpoints: ArrayLike | None = None,
+    views: ArrayLike | str | None = None,
+    normals: ArrayLike | None = None,
+    up: ArrayLike | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     progress: Progress | None = None,
     **parameters: float | bool | str,
@@ -71,6 +75,14 @@ def reconstruct(
             array of the dataset. Numbers from 0 on, of which only the ratios count; 0, what is
             negative and what is not finite leave the point out. An array arrives on the mesh as
             `Weights`.
+        viewpoints: Where the scanner stood: numbers of shape (3,), or (V, 3) for several places. The
+            surface is turned to look there.
+        views: Which of the viewpoints each point was seen from: an array of shape (N,) of numbers from
+            0 on, or the name of a point array of the dataset. Without it, what nothing hides from a
+            viewpoint was seen from there. An array arrives on the mesh as `View`.
+        normals: Normals of the points, of shape (N, 3), if the dataset has none: they may be noisy, and
+            tell which side of the surface is the outer one, but nothing of its shape.
+        up: Where up is, three numbers: most of an open surface looks there.
         checkpoint: The path of a file in which the run leaves its state, every checkpoint_interval
             seconds and when it is ended early. If the file exists, the run goes on from there: the
             same call ends with the same bytes, however often it was killed. Once the mesh is done,
@@ -92,7 +104,8 @@ def reconstruct(
         `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`, `DroppedPoints`, and the report on
         the quality: `Residual`, `Noise`, `OutlierShare`, `RegularRatio`, `TriangleQuality`,
         `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`,
-        `IntersectingTriangles`. No pipeline is behind it.
+        `IntersectingTriangles`. How the surface came to its outer side is told by `OrientedBy`,
+        `UnorientedPieces` and `UnorientedShare`. No pipeline is behind it.
 
     Raises:
         ValueError: A parameter is out of its range, which the message names; parameters do not go
@@ -122,12 +135,14 @@ def reconstruct(
         order=order,
         preset=preset,
         ensemble=ensemble,
+        viewpoints=viewpoints,
+        up=up,
         **parameters,
     )
     if checkpoint is not None:
         mesh.SetCheckpointFileName(os.fspath(checkpoint))
     require_one_start(ensemble, first_mesh)
-    set_input(mesh, points, weights)
+    set_input(mesh, points, weights, views, normals)
     if first_mesh is not None:
         if not isinstance(first_mesh, vtkPolyData):
             raise ValueError(f"first_mesh must be a vtkPolyData, not {type(first_mesh).__name__}")
@@ -149,6 +164,8 @@ def make_filter(
     order: str = "exact",
     preset: str = "default",
     ensemble: int | None = None,
+    viewpoints: ArrayLike | None = None,
+    up: ArrayLike | None = None,
     **parameters: float | bool | str,
 ) -> vtkNeuralMesh:
     """The filter that reconstruct() executes, without input; the same errors."""
@@ -165,7 +182,18 @@ def make_filter(
     assign(mesh, "preset", preset)
     for name, value in parameters.items():
         assign(mesh, name, value)
+    set_outer_side(mesh, viewpoints, up)
     return mesh
+
+
+def set_outer_side(
+    mesh: vtkNeuralMeshAlgorithm, viewpoints: ArrayLike | None, up: ArrayLike | None
+) -> None:
+    """Tell a filter which side of the surface is the outer one, as reconstruct() is told."""
+    for place in places(viewpoints, "viewpoints") if viewpoints is not None else ():
+        mesh.AddViewpoint(place)
+    if up is not None:
+        mesh.SetUpDirection(direction(up, "up"))
 
 
 def require_one_start(ensemble: object, first_mesh: object) -> None:
@@ -177,18 +205,28 @@ def require_one_start(ensemble: object, first_mesh: object) -> None:
 def set_input(
     mesh: vtkNeuralMesh,
     points: ArrayLike | vtkPointSet | vtkCompositeDataSet | str | os.PathLike,
-    weights: ArrayLike | str | None,
+    weights: ArrayLike | str | None = None,
+    views: ArrayLike | str | None = None,
+    normals: ArrayLike | None = None,
 ) -> None:
-    """Give the filter its points and their weights, as reconstruct() takes them."""
+    """Give the filter its points and what is known of each, as reconstruct() takes them."""
     if isinstance(points, (str, os.PathLike)):
-        if weights is not None:
-            raise ValueError("weights cannot be given for points in a file")
+        for name, values in (("weights", weights), ("views", views), ("normals", normals)):
+            if values is not None:
+                raise ValueError(f"{name} cannot be given for points in a file")
         mesh.SetPointFileName(os.fspath(points))
         return
     dataset = as_dataset(points)
     if weights is not None:
-        dataset, name = with_weights(dataset, weights)
+        dataset, name = with_array(dataset, weights, "weights", "Weights")
         mesh.SetWeightArrayName(name)
+    if views is not None:
+        if mesh.GetNumberOfViewpoints() == 0:
+            raise ValueError("views tell nothing without viewpoints")
+        dataset, name = with_array(dataset, views, "views", "View")
+        mesh.SetViewArrayName(name)
+    if normals is not None:
+        dataset = with_normals(dataset, normals)
     mesh.SetInputData(dataset)
 
 

@@ -8,7 +8,7 @@ from vtkmodules.vtkCommonDataModel import vtkPointSet, vtkPolyData
 
 from ._execution import Progress, execute, observed_call
 from ._parameters import assign, parameters_of, refuse_unknown, table
-from ._points import as_dataset
+from ._points import as_dataset, direction, place, with_normals
 from .vtkFiltersNeuralMesh import vtkNeuralMeshStream
 
 _NAMED = ("number_of_vertices", "seed", "reservoir_size", "finish_output")
@@ -27,18 +27,33 @@ class Stream:
     def __init__(self, algorithm: vtkNeuralMeshStream):
         self._algorithm = algorithm
 
-    def add_points(self, points: ArrayLike | vtkPointSet) -> None:
+    def add_points(
+        self,
+        points: ArrayLike | vtkPointSet,
+        *,
+        viewpoint: ArrayLike | None = None,
+        normals: ArrayLike | None = None,
+    ) -> None:
         """Add points, which count from the next learn() on.
 
         Args:
             points: An array of shape (N, 3) of numbers, or a vtkPointSet. Points with NaN or infinity
                 are dropped. Add them in large pieces: each learn() after that takes time in
                 proportion to the reservoir.
+            viewpoint: Where the scanner stood that saw these points, of shape (3,): the surface is
+                turned to look there.
+            normals: As in reconstruct(); what of both tells is the viewpoint.
 
         Raises:
-            ValueError: points are something else.
+            ValueError: points, viewpoint or normals are something else.
         """
-        self._call(self._algorithm.AddPoints, as_dataset(points, blocks=False))
+        dataset = as_dataset(points, blocks=False)
+        if normals is not None:
+            dataset = with_normals(dataset, normals)
+        self._algorithm.RemoveAllViewpoints()
+        if viewpoint is not None:
+            self._algorithm.SetViewpoint(place(viewpoint, "viewpoint"))
+        self._call(self._algorithm.AddPoints, dataset)
 
     def learn(
         self,
@@ -116,6 +131,8 @@ def stream(
     vertices: int = 20000,
     seed: int = 1,
     reservoir: int = 500000,
+    *,
+    up: ArrayLike | None = None,
     **parameters: float | bool | str,
 ) -> Stream:
     """Begin a mesh that is learnt while points arrive, from a scanner, say.
@@ -127,6 +144,7 @@ def stream(
         seed: Seed of the random numbers, from 0 to 2147483647.
         reservoir: How many points are kept to learn from, from 100 to 4294967295, of any number that
             come, each with the same chance. About 130 bytes each.
+        up: As in reconstruct().
         **parameters: Any other property of vtkNeuralMeshStream, in snake case. Names, defaults and
             ranges:
 
@@ -153,6 +171,8 @@ def stream(
     assign(algorithm, "reservoir_size", reservoir, shown_name="reservoir")
     for name, value in parameters.items():
         assign(algorithm, name, value)
+    if up is not None:
+        algorithm.SetUpDirection(direction(up, "up"))
     return Stream(algorithm)
 
 

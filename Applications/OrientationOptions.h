@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef OrientationOptions_h
+#define OrientationOptions_h
+
+#include <string>
+#include <vector>
+
+class vtkNeuralMesh;
+class vtkPolyData;
+namespace CLI
+{
+class App;
+}
+
+/** What is known of the outer side of the surface: --viewpoint, --views, --view-array, --up. */
+class OrientationOptions
+{
+public:
+  /** Has the command take them. */
+  void AddTo(CLI::App* command);
+
+  /** Gives them to the filter. Throws UsageError where a place is none, std::runtime_error if the file of
+   * views cannot be read. */
+  void Apply(vtkNeuralMesh* filter) const;
+
+private:
+  std::vector<std::string> Viewpoints;
+  std::string ViewFile;
+  std::string ViewArray;
+  std::string Up;
+};
+
+/** The line of the report on the sides of the mesh. */
+void PrintSides(vtkPolyData* mesh);
+
+/** A warning if sides are unknown: what to do. */
+void WarnOfUnknownSides(vtkPolyData* mesh);
+
+#endif

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cloud/PieceAgreement.h"
+
+#include "cloud/VertexGrid.h"
+#include "mesh/BoxTree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr double WidestGap = 0.5; ///< in roots of the area of the larger piece
+constexpr float WidthsOfGap = 2.f;
+/// Of the mean of what the vertices at a gap say, from -2 to 2.
+constexpr double LeastAgreement = 0.5;
+constexpr float EdgesPerCell = 2.f;
+
+Vector4 unit(Vector4 vector)
+{
+  const float squared = squaredNorm(vector);
+  return squared > 0.f ? 1.f / std::sqrt(squared) * vector : Vector4();
+}
+
+class Agreement
+{
+public:
+  Agreement(const Mesh& mesh, std::span<const Piece> pieces, std::span<Side> sides)
+    : mesh_(mesh)
+    , pieces_(pieces)
+    , sides_(sides)
+    , pieceOf_(mesh.indexEnd())
+    , groupOf_(pieces.size())
+    , groups_(pieces.size())
+  {
+    Box box;
+    for (std::size_t piece = 0; piece < pieces.size(); ++piece)
+    {
+      groupOf_[piece] = piece;
+      groups_[piece].push_back(piece);
+      for (const VertexIndex v : pieces[piece].vertices)
+      {
+        pieceOf_[v] = piece;
+        box.extend(mesh.position(v));
+      }
+    }
+    grid_.reset(box.low, box.high, EdgesPerCell * float(mesh.meanEdge()), mesh.indexEnd());
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      grid_.insert(v, mesh.position(v));
+    }
+  }
+
+  void run()
+  {
+    // Each round joins every group to another one that is near, so that there are few.
+    while (joinNearest())
+    {
+    }
+    for (const std::vector<std::size_t>& group : groups_)
+    {
+      if (!group.empty() && !sides_[group.front()].isKnown())
+      {
+        const std::size_t largest = *std::max_element(group.begin(), group.end(),
+          [&](std::size_t a, std::size_t b) { return pieces_[a].area < pieces_[b].area; });
+        turnIf(sides_[largest].isTurned, group);
+      }
+    }
+  }
+
+private:
+  /// From a group that is unknown to another one.
+  struct Gap
+  {
+    std::size_t piece;
+    std::size_t other;
+    float squaredWidth;
+    bool agrees; ///< whether the two pieces do as they are
+  };
+  struct Contact
+  {
+    VertexIndex vertex;
+    VertexIndex other;
+    float squaredDistance;
+  };
+
+  bool joinNearest()
+  {
+    std::vector<Gap> gaps;
+    for (const std::vector<std::size_t>& group : groups_)
+    {
+      if (!group.empty() && !sides_[group.front()].isKnown())
+      {
+        findGap(group, gaps);
+      }
+    }
+    std::stable_sort(gaps.begin(), gaps.end(),
+      [](const Gap& a, const Gap& b) { return a.squaredWidth < b.squaredWidth; });
+    bool hasJoined = false;
+    for (const Gap& gap : gaps)
+    {
+      hasJoined = join(gap) || hasJoined;
+    }
+    return hasJoined;
+  }
+
+  /// The narrowest gap around a group that says something.
+  void findGap(const std::vector<std::size_t>& group, std::vector<Gap>& gaps)
+  {
+    forEachVertex(group, [&](VertexIndex v) { grid_.erase(v, mesh_.position(v)); });
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<Contact>> contacts;
+    forEachVertex(group,
+      [&](VertexIndex v)
+      {
+        const VertexIndex other =
+          mesh_.isBoundary(v) ? grid_.closest(mesh_.position(v), mesh_.positions()) : NoVertex;
+        if (other != NoVertex)
+        {
+          contacts[{ pieceOf_[v], pieceOf_[other] }].push_back(
+            { v, other, squaredNorm(mesh_.position(v) - mesh_.position(other)) });
+        }
+      });
+    forEachVertex(group, [&](VertexIndex v) { grid_.insert(v, mesh_.position(v)); });
+    std::optional<Gap> narrowest;
+    for (const auto& [ends, ofGap] : contacts)
+    {
+      const std::optional<Gap> gap = gapOf(ends.first, ends.second, ofGap);
+      if (gap && (!narrowest || gap->squaredWidth < narrowest->squaredWidth))
+      {
+        narrowest = gap;
+      }
+    }
+    if (narrowest)
+    {
+      gaps.push_back(*narrowest);
+    }
+  }
+
+  std::optional<Gap> gapOf(
+    std::size_t piece, std::size_t other, const std::vector<Contact>& contacts) const
+  {
+    const float width = std::min_element(contacts.begin(), contacts.end(),
+      [](const Contact& a, const Contact& b) {
+        return a.squaredDistance < b.squaredDistance;
+      })->squaredDistance;
+    const double area = std::max(pieces_[piece].area, pieces_[other].area);
+    double agreement = 0., count = 0.;
+    for (const Contact& contact : contacts)
+    {
+      if (contact.squaredDistance <= WidthsOfGap * WidthsOfGap * width)
+      {
+        agreement += agreementAt(contact);
+        ++count;
+      }
+    }
+    return double(width) <= WidestGap * WidestGap * area &&
+        std::abs(agreement) >= LeastAgreement * count
+      ? std::optional(Gap{ piece, other, width, agreement > 0. })
+      : std::nullopt;
+  }
+
+  double agreementAt(const Contact& contact) const
+  {
+    const auto normalAt = [this](VertexIndex v) { return unit(mesh_.normal(v)); };
+    const auto boundaryAt = [this](VertexIndex v)
+    {
+      return mesh_.isBoundary(v)
+        ? unit(mesh_.position(mesh_.ring(v).back()) - mesh_.position(mesh_.ring(v).front()))
+        : Vector4();
+    };
+    return double(dot(normalAt(contact.vertex), normalAt(contact.other)) -
+      dot(boundaryAt(contact.vertex), boundaryAt(contact.other)));
+  }
+
+  /// False if the two have been joined, or are both known, in the meantime.
+  bool join(const Gap& gap)
+  {
+    std::size_t from = groupOf_[gap.piece], to = groupOf_[gap.other];
+    if (from == to || sides_[gap.piece].isKnown())
+    {
+      return false;
+    }
+    turnIf((sides_[gap.piece].isTurned != sides_[gap.other].isTurned) == gap.agrees, groups_[from]);
+    if (sides_[gap.other].isKnown())
+    {
+      for (const std::size_t piece : groups_[from])
+      {
+        sides_[piece].evidence = SideEvidence::Neighbors;
+      }
+    }
+    if (groups_[from].size() > groups_[to].size())
+    {
+      std::swap(from, to);
+    }
+    for (const std::size_t piece : groups_[from])
+    {
+      groupOf_[piece] = to;
+      groups_[to].push_back(piece);
+    }
+    groups_[from].clear();
+    return true;
+  }
+
+  void turnIf(bool areTurned, const std::vector<std::size_t>& group)
+  {
+    for (const std::size_t piece : group)
+    {
+      sides_[piece].isTurned = sides_[piece].isTurned != areTurned;
+    }
+  }
+
+  template <typename Use>
+  void forEachVertex(const std::vector<std::size_t>& group, Use use) const
+  {
+    for (const std::size_t piece : group)
+    {
+      std::for_each(pieces_[piece].vertices.begin(), pieces_[piece].vertices.end(), use);
+    }
+  }
+
+  const Mesh& mesh_;
+  std::span<const Piece> pieces_;
+  std::span<Side> sides_;
+  VertexGrid grid_; ///< of all vertices
+  std::vector<std::size_t> pieceOf_;
+  std::vector<std::size_t> groupOf_;
+  std::vector<std::vector<std::size_t>> groups_; ///< of pieces
+};
+}
+
+void makePiecesAgree(const Mesh& mesh, std::span<const Piece> pieces, std::span<Side> sides)
+{
+  const bool areKnown =
+    std::all_of(sides.begin(), sides.end(), [](const Side& side) { return side.isKnown(); });
+  if (pieces.size() > 1 && !areKnown)
+  {
+    Agreement(mesh, pieces, sides).run();
+  }
+}
+}

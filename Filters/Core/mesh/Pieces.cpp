@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/Pieces.h"
+
+#include <Eigen/Geometry>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Adds up area and volume, with a vertex of the piece as the origin, for precision.
+class PieceMeasure
+{
+public:
+  PieceMeasure(const Mesh& mesh, Piece& piece)
+    : mesh_(mesh)
+    , piece_(piece)
+    , origin_(mesh.position(piece.vertices.front()).toDouble())
+  {
+  }
+
+  void addTriangles()
+  {
+    for (const VertexIndex v : piece_.vertices)
+    {
+      const Ring& ring = mesh_.ring(v);
+      piece_.isClosed = piece_.isClosed && !ring.isOpen();
+      const Eigen::Vector3d a = at(v);
+      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+      {
+        const VertexIndex second = ring[slot], third = ring[ring.after(slot)];
+        if (v < second && v < third)
+        {
+          piece_.area += add(a, at(second), at(third));
+        }
+      }
+    }
+  }
+
+  /// `isClosed` tells of each vertex whether its loop has been closed.
+  void closeLoops(std::vector<bool>& isClosed)
+  {
+    std::vector<VertexIndex> loop;
+    for (const VertexIndex first : piece_.vertices)
+    {
+      if (!mesh_.isBoundary(first) || isClosed[first])
+      {
+        continue;
+      }
+      loop.clear();
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (VertexIndex v = first; !isClosed[v]; v = mesh_.ring(v).back())
+      {
+        isClosed[v] = true;
+        loop.push_back(v);
+        sum += at(v);
+      }
+      const Eigen::Vector3d centroid = sum / double(loop.size());
+      for (const VertexIndex v : loop)
+      {
+        piece_.closingArea += add(centroid, at(v), at(mesh_.ring(v).back()));
+      }
+    }
+  }
+
+private:
+  Eigen::Vector3d at(VertexIndex v) const { return mesh_.position(v).toDouble() - origin_; }
+
+  /// Adds the volume below a triangle; returns its area.
+  double add(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+  {
+    piece_.volume += a.dot(b.cross(c)) / 6.;
+    return 0.5 * (b - a).cross(c - a).norm();
+  }
+
+  const Mesh& mesh_;
+  Piece& piece_;
+  Eigen::Vector3d origin_;
+};
+}
+
+std::vector<Piece> findPieces(const Mesh& mesh)
+{
+  std::vector<Piece> pieces;
+  std::vector<bool> isFound(mesh.indexEnd(), false), isClosed(mesh.indexEnd(), false);
+  for (VertexIndex seed = 0; seed < mesh.indexEnd(); ++seed)
+  {
+    if (isFound[seed] || !mesh.isAlive(seed))
+    {
+      continue;
+    }
+    Piece& piece = pieces.emplace_back();
+    std::vector<VertexIndex>& vertices = piece.vertices;
+    isFound[seed] = true;
+    vertices.push_back(seed);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+    {
+      for (const VertexIndex neighbor : mesh.ring(vertices[i]))
+      {
+        if (!isFound[neighbor])
+        {
+          isFound[neighbor] = true;
+          vertices.push_back(neighbor);
+        }
+      }
+    }
+    PieceMeasure measure(mesh, piece);
+    measure.addTriangles();
+    measure.closeLoops(isClosed);
+  }
+  return pieces;
+}
+}

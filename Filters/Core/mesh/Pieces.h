@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/Mesh.h"
+
+#include <vector>
+
+namespace neuralmesh
+{
+/// All that hangs together by edges.
+struct Piece
+{
+  std::vector<VertexIndex> vertices; ///< each behind one of its neighbours
+  bool isClosed = true;
+  double area = 0.;
+  /// What it encloses where each boundary loop is closed by a fan of triangles to its centroid;
+  /// positive if the normals point outwards.
+  double volume = 0.;
+  double closingArea = 0.; ///< of these fans
+};
+
+/// The pieces of a mesh, in the order of their lowest vertices.
+std::vector<Piece> findPieces(const Mesh& mesh);
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Executor.h"
+#include "cloud/OrientationHints.h"
+#include "cloud/PointCloud.h"
+#include "mesh/Orientation.h"
+
+namespace neuralmesh
+{
+/// Turns each piece of a mesh to its outer side. The first of these that tells decides: the viewpoints,
+/// the up direction and the normals that are given, the volume, the pieces near by. Where nothing tells
+/// pieces stay as they are, but agree with each other. No vertex may be erased.
+OrientationReport orientMesh(Mesh& mesh, const PointCloud& cloud, const OrientationHints& hints,
+  const Executor& executor = Executor::sequential());
+}
