@@ -27,8 +27,13 @@ OTHERWISE = {
     "FirstMeshData": "the input FirstMesh",
     "ReferenceConnection": "the input Reference",
     "ReferenceData": "the input Reference",
+    "ViewArrayName": "the property ViewArray, a choice among the arrays of the input",
+    "Viewpoint": "the property Viewpoints, a list",
     "WeightArrayName": "the property WeightArray, a choice among the arrays of the input",
 }
+# Properties without a setter of their own name.
+LISTS = {"Viewpoints"}
+ARRAYS = {"ViewArray", "WeightArray"}
 # Up to here a maximum gives a slider; with larger ones nobody could aim: the proxy has none then.
 LARGEST_SLIDER = 1000
 LARGEST_INT = 2**31 - 1
@@ -47,7 +52,7 @@ FIRST = {
     "NeuralMeshFileSampler": "NumberOfPoints",
     "NeuralMeshScan": "NumberOfPoints",
 }
-GROUPS = ["Learning", "Growth", "Topology", "Noise", "Finish", "Output"]
+GROUPS = ["Learning", "Growth", "Topology", "Noise", "Finish", "Outer Side", "Output"]
 
 
 def setUpModule():
@@ -156,11 +161,12 @@ class Properties(unittest.TestCase):
             keys = {key for key, _ in properties_of(prototype(name))}
             setters = setters_of(cls)
             with self.subTest(name):
-                self.assertEqual(setters - set(OTHERWISE), keys - {"WeightArray"})
+                self.assertEqual(setters - set(OTHERWISE), keys - LISTS - ARRAYS)
             used |= setters & set(OTHERWISE)
         self.assertEqual(used, set(OTHERWISE))
-        self.assertEqual(prototype("NeuralMesh").GetProperty("WeightArray").GetCommand(),
-                         "SetWeightArrayName")
+        for name in ARRAYS:
+            command = prototype("NeuralMesh").GetProperty(name).GetCommand()
+            self.assertEqual(command, f"Set{name}Name")
 
     # Promise: the property has the type of the setter, and calls it.
     def test_types(self):
@@ -174,8 +180,11 @@ class Properties(unittest.TestCase):
 
     # Promise: defaults are those of the class.
     def test_defaults(self):
-        for name, _, sm_property, vtk_object in all_properties():
+        for name, key, sm_property, vtk_object in all_properties():
             with self.subTest(name):
+                if key in LISTS:
+                    self.assertEqual(elements_of(sm_property), [])
+                    continue
                 expected = value_of(vtk_object, sm_property.GetCommand()[3:])
                 self.assertEqual(elements_of(sm_property), expected)
 
@@ -224,6 +233,8 @@ class Properties(unittest.TestCase):
             made = proxy.GetClientSideObject()
             self.assertIsInstance(made, cls)
             for key, sm_property in properties_of(proxy):
+                if key in LISTS:
+                    continue
                 setter = sm_property.GetCommand()[3:]
                 with self.subTest(proxy=name, property=key):
                     before = value_of(cls(), setter)
@@ -233,6 +244,22 @@ class Properties(unittest.TestCase):
                     proxy.UpdateVTKObjects()
                     self.assertEqual(value_of(made, setter), elements_of(sm_property))
                     self.assertNotEqual(value_of(made, setter), before)
+
+    # Promise: places arrive, as many as there are, and go again.
+    def test_viewpoints_arrive(self):
+        for name in ("NeuralMesh", "NeuralMeshEnsemble"):
+            proxy = servermanager.ProxyManager().NewProxy("filters", name)
+            made = proxy.GetClientSideObject()
+            for places in ([(1, 2, 3), (4, 5, 6)], [(7, 8, 9)], []):
+                servermanager.VectorProperty(proxy, proxy.GetProperty("Viewpoints")).SetData(
+                    [number for place in places for number in place]
+                )
+                proxy.UpdateVTKObjects()
+                self.assertEqual(made.GetNumberOfViewpoints(), len(places))
+                for i, place in enumerate(places):
+                    found = [0.0, 0.0, 0.0]
+                    made.GetViewpoint(i, found)
+                    self.assertEqual(tuple(found), place)
 
     def another(self, vtk_object, key, sm_property, value):
         """A value within the range that is not this one."""
