@@ -5,11 +5,46 @@
 #include "cloud/PieceAgreement.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 namespace neuralmesh
 {
 namespace
 {
+/// Of the largest volume: an open piece of less may be torn off another one, and bulge inwards.
+constexpr double LeastVolume = 0.1;
+
+/// By the volume of what is closed or large.
+std::vector<Side> sidesOfBodies(std::span<const Piece> pieces, const std::vector<Side>& byVolume)
+{
+  double largest = 0.;
+  for (const Piece& piece : pieces)
+  {
+    largest = std::max(largest, std::abs(piece.volume));
+  }
+  std::vector<Side> sides = byVolume;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    if (!pieces[i].isClosed && std::abs(pieces[i].volume) < LeastVolume * largest)
+    {
+      sides[i] = {};
+    }
+  }
+  return sides;
+}
+
+/// What those that are known tell of others near by.
+std::vector<Side> sidesByNeighbors(
+  const Mesh& mesh, std::span<const Piece> pieces, const std::vector<Side>& sides)
+{
+  std::vector<Side> result = sides;
+  makePiecesAgree(mesh, pieces, result);
+  std::replace_if(
+    result.begin(), result.end(), [](const Side& side) { return !side.isKnown(); }, Side());
+  return result;
+}
+
 /// Fills in what is not known yet. Returns whether `more` has told nothing.
 bool addSides(const std::vector<Side>& more, std::vector<Side>& sides)
 {
@@ -29,6 +64,8 @@ OrientationReport orientMesh(
   const bool isUpMute = hints.up && addSides(vote.byUpDirection(), sides);
   const bool areNormalsMute = hints.normalOf && addSides(vote.byNormals(), sides);
   std::transform(pieces.begin(), pieces.end(), byVolume.begin(), sideByVolume);
+  addSides(sidesOfBodies(pieces, byVolume), sides);
+  addSides(sidesByNeighbors(mesh, pieces, sides), sides);
   addSides(byVolume, sides);
   makePiecesAgree(mesh, pieces, sides);
   OrientationReport report = turn(mesh, pieces, sides);

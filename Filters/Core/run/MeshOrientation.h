@@ -9,7 +9,8 @@
 namespace neuralmesh
 {
 /// Turns each piece of a mesh to its outer side. The first of these that tells decides: the viewpoints,
-/// the up direction and the normals that are given, the volume, the pieces near by. Where nothing tells
+/// the up direction and the normals that are given, the volume, the pieces near by; but pieces near by
+/// before the volume of an open piece that is less than a tenth of the largest. Where nothing tells
 /// pieces stay as they are, but agree with each other. No vertex may be erased.
 OrientationReport orientMesh(Mesh& mesh, const PointCloud& cloud, const OrientationHints& hints,
   const Executor& executor = Executor::sequential());

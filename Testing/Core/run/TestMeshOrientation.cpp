@@ -390,6 +390,33 @@ TEST(MeshOrientation, FacesOfABoxAgree)
   EXPECT_EQ(scene.facingOutwards(), 1.);
 }
 
+// A small piece beside a body follows it, though it bulges inwards: a dented base, torn off. By itself it is
+// turned by its volume.
+TEST(MeshOrientation, SmallPiecesFollowBodies)
+{
+  const double rim = 20. * std::numbers::pi / 180.;
+  const TriangleMesh cap = partOf(makeSphere(60),
+    [rim](const Eigen::Vector3d& centroid) { return centroid.z() > std::cos(rim); });
+  const double scale = 0.77 / std::sin(rim);
+  const TriangleMesh dent =
+    placed(cap, Eigen::Matrix3d::Identity(), { 0., 0., -0.66 - scale * std::cos(rim) }, scale);
+  {
+    Scene alone(turned(dent));
+    EXPECT_EQ(alone.orient().main(), SideEvidence::Volume);
+    EXPECT_EQ(alone.facingUp(), 1.);
+  }
+  TriangleMesh body = openSphere(53.);
+  append(dent, body);
+  Scene scene(body);
+  const OrientationReport report = scene.orient();
+  EXPECT_EQ(report.unknownPieces, 0u);
+  EXPECT_GT(report.share(SideEvidence::Neighbors), 0.05);
+  // The dent looks down, the body away from the origin.
+  const auto outwards = [](const Eigen::Vector3d& at)
+  { return at.norm() < 0.97 ? Eigen::Vector3d(0., 0., -1.) : at; };
+  EXPECT_EQ(scene.facing(outwards), 1.);
+}
+
 // Sheets one over the other, and those that are far apart, say nothing of each other.
 TEST(MeshOrientation, StrangersStayAsTheyAre)
 {

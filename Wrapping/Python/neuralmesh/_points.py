@@ -65,7 +65,9 @@ def _array_of_points(dataset, values: object, parameter: str, other: str, shape:
 
 
 def _with(dataset: vtkPointSet, array: np.ndarray, name: str) -> vtkPointSet:
-    vtk_array = numpy_to_vtk(np.ascontiguousarray(array, dtype=np.float64))
+    # Whole numbers stay so where they name something: they are not to be averaged on the mesh.
+    kind = np.int64 if name == "View" and array.dtype.kind in "iub" else np.float64
+    vtk_array = numpy_to_vtk(np.ascontiguousarray(array, dtype=kind))
     vtk_array.SetName(name)
     copy = dataset.NewInstance()
     copy.ShallowCopy(dataset)
