@@ -131,7 +131,8 @@ std::vector<OrientationVote::Ballot> OrientationVote::countPoints(
     float weight;
   };
   const std::size_t points = cloud_.points().size();
-  const std::size_t stride = 1 + points / (VotesPerVertex * mesh_.indexEnd());
+  // Odd, for of points that lie in pairs one may know more than the other.
+  const std::size_t stride = (points / (VotesPerVertex * mesh_.indexEnd())) | 1;
   const std::size_t count = (points + stride - 1) / stride;
   const VertexGrid grid = gridOf(mesh_, cloud_);
   std::vector<Vote> votes(count);

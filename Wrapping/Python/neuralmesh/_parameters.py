@@ -152,17 +152,17 @@ def _own_methods(vtk_class: type) -> list[str]:
 
 def _parameter(vtk_class: type, name: str) -> Parameter | None:
     prototype = vtk_class()
-    default = getattr(prototype, "Get" + name)()
     beginning = f"Set{name}To"
     choosers = [method for method in _own_methods(vtk_class) if method.startswith(beginning)]
     if choosers:
         setters = {snake_case(method[len(beginning) :]): method for method in choosers}
         return Choice(setters, _chosen(vtk_class, name, setters))
     if hasattr(vtk_class, name + "On"):
-        return Switch("Set" + name, bool(default))
+        return Switch("Set" + name, bool(getattr(prototype, "Get" + name)()))
     if hasattr(vtk_class, f"Get{name}MinValue"):
         minimum = getattr(prototype, f"Get{name}MinValue")()
         maximum = getattr(prototype, f"Get{name}MaxValue")()
+        default = getattr(prototype, "Get" + name)()
         return Number("Set" + name, default, minimum, maximum)
     return None
 
