@@ -22,8 +22,8 @@ constexpr double LeastSlant = 0.05;
 /// ... and by how many standard deviations, where votes may be at random.
 constexpr double LeastDeviations = 3.;
 
-constexpr std::size_t VotesPerVertex = 8;
-constexpr std::size_t MostLinesOfSight = 65536;
+constexpr std::size_t VotesPerVertex = 2;
+constexpr std::size_t LinesOfSight = 16384;
 /// A part for the executor.
 constexpr std::size_t PointsPerRange = 1024;
 constexpr std::size_t LinesPerRange = 256;
@@ -173,7 +173,7 @@ std::vector<OrientationVote::Ballot> OrientationVote::countLinesOfSight() const
   const std::size_t viewpoints = hints_.viewpoints.size();
   const std::size_t all = surface.triangles.size() * viewpoints;
   // The lines that are looked along are spread over triangles and viewpoints.
-  const std::size_t stride = 1 + all / std::max(MostLinesOfSight, surface.points.size());
+  const std::size_t stride = 1 + all / std::max(LinesOfSight, surface.points.size() / 2);
   const std::size_t count = (all + stride - 1) / stride;
   std::vector<double> votes(count, 0.), weights(count, 0.);
   executor_.forEachRange(count, LinesPerRange,

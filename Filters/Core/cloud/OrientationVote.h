@@ -25,10 +25,10 @@ public:
   OrientationVote(const Mesh& mesh, std::span<const Piece> pieces, const PointCloud& cloud,
     const OrientationHints& hints, const Executor& executor = Executor::sequential());
 
-  /// By the viewpoints of points near the pieces, or from which the pieces are seen. Up to 8 points a
-  /// vertex vote, and 65536 lines of sight, or one a vertex, are looked along.
+  /// By the viewpoints of points near the pieces, or from which the pieces are seen. Up to 2 points a
+  /// vertex vote, or 16384 lines of sight are looked along, or one for two vertices if that is more.
   std::vector<Side> byViewpoints() const;
-  /// By the normals of points near the pieces, 8 a vertex at most. One side must have more votes than
+  /// By the normals of points near the pieces, 2 a vertex at most. One side must have more votes than
   /// normals that point anywhere would give it once in 400 pieces.
   std::vector<Side> byNormals() const;
   /// By area: a closed piece looks upwards as much as downwards.
