@@ -107,7 +107,8 @@ bool takeUnseen(const TriangleMesh& surface, const Eigen::Vector3d& viewpoint, C
 {
   const Visibility visibility(surface);
   return takeAway(
-    cloud, [&](const Eigen::Vector3d& point) { return !visibility.isSeen(point, viewpoint); }, progress);
+    cloud, [&](const Eigen::Vector3d& point) { return !visibility.isSeen(point, viewpoint); },
+    progress);
 }
 
 bool cutHoles(const CloudOptions& options, double diagonal, Cloud& cloud, const Progress& progress)

@@ -107,8 +107,7 @@ Visibility::Visibility(const TriangleMesh& surface)
   tolerance_ = boxes.empty() ? 0. : HitTolerance * bounds.diagonal().norm();
 }
 
-bool Visibility::isSeen(
-  const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint) const
+bool Visibility::isSeen(const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint) const
 {
   const Eigen::Vector3d way = point - viewpoint;
   const double length = way.norm();

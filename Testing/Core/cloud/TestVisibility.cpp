@@ -44,7 +44,8 @@ TEST(Visibility, ShadowOfASquare)
       const double outside = point.cwiseAbs().maxCoeff() - halfShadow;
       if (std::abs(outside) > 1e-6)
       {
-        EXPECT_EQ(visibility.isSeen(point, viewpoint), outside > 0.) << height << ": " << point.transpose();
+        EXPECT_EQ(visibility.isSeen(point, viewpoint), outside > 0.)
+          << height << ": " << point.transpose();
       }
       const Eigen::Vector3d above(point.x() / 9., point.y() / 9., 1.);
       EXPECT_TRUE(visibility.isSeen(above, viewpoint));
