@@ -9,6 +9,7 @@ not change is left alone. The names of all files that were read are printed, for
 """
 
 import pathlib
+import re
 import sys
 
 import parameter_list
@@ -18,6 +19,8 @@ import write_paraview
 import write_vtk
 
 LIST = "Filters/Parameters.json"
+# Where options of the command stand. It says nothing else of parameters, so that nothing follows from it.
+COMMAND = "Applications/ReconstructCommand.cxx"
 PLUGIN = "Wrapping/ParaView/NeuralMesh"
 CORE = {"choices": write_core.choices, "fields": write_core.fields, "table": write_core.table}
 VTK = {
@@ -31,8 +34,8 @@ VTK = {
     "settings": write_vtk.settings,
 }
 PANEL = {
-    "names": write_paraview.names,
     "override": write_paraview.override,
+    "panel": write_paraview.panel,
     "properties": write_paraview.properties,
 }
 PAGE = {"table": write_documentation.table}
@@ -63,6 +66,8 @@ def filled(template, writers, found):
             lines.append(line)
             continue
         writer, *arguments = place.strip("@").split()
+        if writer not in writers:
+            raise found.error(f"there is no writer {writer!r}, which a template names")
         indent = line[: len(line) - len(line.lstrip())]
         lines += [indent + new if new else "" for new in writers[writer](found, *arguments)]
     return "\n".join(lines) + "\n"
@@ -75,15 +80,49 @@ def write(path, text):
         path.write_text(text, encoding="utf-8")
 
 
+def require_free_names(found, template, text):
+    """Raises where a template has by hand what a parameter would bring."""
+    struct = re.search(r"@fields (\w+)@", text)
+    for parameter in found.parameters:
+        if not struct:
+            by_hand = rf"\b[GS]et{parameter.name}\(|Macro\({parameter.name},"
+        elif write_core.struct_of(parameter) == struct[1]:
+            by_hand = rf"^[^(/]*\b{parameter.field}(\(| = [^;,()]*;|;)"
+        else:
+            continue
+        if re.search(by_hand, text, re.MULTILINE):
+            raise found.error(f"{parameter.name}: {template} has something of that name already")
+
+
+def require_options(found, text):
+    """Raises where a parameter is said to have an option that the command lacks."""
+    for parameter in found.parameters:
+        if parameter.command and f'"{parameter.command}"' not in text:
+            raise found.error(f"{parameter.name}: the command has no option {parameter.command!r}")
+
+
+def written(sources):
+    """What is to be written, by its name."""
+    found = parameter_list.read(sources / LIST)
+    require_options(found, (sources / COMMAND).read_text(encoding="utf-8"))
+    files = {}
+    for template, writers in TEMPLATES.items():
+        text = (sources / template).read_text(encoding="utf-8")
+        if template.endswith(".h.in"):
+            require_free_names(found, template, text)
+        files[template.removesuffix(".in")] = filled(text, writers, found)
+    found.require_places()
+    return files
+
+
 def main():
     sources, build = (pathlib.Path(argument) for argument in sys.argv[1:])
     try:
-        found = parameter_list.read(sources / LIST)
+        files = written(sources)
     except parameter_list.ListError as error:
         sys.exit(str(error))
-    for template, writers in TEMPLATES.items():
-        text = (sources / template).read_text(encoding="utf-8")
-        write(build / template.removesuffix(".in"), filled(text, writers, found))
+    for name, text in files.items():
+        write(build / name, text)
     for path in [sources / LIST, *(sources / template for template in TEMPLATES)]:
         print(path.as_posix())
 

@@ -11,8 +11,12 @@ A choice has
 A group, which is a table of Documentation/Parameters.md, has
   key         by which templates name it
   title       of the section in the struct
-  panel       the group of the panel of ParaView in which its parameters stand; null for none
+  panel       the label of the group of the panel of ParaView in which its parameters stand; null for
+              none. Templates of panels say which groups stand together: those of one label
   parameters
+
+Text is written into comments, tables and XML: it has no control characters, no */, and where it goes into a
+table no |.
 
 A parameter has, with what holds without a key in brackets,
   name        of the property
@@ -41,7 +45,11 @@ A parameter has, with what holds without a key in brackets,
 import dataclasses
 import fractions
 import json
+import math
 import re
+import unicodedata
+
+import reserved
 
 CHOICE_KEYS = {"name": str, "title": str, "values": list, "constants": str, "owner": str}
 VALUE_KEYS = {"name": str, "text": str}
@@ -59,11 +67,16 @@ NEEDED = {
     "parameter": ("name", "type", "default", "short", "text"),
 }
 CLASSES = ("vtkNeuralMeshAlgorithm", "vtkNeuralMesh", "vtkNeuralMeshEnsemble")
-ENGINE_TYPES = ("std::uint64_t", "std::size_t", "unsigned")
+# What the core may have in place of an int or a count, and where it ends.
+ENGINE_TYPES = {"std::uint64_t": 2**64 - 1, "std::size_t": 2**64 - 1, "unsigned": 2**32 - 1}
 # Where a type ends, for a range that does not say.
 ENDS = {"int": (-(2**31), 2**31 - 1), "count": (0, 2**63 - 1), "double": (None, None)}
 # What is longer makes the table of the command too wide.
 LONGEST_SHORT = 75
+# Those that stand in a table of Markdown.
+IN_TABLES = ("short", "symbol", "unit", "why", "thesis_text")
+# Those that Doxygen reads.
+IN_COMMENTS = ("title", "symbol", "thesis_text", "short", "text", "details")
 
 
 class ListError(Exception):
@@ -73,6 +86,23 @@ class ListError(Exception):
 def spaced(name):
     """RemovalLimit as Removal Limit."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", name)
+
+
+def finite(value):
+    """A number, or a fraction like "1/3", as a double; nothing if it is none or too large."""
+    try:
+        number = float(fractions.Fraction(value) if isinstance(value, str) else value)
+    except OverflowError:
+        return None
+    return number if math.isfinite(number) else None
+
+
+def texts(entry):
+    """All texts in an entry, with their keys."""
+    for key, value in entry.items():
+        for text in value if isinstance(value, list) else [value]:
+            if isinstance(text, str):
+                yield key, text
 
 
 def snake_case(name):
@@ -161,28 +191,47 @@ class Group:
     title: str
     panel: str
     parameters: list
+    places: set = dataclasses.field(default_factory=set)  # of templates that name it
 
 
 class ParameterList:
-    """All that the list says."""
+    """All that the list says. What a template names and is not there is a ListError."""
 
-    def __init__(self, choices, groups):
+    def __init__(self, path, choices, groups):
+        self.path = path
         self.choices = choices
         self.groups = groups
         self.parameters = [parameter for group in groups for parameter in group.parameters]
 
-    def group(self, key):
-        """A group that a template names."""
-        for group in self.groups:
-            if group.key == key:
-                return group
-        raise ListError(f"there is no group {key!r}, which a template names")
+    def named(self, kind, entries, name, key="name"):
+        for entry in entries:
+            if getattr(entry, key) == name:
+                return entry
+        raise self.error(f"there is no {kind} {name!r}, which a template names")
+
+    def error(self, message):
+        return ListError(f"{self.path}: {message}")
+
+    def group(self, key, place):
+        group = self.named("group", self.groups, key, "key")
+        group.places.add(place)
+        return group
 
     def parameter(self, name):
-        return next(parameter for parameter in self.parameters if parameter.name == name)
+        return self.named("parameter", self.parameters, name)
 
     def choice(self, name):
-        return next(choice for choice in self.choices if choice.name == name)
+        return self.named("choice", self.choices, name)
+
+    def require_places(self):
+        """Raises if something of the list would not come out, once all templates are filled."""
+        for group in self.groups:
+            wanted = {"table": "a table of the documentation", "properties": "the panel"}
+            if group.panel is not None:
+                wanted["panel"] = "a group of the panel"
+            for place, words in wanted.items():
+                if place not in group.places:
+                    raise self.error(f"{group.key}: no template has the group in {words}")
 
 
 class Reader:
@@ -215,7 +264,20 @@ class Reader:
                 self.check(is_right, place, f"{key} cannot be {value!r}")
         for key in NEEDED[kind]:
             self.check(key in entry and entry[key] != "", place, f"{key} is missing")
+        self.texts(entry, place)
         return len(self.errors) == count
+
+    def texts(self, entry, place):
+        """Notes texts that would break what they are written into."""
+        for key, text in texts(entry):
+            # Control characters, halves of pairs, and what ends a line.
+            is_plain = all(unicodedata.category(letter) not in ("Cc", "Cs", "Zl", "Zp") for letter in text)
+            self.check(is_plain, place, f"{key} has a control character or a new line")
+            self.check("*/" not in text, place, f"*/ in {key} ends a comment")
+            if key in IN_TABLES:
+                self.check("|" not in text, place, f"{key} has a |, which ends a cell of a table")
+            if key in IN_COMMENTS:
+                self.check(not re.search(r"[@\\]", text), place, f"{key} has a @ or \\, as commands of Doxygen")
 
     def names(self, entries, place):
         """Whether names are those of types in C++, each once."""
@@ -224,6 +286,12 @@ class Reader:
             self.check(re.fullmatch("[A-Z][A-Za-z0-9]+", entry), place, f"{entry!r} is no name")
             self.check(entry not in seen, place, f"{entry} is there twice")
             seen.add(entry)
+
+    def free(self, name, place):
+        """Notes a name of a parameter that C++ or VTK has already."""
+        field = first_small(name)
+        self.check(field not in reserved.CPP, place, f"the core cannot call it {field}, a word of C++")
+        self.check(name not in reserved.VTK, place, f"VTK has Set{name}() or Get{name}() already")
 
     def choices(self, entries):
         choices = []
@@ -243,6 +311,8 @@ class Reader:
             choices.append(Choice(entry["name"], entry["title"], entry.get("owner"), values))
         self.names([choice.name for choice in choices], "choices")
         constants = [value.constant for choice in choices for value in choice.values]
+        for constant in reserved.MACROS.intersection(constants):
+            self.check(False, "choices", f"C++ has a macro {constant} already")
         for constant in {constant for constant in constants if constants.count(constant) > 1}:
             self.check(False, "choices", f"{constant} is the constant of two values")
         return choices
@@ -256,7 +326,9 @@ class Reader:
             return
         number = value
         if kind == "double" and isinstance(value, str) and re.fullmatch(r"\d+/[1-9]\d*", value):
-            number = float(fractions.Fraction(value))
+            number = finite(value)
+            if not self.check(number is not None, place, f"{key} is beyond the type double"):
+                return
         wanted = {"bool": bool, "double": (int, float)}.get(kind, int)
         is_right = isinstance(number, wanted) and isinstance(number, bool) == (kind == "bool")
         if self.check(is_right, place, f"{key} {value!r} is no {kind}") and ends:
@@ -275,6 +347,9 @@ class Reader:
         ends = tuple(ENDS[kind][i] if end is None else end for i, end in enumerate(pair))
         if not self.check(None not in ends, place, f"{key} of a double must have two numbers"):
             return None
+        are_finite = None not in [finite(end) for end in ends]
+        if not self.check(are_finite, place, f"{key} is beyond any type"):
+            return None
         is_whole = kind == "double" or all(isinstance(end, int) for end in ends)
         self.check(is_whole, place, f"{key} of an {kind} must have whole ends")
         low, high = ENDS[kind]
@@ -291,29 +366,39 @@ class Reader:
         is_type = choice or entry["type"] in ("bool", *ENDS)
         if not self.check(is_type, place, f"there is no type {entry['type']}"):
             return None
+        self.free(entry["name"], place)
         ends = None
         if choice or entry["type"] == "bool":
-            self.check("range" not in entry, place, f"a {entry['type']} has no range")
+            for key in ("range", "fuzz"):
+                self.check(key not in entry, place, f"a {entry['type']} has no {key}")
             ends = (0, len(choice.values) - 1) if choice else (0, 1)
         elif self.check("range" in entry, place, "range is missing"):
             ends = self.ends(entry, "range", place)
-            if "fuzz" in entry:
-                self.ends(entry, "fuzz", place)
+            fuzz = self.ends(entry, "fuzz", place) if "fuzz" in entry else None
+            is_within = not (ends and fuzz) or (ends[0] <= fuzz[0] and fuzz[1] <= ends[1])
+            self.check(is_within, place, f"fuzz {entry.get('fuzz')} is outside the range")
         is_number = not choice and entry["type"] != "bool"
         for key in ("default", "thesis"):
             if key in entry:
                 self.value(entry, key, choice, ends if is_number else None, place)
         self.check(entry.get("class", CLASSES[0]) in CLASSES, place, "class is none that has parameters")
-        self.check(entry.get("engine", False) in (False, *ENGINE_TYPES), place, "engine is no type")
+        self.engine(entry, choice, ends, place)
         self.check(entry.get("panel", "shown") == "shown", place, "panel can only be 'shown'")
         self.check(len(entry["short"]) <= LONGEST_SHORT, place, f"short has more than {LONGEST_SHORT} letters")
         self.check(entry["text"].endswith("."), place, "text must end with a full stop")
-        self.check(not re.search(r'["\\|\n]', entry["short"]), place, 'short has a ", \\, | or a new line')
+        self.check(re.match("[A-Za-z0-9]", entry["text"]), place, "text must begin with a word")
+        self.check('"' not in entry["short"], place, 'short has a ", which ends text of C++')
         details = entry.get("details", "")
         paragraphs = details if isinstance(details, list) else [details]
         is_text = all(isinstance(paragraph, str) for paragraph in paragraphs)
-        if self.check(is_text, place, "details must be text, or a list of it"):
-            self.check("*/" not in " ".join([entry["text"], *paragraphs]), place, "*/ ends a comment")
+        self.check(is_text, place, "details must be text, or a list of it")
+        for key in ("variants", "when"):
+            names = entry.get(key, ["none"])
+            are_names = names and all(isinstance(name, str) for name in names)
+            if self.check(are_names, place, f"{key} must be a list of texts, of one at least"):
+                self.check(len(set(names)) == len(names), place, f"{key} has something twice")
+            else:
+                del entry[key]
         low, high = ends or (None, None)
         parameter = Parameter(
             entry["name"], entry["type"], choice, entry["default"],
@@ -327,6 +412,18 @@ class Reader:
             self.check(parameter.in_preset, place, "no preset sets it: it has no value of the thesis")
         return parameter
 
+    def engine(self, entry, choice, ends, place):
+        """Notes a type of the core that does not hold the values."""
+        engine = entry.get("engine", False)
+        if not self.check(engine is False or engine in ENGINE_TYPES, place, "engine is no type"):
+            return
+        if engine:
+            is_whole = self.check(entry["type"] in ("int", "count"), place, f"a {entry['type']} has no engine type")
+            holds = not (is_whole and ends) or (ends[0] >= 0 and ends[1] <= ENGINE_TYPES[engine])
+            self.check(holds, place, f"{engine} does not hold the range")
+        elif "engine" not in entry and choice:
+            self.check(not choice.owner, place, f"the engine does not know the choice {choice.name}")
+
     def conditions(self, found):
         """Notes variants and conditions that name nothing."""
         variants = next((choice for choice in found.choices if choice.name == "Variant"), None)
@@ -336,12 +433,19 @@ class Reader:
             for variant in parameter.variants or ():
                 self.check(variant in known, parameter.name, f"there is no variant {variant!r}")
             for condition in parameter.when or ():
-                match = re.fullmatch(r"(\w+) is (not )?(\w+)", str(condition))
+                match = re.fullmatch(r"(\w+) is (not )?(\w+)", condition)
                 other = by_name.get(match[1]) if match else None
                 if not self.check(other, parameter.name, f"the condition {condition!r} names no parameter"):
                     continue
-                values = [value.name for value in other.choice.values] if other.choice else ["on", "off"]
-                is_value = match[3] in values or (other.type in ENDS and match[3].isdigit())
+                self.check(other is not parameter, parameter.name, f"{condition!r} is a condition of itself")
+                has_both = CLASSES.index(other.owner) <= CLASSES.index(parameter.owner)
+                self.check(has_both, parameter.name, f"{parameter.owner} has no {other.name}, as {condition!r} needs")
+                if other.choice or other.type == "bool":
+                    values = [value.name for value in other.choice.values] if other.choice else ["on", "off"]
+                    is_value = match[3] in values
+                else:
+                    is_number = re.fullmatch("[0-9]{1,20}", match[3])
+                    is_value = is_number and other.low <= int(match[3]) <= other.high
                 self.check(is_value, parameter.name, f"{match[3]} in {condition!r} is no value of {match[1]}")
 
 
@@ -364,7 +468,7 @@ def read(path):
     try:
         text = path.read_text(encoding="utf-8")
         content = json.loads(text, object_pairs_hook=keys_once, parse_constant=no_number)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise ListError(f"{path}: {error}") from error
     is_right = isinstance(content, dict) and set(content) == {"choices", "groups"}
     if not is_right or not all(isinstance(part, list) for part in content.values()):
@@ -378,8 +482,10 @@ def read(path):
         if reader.keys(entry, "group", GROUP_KEYS, place):
             parameters = [reader.parameter(parameter, choices) for parameter in entry["parameters"]]
             known = [parameter for parameter in parameters if parameter]
+            reader.check(re.fullmatch("[a-z]+", entry["key"]), place, "the key must be a word in small letters")
+            reader.check(parameters, place, "there are no parameters in it")
             groups.append(Group(entry["key"], entry["title"], entry["panel"], known))
-    found = ParameterList(choices, groups)
+    found = ParameterList(path, choices, groups)
     keys = [group.key for group in groups]
     reader.check(len(set(keys)) == len(keys), "groups", "a key is there twice")
     reader.names([parameter.name for parameter in found.parameters], "parameters")

@@ -30,7 +30,7 @@ def meaning(parameter):
 
 def table(found, *keys):
     """The table of groups."""
-    parameters = [parameter for key in keys for parameter in found.group(key).parameters]
+    parameters = [parameter for key in keys for parameter in found.group(key, "table").parameters]
     has_thesis = any(p.in_preset for p in parameters)
     thesis = ("thesis | ", "--:|") if has_thesis else ("", "")
     lines = [

@@ -2,7 +2,7 @@
 """What the ParaView plugin has of the list: properties of proxies, and the groups of the panel."""
 
 import re
-from xml.sax.saxutils import escape
+from xml.sax.saxutils import escape, quoteattr
 
 from parameter_list import spaced
 from text import wrapped
@@ -99,7 +99,7 @@ def wrapped_text(text):
 def properties(found, *keys):
     """The properties of groups."""
     return [
-        line for key in keys for parameter in found.group(key).parameters
+        line for key in keys for parameter in found.group(key, "properties").parameters
         for line in one_property(found, parameter)
     ]
 
@@ -109,9 +109,20 @@ def override(found, name, default):
     return one_property(found, found.parameter(name), default)
 
 
-def names(found, *keys):
-    """Their names, for a group of the panel."""
+def panel(found, *words):
+    """The group of the panel in which groups of the list stand; +NAME is a property of the template."""
+    groups = [found.group(word, "panel") for word in words if not word.startswith("+")]
+    labels = {group.panel for group in groups}
+    if len(labels) != 1 or None in labels:
+        keys = ", ".join(group.key for group in groups)
+        raise found.error(f"the template of the panel has the groups {keys} in one, their panel is another")
+    by_key = {group.key: group for group in groups}
+    names = [
+        name for word in words
+        for name in ([word[1:]] if word.startswith("+") else [p.name for p in by_key[word].parameters])
+    ]
     return [
-        f'<Property name="{parameter.name}" />'
-        for key in keys for parameter in found.group(key).parameters
+        f"<PropertyGroup label={quoteattr(labels.pop())}>",
+        *(f'  <Property name="{name}" />' for name in names),
+        "</PropertyGroup>",
     ]

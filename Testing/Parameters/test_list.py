@@ -13,6 +13,7 @@ import xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).parents[2]
 LIST = "Filters/Parameters.json"
+COMMAND = "Applications/ReconstructCommand.cxx"
 SCRIPT = ROOT / "CMake" / "Parameters" / "generate.py"
 GOOD = json.loads((ROOT / LIST).read_text(encoding="utf-8"))
 
@@ -36,7 +37,7 @@ class ListTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.sources = pathlib.Path(folder.name, "sources")
         self.build = pathlib.Path(folder.name, "build")
-        for template in [LIST, *self.inputs()]:
+        for template in [LIST, COMMAND, *self.inputs()]:
             (self.sources / template).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / template, self.sources / template)
 
@@ -95,9 +96,44 @@ class BadLists(ListTest):
             "RemovalLimit: panel can only be 'shown'": {"panel": "hidden"},
             "RemovalLimit: short has more than": {"short": "x" * 100},
             "RemovalLimit: text must end with a full stop": {"text": "Some limit"},
-            "RemovalLimit: short has a \", \\, | or a new line": {"short": "this | that"},
+            "RemovalLimit: short has a |, which ends a cell": {"short": "this | that"},
+            "RemovalLimit: short has a \", which ends text": {"short": "this \"that\""},
+            "RemovalLimit: short has a @ or \\": {"short": "this \\ that"},
+            "RemovalLimit: short has a control character or a new line": {"short": "this\nthat"},
+            "RemovalLimit: text must begin with a word": {"text": '"Some" limit.'},
+            "SmoothingRate: text must begin with a word": {"NAME": "SmoothingRate", "text": "(Some) limit."},
+            "SmoothingRate: text has a @ or \\": {"NAME": "SmoothingRate", "text": "Some @limit."},
+            "RemovalLimit: text has a control character": {"text": "Some \u0001 limit."},
+            "RemovalLimit: why has a control character": {"why": "this\nthat"},
+            "RemovalLimit: why has a |": {"why": "this | that"},
+            "RemovalLimit: unit has a control character": {"unit": "this\nthat"},
+            "RemovalLimit: unit has a |": {"unit": "this | that"},
+            "RemovalLimit: */ in symbol ends a comment": {"symbol": "alpha */"},
+            "RemovalLimit: */ in thesis_text ends a comment": {"thesis_text": "*/"},
             "RemovalLimit: details must be text": {"details": [3]},
-            "RemovalLimit: */ ends a comment": {"details": "All */ of it."},
+            "RemovalLimit: */ in details ends a comment": {"details": "All */ of it."},
+            "RemovalLimit: default is beyond the type double": {"default": "9" * 400 + "/1"},
+            "RemovalLimit: range is beyond any type": {"range": [0, 10**400]},
+            "SmoothingIterations: range is beyond any type": {"NAME": "SmoothingIterations",
+                "range": [0, 10**400]},
+            "RemovalLimit: a double has no engine type": {"engine": "unsigned"},
+            "SmoothingIterations: unsigned does not hold the range": {"NAME": "SmoothingIterations",
+                "engine": "unsigned", "range": [-1, 100]},
+            "MaximumIterations: unsigned does not hold the range": {"NAME": "MaximumIterations",
+                "engine": "unsigned"},
+            "Double: the core cannot call it double, a word of C++": {"name": "Double"},
+            "MTime: VTK has SetMTime() or GetMTime() already": {"name": "MTime"},
+            "CheckpointFileName: Filters/vtkNeuralMesh.h.in has something of that name already": {
+                "name": "CheckpointFileName"},
+            "Of: Filters/Core/learn/Parameters.h.in has something of that name already": {"name": "Of"},
+            "FitRounds: fuzz [0, 4000] is outside the range": {"NAME": "FitRounds", "fuzz": [0, 4000]},
+            "RemovalLimit: the command has no option '--nonsense'": {"command": "--nonsense"},
+            "RemovalLimit: variants must be a list of texts": {"variants": [["Basic"]]},
+            "RemovalLimit: when must be a list of texts": {"when": []},
+            "RemovalLimit: when has something twice": {"when": ["Order is List", "Order is List"]},
+            "RemovalLimit: 'RemovalLimit is 0' is a condition of itself": {"when": ["RemovalLimit is 0"]},
+            "RemovalLimit: 5000 in 'FitRounds is not 5000' is no value": {"when": ["FitRounds is not 5000"]},
+            "RemovalLimit: vtkNeuralMeshAlgorithm has no Seed, as 'Seed is 1' needs": {"when": ["Seed is 1"]},
             "SmoothingIterations: range [0, 3000000000] is beyond": {"NAME": "SmoothingIterations",
                 "range": [0, 3000000000]},
             "RemovalLimit: there is no variant 'Noisy'": {"variants": ["Noisy"]},
@@ -123,6 +159,11 @@ class BadLists(ListTest):
             ("EdgeFlips", {"default": 1}, "EdgeFlips: default 1 is no bool"),
             ("EdgeFlips", {"range": [0, 1]}, "EdgeFlips: a bool has no range"),
             ("Order", {"default": "Random"}, "Order: default 'Random' is none of Exact, List"),
+            ("Order", {"fuzz": [0, 1]}, "Order: a Order has no fuzz"),
+            ("EdgeFlips", {"fuzz": [0, 1]}, "EdgeFlips: a bool has no fuzz"),
+            ("EdgeFlips", {"engine": "unsigned"}, "EdgeFlips: a bool has no engine type"),
+            ("Start", {"type": "OutputPointsPrecision", "default": "Single", "thesis": "Single"},
+             "Start: the engine does not know the choice OutputPointsPrecision"),
         ]
         for name, change, message in wrong:
             content = copy.deepcopy(GOOD)
@@ -136,6 +177,40 @@ class BadLists(ListTest):
         content = copy.deepcopy(GOOD)
         content["choices"][0]["values"][0]["words"] = "b"
         self.check_refused(content, "Variant: there is no key 'words'")
+        for change, message in (({"title": "a */ b"}, "Variant: */ in title ends a comment"),
+                                ({"title": "a\nb"}, "Variant: title has a control character")):
+            content = copy.deepcopy(GOOD)
+            content["choices"][0].update(change)
+            self.check_refused(content, message)
+        content = copy.deepcopy(GOOD)
+        content["choices"][0]["values"][0]["text"] = "a */ b"
+        self.check_refused(content, "Variant: */ in text ends a comment")
+        content = copy.deepcopy(GOOD)
+        content["choices"][1]["values"][0]["name"] = "Null"
+        self.check_refused(content, "choices: C++ has a macro NULL already")
+
+    # Promise: what templates name must be there, and each group must be named by them, under one label
+    # of the panel.
+    def test_templates(self):
+        content = copy.deepcopy(GOOD)
+        del content["groups"][3]
+        self.check_refused(content, "there is no group 'moves', which a template names")
+        content = copy.deepcopy(GOOD)
+        entry_of(content, "NumberOfVertices")["name"] = "VertexCount"
+        self.check_refused(content, "there is no parameter 'NumberOfVertices', which a template names")
+        content = copy.deepcopy(GOOD)
+        content["groups"].append({"key": "new", "title": "New", "panel": None, "parameters": [NEW]})
+        self.check_refused(content, "new: no template has the group in a table of the documentation")
+        content["groups"][-1]["parameters"] = []
+        self.check_refused(content, "new: there are no parameters in it")
+        content["groups"][-1].update(key="+new", parameters=[NEW])
+        self.check_refused(content, "+new: the key must be a word in small letters")
+        content = copy.deepcopy(GOOD)
+        next(group for group in content["groups"] if group["key"] == "list")["panel"] = "Activity"
+        self.check_refused(content, "groups growth, list, end in one, their panel is another")
+        content = copy.deepcopy(GOOD)
+        content["groups"][0]["panel"] = "Outcome"
+        self.check_refused(content, "outcome: no template has the group in a group of the panel")
 
     # Promise: a file that is no list is refused, too.
     def test_files(self):
@@ -200,6 +275,24 @@ class NewEntries(ListTest):
         self.write(entry)
         self.generate(self.sources)
         self.assertIn("another reason", self.written("Documentation/Parameters.md"))
+
+    # Promise: the panel of ParaView calls a group as the list does.
+    def test_label(self):
+        content = copy.deepcopy(GOOD)
+        next(group for group in content["groups"] if group["key"] == "noise")["panel"] = "Dirt & noise"
+        self.write(content)
+        self.assertEqual(self.generate(self.sources).returncode, 0)
+        proxy = xml.etree.ElementTree.parse(
+            self.build / "Wrapping/ParaView/NeuralMesh/NeuralMeshSurface.xml")
+        names = [e.get("name") for e in proxy.iterfind(".//PropertyGroup[@label='Dirt & noise']/Property")]
+        self.assertIn("NoiseTolerance", names)
+
+    # Promise: comments of headers are no wider than their code.
+    def test_width(self):
+        for path in self.build.rglob("*.h"):
+            for line in path.read_text(encoding="utf-8").splitlines():
+                if line.lstrip().startswith(("*", "/")):
+                    self.assertLessEqual(len(line), 100, f"{path.name}: {line}")
 
     # Promise: no place of a template is left open.
     def test_places(self):
