@@ -323,11 +323,14 @@ void vtkNeuralMesh::SetCheckpointFileName(const char* name)
 
 void vtkNeuralMesh::RemoveCheckpoint() { neuralmesh::removeAtomicFile(this->CheckpointFileName); }
 
-neuralmesh::CheckpointPlan vtkNeuralMesh::PlanCheckpoint()
+neuralmesh::CheckpointPlan vtkNeuralMesh::PlanCheckpoint(const vtkNeuralMeshRun& run)
 {
-  return { this->CheckpointFileName, this->CheckpointInterval, [this](const std::string& text) {
-            vtkWarningMacro(<< "The run goes on without a checkpoint: " << text);
-          } };
+  return { .path = this->CheckpointFileName,
+    .interval = this->CheckpointInterval,
+    .warn = [this](const std::string& text)
+    { vtkWarningMacro(<< "The run goes on without a checkpoint: " << text); },
+    .isStartWhole = run.IsStartWhole,
+    .areParametersChosen = run.AreParametersChosen };
 }
 
 int vtkNeuralMesh::RequestData(
@@ -486,10 +489,14 @@ bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& res
   if (this->Automatic)
   {
     this->Times->enter(neuralmesh::Phase::Choice);
-    // Whoever aborts while parameters are chosen ends the run with them as they were.
     run.Tuning = neuralmesh::tune(
-      run.Cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, EndOfChoice), run.Executor)
-                   .value_or(neuralmesh::Tuning{ run.Parameters, {}, {}, {} });
+      run.Cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, EndOfChoice), run.Executor);
+    run.AreParametersChosen = run.Tuning.has_value();
+    if (!run.Tuning)
+    {
+      // Whoever aborts while parameters are chosen ends the run with them as they were.
+      run.Tuning = neuralmesh::Tuning{ run.Parameters, {}, {}, {} };
+    }
     run.Parameters = run.Tuning->parameters;
     this->Times->leave();
     vtkNeuralMeshReport::Log(*run.Tuning, this);
@@ -498,8 +505,8 @@ bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& res
   {
     result = neuralmesh::reconstruct(run.Cloud, run.Parameters,
       neuralmesh::partOf(progress, this->Automatic ? EndOfChoice : 0.0, run.EndOfMesh),
-      run.FirstMesh, this->WatchGrowth(run.PointsPrecision), this->PlanCheckpoint(), run.Executor,
-      run.Hints);
+      run.FirstMesh, this->WatchGrowth(run.PointsPrecision), this->PlanCheckpoint(run),
+      run.Executor, run.Hints);
   }
   catch (const std::runtime_error& error)
   {

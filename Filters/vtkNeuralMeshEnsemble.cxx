@@ -278,6 +278,7 @@ void vtkNeuralMeshEnsemble::PrepareRun(
   }
   if (!votes)
   {
+    run.IsStartWhole = false;
     run.FirstMesh = ensemble.renumberedMesh(0);
     return;
   }

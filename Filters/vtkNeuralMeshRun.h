@@ -65,6 +65,8 @@ struct vtkNeuralMeshRun
   std::optional<neuralmesh::Tuning> Tuning; ///< if parameters were chosen
   double EndOfMesh; ///< as a fraction of the run; then arrays are carried over
   neuralmesh::OrientationHints Hints;
+  bool IsStartWhole = true;        ///< not if making the first mesh was cut short
+  bool AreParametersChosen = true; ///< not if that was, though they were to be
 };
 
 #endif

@@ -67,6 +67,48 @@ test_time_limit()
   expect 0 run mesh.ply "${learning[@]}" --checkpoint $checkpoint --time-limit 1000
   cmp whole.ply mesh.ply || fail "other bytes"
   [ ! -e $checkpoint ] || fail "the checkpoint is left"
+  # Also where there was no time to learn anything.
+  expect 0 run mesh.ply "${learning[@]}" --checkpoint $checkpoint --time-limit 1e-9
+  [ -e $checkpoint ] || fail "no checkpoint of a run that has learnt nothing"
+  expect 0 run mesh.ply "${learning[@]}" --checkpoint $checkpoint
+  cmp whole.ply mesh.ply || fail "other bytes"
+  [ ! -e $checkpoint ] || fail "the checkpoint is left"
+}
+
+# Promise: whatever of a run is interrupted before it goes on from its checkpoint, the members of an ensemble
+# or the choice of parameters, the mesh of the checkpoint is written, the file stays as it is, and the same
+# command goes on from there.
+test_ctrl_c_before_learning()
+{
+  # So noisy that there is something to choose; seconds pass before anything is learnt.
+  make_cloud 20000
+  awk 'function noise() { return 0.05 * (rand() + rand() + rand() - 1.5) }
+    BEGIN { srand(1) } { print $1 + noise(), $2 + noise(), $3 + noise() }' cloud.xyz > noisy.xyz
+  mv noisy.xyz cloud.xyz
+  local options
+  for options in "--automatic" \
+    "--ensemble 3 --set VerticesPerMember=1500 --set MemberSamplesPerAddition=500"; do
+    # Some words.
+    read -ra learning <<< "$options --vertices 4500"
+    rm -f mesh.ply
+    expect 0 run whole.ply "${learning[@]}"
+    until kill_after_checkpoint 0; do
+      :
+    done
+    cp $checkpoint before
+    # The command asks for signals once it has read the cloud.
+    expect 130 interrupted 40 "$neuralmesh" reconstruct cloud.xyz mesh.ply "${learning[@]}" \
+      --checkpoint $checkpoint
+    grep -q "^resumed " out || { cat out; fail "not the mesh of the checkpoint: $options"; }
+    [ -s mesh.ply ] || fail "no mesh: $options"
+    cmp $checkpoint before || fail "another checkpoint: $options"
+    expect 0 run mesh.ply "${learning[@]}" --checkpoint $checkpoint --time-limit 1e-9
+    grep -q "^resumed " out || { cat out; fail "not the mesh of the checkpoint: $options"; }
+    cmp $checkpoint before || fail "another checkpoint: $options"
+    expect 0 run mesh.ply "${learning[@]}" --checkpoint $checkpoint
+    cmp whole.ply mesh.ply || fail "other bytes: $options"
+    [ ! -e $checkpoint ] || fail "the checkpoint is left"
+  done
 }
 
 # Promise: exit status 1, a message on one line that names the file, and neither mesh nor checkpoint are

@@ -4,7 +4,9 @@
 #include "base/Archive.h"
 #include "base/AtomicFile.h"
 #include "learn/ParameterTable.h"
+#include "run/Tuning.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -17,8 +19,26 @@ namespace
 /// The first bytes of the file: its kind, and the byte order of the machine.
 constexpr std::uint64_t Kind = 0x4e6575724d736843u;
 /// Which values there are, and in which order: another number is another version of the program.
-constexpr std::uint64_t Format = 2;
+constexpr std::uint64_t Format = 3;
 using Sum = std::uint64_t;
+
+/// Of the names and sizes of the parameters in the file: with others it is another version, too.
+Sum checksumOfTable()
+{
+  std::string table;
+  forEachParameter(
+    [&](const auto& parameter)
+    {
+      if (parameter.changesResult)
+      {
+        const auto size = sizeof(Parameters().*parameter.place);
+        table += std::string(parameter.name) + " " + std::to_string(size) + "\n";
+      }
+    });
+  Checksum checksum;
+  checksum.add(std::as_bytes(std::span(table)));
+  return checksum.value();
+}
 
 std::runtime_error noCheckpoint() { return std::runtime_error("it is no checkpoint"); }
 
@@ -83,6 +103,12 @@ void requireWhole(std::ifstream& file, std::uint64_t size)
   }
 }
 
+bool isTuned(std::string_view parameter)
+{
+  return std::find(TunedParameters.begin(), TunedParameters.end(), parameter) !=
+    TunedParameters.end();
+}
+
 template <typename T>
 std::string inWords(const char* name, T there, T here)
 {
@@ -112,10 +138,10 @@ Checkpoint::Checkpoint(CheckpointPlan plan, const PointCloud& cloud, const Param
   input_ = { { "the points", checksumOf(cloud.points()) },
     { "the weights", checksumOf(cloud.weights()) },
     { "the place of the points", checksumOfPlace(cloud) } };
-  isFound_ = std::filesystem::exists(plan_.path);
-  if (isFound_)
+  isThere_ = std::filesystem::exists(plan_.path);
+  if (isThere_)
   {
-    read([this](Archive& archive) { exchangeRun(archive); });
+    read([this](Archive& archive) { goesOn_ = exchangeRun(archive, false); });
   }
 }
 
@@ -126,15 +152,15 @@ std::uint64_t Checkpoint::resume(LearningState& state, bool isStartWhole)
     return 0;
   }
   start_ = checksumOf(state.learner);
-  if (isFound_)
+  if (goesOn_)
   {
     read(
       [&](Archive& archive)
       {
-        exchangeRun(archive);
+        exchangeRun(archive, true);
         Sum start = start_;
         archive(start);
-        if (isStartWhole && start != start_)
+        if (isStartWhole && plan_.isStartWhole && start != start_)
         {
           throw std::runtime_error("it is that of another run: learning starts from another mesh");
         }
@@ -150,11 +176,14 @@ std::uint64_t Checkpoint::resume(LearningState& state, bool isStartWhole)
 
 void Checkpoint::saveIfDue(LearningState& state)
 {
-  const bool isNew = isOn() && state.learner.counts().iterations != savedIterations_;
+  const bool hasEnded = state.reason != StopReason::None;
+  const bool isNew = state.learner.counts().iterations != savedIterations_;
   const std::chrono::duration<double> interval(plan_.interval);
-  if (isNew && (state.reason != StopReason::None || Clock::now() >= saveTime_ + interval))
+  if (isOn() &&
+    ((hasEnded && !isThere_) || (isNew && (hasEnded || Clock::now() >= saveTime_ + interval))))
   {
     write(state);
+    isThere_ = true;
     savedIterations_ = state.learner.counts().iterations;
     saveTime_ = Clock::now();
   }
@@ -176,8 +205,10 @@ void Checkpoint::write(LearningState& state)
         const Archive::Sink write = [&file](std::span<const std::byte> bytes)
         { file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size())); };
         Archive archive(write);
-        exchangeRun(archive);
-        archive(start_, written);
+        if (exchangeRun(archive, state.learner.counts().iterations > 0))
+        {
+          archive(start_, written);
+        }
         archive.finish();
         const Sum checksum = archive.checksum();
         write(std::as_bytes(std::span(&checksum, 1)));
@@ -230,19 +261,26 @@ void Checkpoint::read(const std::function<void(Archive&)>& use) const
   }
 }
 
-/// Which run this is the checkpoint of. Throws std::runtime_error if what is read is another one.
-void Checkpoint::exchangeRun(Archive& archive) const
+/// Whether anything is learnt, and of which run this is the checkpoint then. Throws std::runtime_error
+/// if what is read is another one.
+bool Checkpoint::exchangeRun(Archive& archive, bool isLearnt) const
 {
-  auto kind = Kind, format = Format;
+  const Sum ownTable = checksumOfTable();
+  auto kind = Kind, format = Format, table = ownTable;
   std::string version = NEURALMESH_VERSION;
   archive(kind, format);
   if (format == Format)
   {
-    archive(version);
+    archive(version, table);
   }
-  if (format != Format || version != NEURALMESH_VERSION)
+  if (format != Format || version != NEURALMESH_VERSION || table != ownTable)
   {
     throw std::runtime_error("it is that of another version of NeuralMesh");
+  }
+  archive(isLearnt);
+  if (!isLearnt)
+  {
+    return false;
   }
   std::string differences;
   const auto addDifference = [&](const std::string& text)
@@ -266,7 +304,8 @@ void Checkpoint::exchangeRun(Archive& archive) const
       const auto here = parameters_.*parameter.place;
       auto there = here;
       archive(there);
-      if (there != here)
+      const bool isCompared = plan_.areParametersChosen || !isTuned(parameter.name);
+      if (isCompared && there != here)
       {
         addDifference(inWords(parameter.name, there, here));
       }
@@ -275,5 +314,6 @@ void Checkpoint::exchangeRun(Archive& archive) const
   {
     throw std::runtime_error("it is that of another run, from which these differ: " + differences);
   }
+  return true;
 }
 }

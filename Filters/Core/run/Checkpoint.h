@@ -20,6 +20,12 @@ struct CheckpointPlan
   double interval = 60.; ///< seconds from one to the next
   /// Told once, in words, if the file cannot be written later on: learning goes on without.
   std::function<void(const std::string&)> warn = [](const std::string&) {};
+  // A run that was cut short before it began, and so ends at once, goes on from its checkpoint all the
+  // same.
+  /// Not if the mesh to start from was cut short: it is not compared then.
+  bool isStartWhole = true;
+  /// Not if the choice of parameters was: those that tune() chooses are not compared then.
+  bool areParametersChosen = true;
 };
 
 /// All that learning changes.
@@ -36,7 +42,8 @@ struct LearningState
 /// The checkpoint of a run: a file with the state of learning, in which the run that wrote it, or the
 /// same one in another process, goes on to the same bytes as without a break. The same one is that of
 /// the same points, weights, start and parameters, but for the time limit, by the same version of
-/// the program. The file is replaced as a whole or not at all.
+/// the program. The file is replaced as a whole or not at all. One in which nothing is learnt is that
+/// of any run: it says no more than that a run has not come to its end.
 class Checkpoint
 {
 public:
@@ -50,7 +57,7 @@ public:
   std::uint64_t resume(LearningState& state, bool isStartWhole);
 
   /// Writes the file if it is time to, or if learning has ended: to be called between batches. Not
-  /// if nothing was learnt since the last time.
+  /// if nothing was learnt since the last time, but if learning has ended the file is there.
   void saveIfDue(LearningState& state);
 
 private:
@@ -58,7 +65,7 @@ private:
 
   bool isOn() const { return !plan_.path.empty(); }
   void read(const std::function<void(Archive&)>& use) const;
-  void exchangeRun(Archive& archive) const;
+  bool exchangeRun(Archive& archive, bool isLearnt) const;
   void write(LearningState& state);
 
   CheckpointPlan plan_;
@@ -66,7 +73,8 @@ private:
   std::vector<std::pair<std::string, std::uint64_t>> input_; ///< names and checksums
   std::uint64_t start_ = 0; ///< checksum of what learning starts from
   std::uint64_t savedIterations_ = 0;
-  bool isFound_ = false;
+  bool isThere_ = false;
+  bool goesOn_ = false; ///< whether something is learnt in the file that was found
   bool hasWarned_ = false;
   Clock::time_point saveTime_ = Clock::now();
 };

@@ -6,6 +6,7 @@
 #include "cloud/PointCloud.h"
 #include "learn/Parameters.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,7 +46,11 @@ struct Tuning
   std::vector<std::string> reasons() const;
 };
 
-/// Chooses FitRounds, FitSmoothness and CurvatureDensity for a cloud; all others stay as they are.
+/// Those that are chosen, by the names of their properties.
+inline constexpr std::array<std::string_view, 3> TunedParameters{ "FitRounds", "FitSmoothness",
+  "CurvatureDensity" };
+
+/// Chooses the TunedParameters for a cloud; all others stay as they are.
 ///
 /// Short runs are made on patches of the cloud (see TuningPatch), with the one value or the other.
 /// A value is taken if held-out points lie closer to the mesh then, by at least 1 % of their mean

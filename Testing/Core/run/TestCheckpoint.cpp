@@ -323,6 +323,51 @@ TEST_F(Checkpoints, GoOnAfterTheTimeLimit)
   EXPECT_NE(this->refusal(PointCloud(points), parameters).find("the weights"), std::string::npos);
 }
 
+// A run that was cut short before it began ends at once, with what was learnt; what then differs does
+// not count, and the file stays as it is. Else it does count.
+TEST_F(Checkpoints, StayWhereTheBeginningIsCutShort)
+{
+  const Parameters parameters = fewVertices();
+  ASSERT_FALSE(this->run(hardCloud(), parameters, 3));
+  const std::string before = this->contents();
+  Parameters unchosen = parameters;
+  unchosen.fitRounds = 2;
+  const Mesh other = Mesh::tetrahedron(Vector4(0.1f, 0.f, 0.f), 0.2f);
+  const auto stop = [](double) { return false; };
+  EXPECT_THROW(reconstruct(hardCloud(), unchosen, stop, {}, {}, this->plan()), std::runtime_error);
+  EXPECT_THROW(
+    reconstruct(hardCloud(), parameters, stop, other, {}, this->plan()), std::runtime_error);
+  CheckpointPlan cut = this->plan();
+  cut.isStartWhole = cut.areParametersChosen = false;
+  const Reconstruction result = reconstruct(hardCloud(), unchosen, stop, other, {}, cut);
+  EXPECT_EQ(result.stopReason, StopReason::Cancelled);
+  EXPECT_GT(result.resumedIterations, 0u);
+  EXPECT_EQ(this->contents(), before);
+  unchosen.seed = 2;
+  EXPECT_THROW(reconstruct(hardCloud(), unchosen, stop, other, {}, cut), std::runtime_error);
+  expectSame(reconstruct(hardCloud(), parameters, goOn), *this->run(hardCloud(), parameters));
+}
+
+// The file is there until the run is done, also if it ends before anything is learnt: any run goes on
+// from such a file, from its own beginning.
+TEST_F(Checkpoints, AreThereUntilTheRunIsDone)
+{
+  Parameters parameters = fewVertices();
+  const Reconstruction unbroken = reconstruct(hardCloud(), parameters, goOn);
+  EXPECT_EQ(this->run(hardCloud(), parameters, 0, Ending::Cancel)->counts.iterations, 0u);
+  EXPECT_TRUE(fs::exists(this->path()));
+  fs::remove(this->path());
+  parameters.timeLimit = 1e-9;
+  EXPECT_EQ(this->run(hardCloud(), parameters)->stopReason, StopReason::TimeLimit);
+  EXPECT_TRUE(fs::exists(this->path()));
+  parameters.seed = 2;
+  EXPECT_EQ(this->run(hardCloud(), parameters)->resumedIterations, 0u);
+  EXPECT_TRUE(fs::exists(this->path()));
+  parameters.seed = 1;
+  parameters.timeLimit = 0.;
+  expectSame(unbroken, *this->run(hardCloud(), parameters));
+}
+
 // Another cloud, the same in another place or unit, and other parameters are refused, and it is
 // said what differs.
 TEST_F(Checkpoints, RefuseAnotherRun)
