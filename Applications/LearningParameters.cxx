@@ -13,77 +13,136 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <type_traits>
+#include <utility>
 
 namespace
 {
-/// Of the column of names in the table.
+// Of the columns of the table.
 constexpr int NameWidth = 25;
+constexpr int DefaultWidth = 7;
+constexpr int RangeWidth = 18;
+
+using Words = std::vector<std::string>;
+
+/** A switch is on or off. */
+const Words& WordsOfSwitch()
+{
+  static const Words words{ "off", "on" };
+  return words;
+}
+
+/** In full, unless a number has more digits than anybody wants to see. */
+template <typename ValueT>
+std::string Shown(ValueT value)
+{
+  if constexpr (std::is_integral_v<ValueT>)
+  {
+    return std::to_string(value);
+  }
+  constexpr int DigitsOfFraction = 4, DigitsOfWhole = 15;
+  std::ostringstream text;
+  text << std::setprecision(value == std::floor(value) ? DigitsOfWhole : DigitsOfFraction) << value;
+  return text.str();
+}
+
+std::string Alternatives(const Words& words)
+{
+  std::string text;
+  for (const std::string& word : words)
+  {
+    text += (text.empty() ? "" : " or ") + word;
+  }
+  return text;
+}
+
+/** All of a text as a number; nothing if it is none. */
+template <typename NumberT>
+std::optional<NumberT> Parsed(const std::string& text)
+{
+  NumberT value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool isNumber = error == std::errc() && end == text.data() + text.size();
+  return isNumber ? std::optional(value) : std::nullopt;
+}
+
+/** The value that a text stands for, if it is one of the type. */
+template <typename ValueT>
+std::optional<ValueT> ValueOf(const std::string& text, const Words& words)
+{
+  const auto word = std::find(words.begin(), words.end(), text);
+  if (word != words.end())
+  {
+    return static_cast<ValueT>(word - words.begin());
+  }
+  if (words == WordsOfSwitch() && (text == "true" || text == "false"))
+  {
+    return static_cast<ValueT>(text == "true");
+  }
+  if constexpr (std::is_integral_v<ValueT>)
+  {
+    if (const auto whole = Parsed<ValueT>(text))
+    {
+      return whole;
+    }
+    // 1e6 is as good as 1000000, as long as a double has all of its digits.
+    constexpr double MostExact = 9007199254740992.0;
+    const double number = Parsed<double>(text).value_or(0.5);
+    const bool isExact = number == std::floor(number) && std::abs(number) <= MostExact;
+    const auto whole = isExact ? static_cast<long long>(number) : 0;
+    return isExact && std::in_range<ValueT>(whole) ? std::optional(static_cast<ValueT>(whole))
+                                                   : std::nullopt;
+  }
+  return Parsed<ValueT>(text);
+}
 
 /** `texts` are a description, and words for the values from 0 on. */
 template <typename OwnerT, typename ValueT>
-LearningParameter Describe(const char* name, std::vector<std::string> texts, double minimum,
-  double maximum, ValueT defaultValue, void (OwnerT::*set)(ValueT))
+LearningParameter Describe(const char* name, const std::vector<std::string>& texts,
+  std::type_identity_t<ValueT> minimum, std::type_identity_t<ValueT> maximum, ValueT defaultValue,
+  void (OwnerT::*set)(ValueT))
 {
-  const auto setValue = [name, set](vtkNeuralMesh* filter, double value)
+  const Words words(texts.begin() + 1, texts.end());
+  const std::string ends = Shown(minimum) + " to " + Shown(maximum);
+  const std::string range = words.empty()
+    ? (std::is_integral_v<ValueT> ? "an integer from " : "a number from ") + ends
+    : Alternatives(words);
+  const auto setValue = [=](vtkNeuralMesh* filter, const std::string& text)
   {
+    const std::optional<ValueT> value = ValueOf<ValueT>(text, words);
+    if (!value || !(*value >= minimum && *value <= maximum))
+    {
+      throw UsageError(
+        "--set " + std::string(name) + "=" + OneLine(text) + ": " + name + " must be " + range);
+    }
     auto* owner = dynamic_cast<OwnerT*>(filter);
     if (!owner)
     {
       throw UsageError(std::string("--set ") + name + " goes with --ensemble");
     }
-    (owner->*set)(static_cast<ValueT>(value));
+    (owner->*set)(*value);
   };
-  return { name, texts.front(), minimum, maximum, static_cast<double>(defaultValue),
-    std::is_integral_v<ValueT>, { texts.begin() + 1, texts.end() }, setValue };
+  // Where the range ends with the type, nobody wants to see the digits.
+  const bool isOpen =
+    std::is_same_v<ValueT, vtkIdType> && maximum == std::numeric_limits<ValueT>::max();
+  return { name, texts.front(),
+    words.empty() ? Shown(defaultValue) : words.at(static_cast<std::size_t>(defaultValue)),
+    !words.empty() ? range
+      : isOpen     ? "from " + Shown(minimum) + " on"
+                   : ends,
+    words, setValue };
 }
 
 std::vector<LearningParameter> MakeParameters()
 {
   vtkNew<vtkNeuralMeshEnsemble> defaults;
 #define DESCRIBE(property, minimum, maximum, ...)                                                  \
-  Describe(#property, { __VA_ARGS__ }, static_cast<double>(minimum), static_cast<double>(maximum), \
-    defaults->Get##property(), &vtkNeuralMeshEnsemble::Set##property),
+  Describe(#property, { __VA_ARGS__ }, minimum, maximum, defaults->Get##property(),                \
+    &vtkNeuralMeshEnsemble::Set##property),
   return { NEURAL_MESH_FOR_EACH_SETTING(DESCRIBE) };
 #undef DESCRIBE
-}
-
-std::string ShortNumber(double value)
-{
-  std::ostringstream text;
-  text << std::setprecision(value == std::floor(value) && value < 1e7 ? 7 : 4) << value;
-  return text.str();
-}
-
-/** What a parameter may be. */
-std::string DescribeRange(const LearningParameter& parameter)
-{
-  if (parameter.Words.empty())
-  {
-    return (parameter.Integral ? "an integer from " : "a number from ") +
-      ShortNumber(parameter.Minimum) + " to " + ShortNumber(parameter.Maximum);
-  }
-  std::string words;
-  for (const std::string& word : parameter.Words)
-  {
-    words += (words.empty() ? "" : " or ") + word;
-  }
-  return words;
-}
-
-/** The number that `text` stands for; NaN if that is none. */
-double ValueOf(const LearningParameter& parameter, const std::string& text)
-{
-  const auto word = std::find(parameter.Words.begin(), parameter.Words.end(), text);
-  if (word != parameter.Words.end())
-  {
-    return static_cast<double>(word - parameter.Words.begin());
-  }
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool isNumber = error == std::errc() && end == text.data() + text.size();
-  return isNumber ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 /** What to say of a name that no parameter has. */
@@ -127,35 +186,37 @@ void SetLearningParameter(vtkNeuralMesh* filter, const std::string& assignment)
   {
     throw UsageError(DescribeUnknown(name));
   }
-  const double value = ValueOf(*parameter, text);
-  if (!(value >= parameter->Minimum && value <= parameter->Maximum) ||
-    (parameter->Integral && value != std::floor(value)))
-  {
-    throw UsageError("--set " + assignment + ": " + name + " must be " + DescribeRange(*parameter));
-  }
-  parameter->Set(filter, value);
+  parameter->Set(filter, text);
+}
+
+const std::string& LearningDefault(const std::string& name)
+{
+  const auto& parameters = GetLearningParameters();
+  return std::find_if(parameters.begin(), parameters.end(),
+    [&](const LearningParameter& parameter) { return parameter.Name == name; })
+    ->Default;
 }
 
 std::string DescribeLearningParameters()
 {
   std::ostringstream table;
-  table << "  " << std::left << std::setw(NameWidth) << "name" << std::setw(7) << "default"
-        << " " << std::setw(17) << "range"
-        << "what it is\n";
+  const auto write = [&](const std::string& name, const std::string& defaultValue,
+                       const std::string& range, const std::string& description)
+  {
+    table << "  " << std::left << std::setw(NameWidth) << name << std::setw(DefaultWidth)
+          << defaultValue << " " << std::setw(RangeWidth - 1) << range << description << "\n";
+  };
+  write("name", "default", "range", "what it is");
   for (const LearningParameter& parameter : GetLearningParameters())
   {
-    table << "  " << std::left << std::setw(NameWidth) << parameter.Name;
-    if (parameter.Words.empty())
+    if (parameter.Words.empty() || parameter.Words == WordsOfSwitch())
     {
-      const std::string range =
-        ShortNumber(parameter.Minimum) + " to " + ShortNumber(parameter.Maximum);
-      table << std::setw(7) << ShortNumber(parameter.Default) << std::setw(18) << range
-            << parameter.Description << "\n";
+      write(parameter.Name, parameter.Default, parameter.Range + " ", parameter.Description);
     }
     else
     {
-      table << parameter.Description << ": " << DescribeRange(parameter)
-            << "; the first by default\n";
+      table << "  " << std::left << std::setw(NameWidth) << parameter.Name << parameter.Description
+            << ": " << parameter.Range << "; " << parameter.Default << " by default\n";
     }
   }
   return table.str();

@@ -17,12 +17,11 @@ struct LearningParameter
 {
   std::string Name;
   std::string Description; ///< a few words
-  double Minimum;
-  double Maximum;
-  double Default;
-  bool Integral;
+  std::string Default;
+  std::string Range;              ///< "0 to 1", "from 0 on", "exact or list"
   std::vector<std::string> Words; ///< for the values from 0 on; none for numbers
-  std::function<void(vtkNeuralMesh*, double)> Set;
+  /** Throws UsageError, with the range, for a text that is none of the values. */
+  std::function<void(vtkNeuralMesh*, const std::string& text)> Set;
 };
 
 const std::vector<LearningParameter>& GetLearningParameters();
@@ -35,6 +34,9 @@ struct UsageError : std::runtime_error
 
 /** Carries out an assignment NAME=VALUE. Throws UsageError, with the range or near names. */
 void SetLearningParameter(vtkNeuralMesh* filter, const std::string& assignment);
+
+/** What a parameter is set to in the beginning. */
+const std::string& LearningDefault(const std::string& name);
 
 /** A table of names, defaults and ranges. */
 std::string DescribeLearningParameters();

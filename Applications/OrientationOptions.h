@@ -23,6 +23,9 @@ public:
    * views cannot be read. */
   void Apply(vtkNeuralMesh* filter) const;
 
+  /** That of --views; empty: none. */
+  const std::string& GetViewFile() const { return this->ViewFile; }
+
 private:
   std::vector<std::string> Viewpoints;
   std::string ViewFile;

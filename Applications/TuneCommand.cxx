@@ -2,13 +2,16 @@
 #include "TuneCommand.h"
 
 #include "PointReader.h"
+#include "PropertyOptions.h"
 
 #include "base/ThreadPool.h"
 #include "cloud/PointCloud.h"
 #include "run/Tuning.h"
+#include "vtkNeuralMesh.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkPointCloudCollector.h"
 
+#include "vtkNew.h"
 #include "vtkPointSet.h"
 
 #include <CLI/CLI.hpp>
@@ -16,7 +19,6 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -26,8 +28,8 @@ namespace
 struct TuneOptions
 {
   std::string Input;
-  long long Vertices = 20000;
-  int Seed = 1;
+  vtkIdType Vertices = 0;
+  int Seed = 0;
   int Threads = 0;
   bool Close = false;
   bool JSON = false;
@@ -72,7 +74,8 @@ void Print(const TuneOptions& options, const neuralmesh::Tuning& tuning)
     std::printf("  %s\n", reason.c_str());
   }
   std::printf("neuralmesh reconstruct %s OUTPUT --vertices %lld%s%s\n", options.Input.c_str(),
-    options.Vertices, options.Close ? " --boundaries close" : "", assignments.c_str());
+    static_cast<long long>(options.Vertices), options.Close ? " --boundaries close" : "",
+    assignments.c_str());
 }
 
 int Tune(const TuneOptions& options)
@@ -84,7 +87,10 @@ int Tune(const TuneOptions& options)
   const neuralmesh::PointCloud cloud(collector.GetPoints(), {}, false, executor);
   if (!cloud.hasExtent())
   {
-    throw std::runtime_error(options.Input + ": there are no two points apart from each other");
+    throw std::runtime_error(options.Input +
+      (collector.GetPoints().empty() ? ": there are no points in it"
+          : cloud.points().empty()   ? ": no point of it is finite"
+                                     : ": there are no two points apart from each other"));
   }
   neuralmesh::Parameters parameters;
   parameters.numberOfVertices = static_cast<std::uint64_t>(options.Vertices);
@@ -108,25 +114,25 @@ int Tune(const TuneOptions& options)
 std::function<int()> AddTuneCommand(CLI::App& application)
 {
   auto options = std::make_shared<TuneOptions>();
+  vtkNew<vtkNeuralMesh> defaults;
+  const auto vertices = NEURAL_MESH_NUMBERS(defaults, NumberOfVertices);
+  const auto seed = NEURAL_MESH_NUMBERS(defaults, Seed);
+  const auto threads = NEURAL_MESH_NUMBERS(defaults, NumberOfThreads);
+  options->Close = defaults->GetBoundaries() == vtkNeuralMesh::CLOSE;
   CLI::App* command =
     application.add_subcommand("tune", "Choose the parameters for a point cloud, and say why");
   command->add_option("INPUT", options->Input, "Points, as for reconstruct")
     ->required()
     ->type_name("");
-  command
-    ->add_option("--vertices", options->Vertices,
-      "Vertices that the mesh is to have, 4 to 1000000000 (default 20000)")
-    ->check(CLI::Range(4LL, 1000000000LL).description(""))
-    ->type_name("N");
-  command->add_option("--seed", options->Seed, "Seed of the random numbers (default 1)")
-    ->check(CLI::Range(0, std::numeric_limits<int>::max()).description(""))
-    ->type_name("N");
+  AddNumber(command, "--vertices", options->Vertices, vertices,
+    "Vertices that the mesh is to have, " + Described(vertices), "N");
+  AddNumber(
+    command, "--seed", options->Seed, seed, "Seed of the random numbers, " + Described(seed), "N");
   command->add_flag("--close", options->Close, "The mesh is to be closed where the scan has gaps");
-  command
-    ->add_option("--threads", options->Threads,
-      "Work on so many threads at most; 0 (default): on as many as the machine runs at once")
-    ->check(CLI::Range(0, 1024).description(""))
-    ->type_name("N");
+  AddNumber(command, "--threads", options->Threads, threads,
+    "Work on so many threads at most, " + Described(threads) +
+      "; 0: on as many as the machine runs at once",
+    "N");
   command->add_flag("--json", options->JSON, "Print JSON");
   command->footer("Takes seconds, however large the cloud is; writes nothing.\n"
                   "reconstruct --automatic does the same before it learns.\n"

@@ -7,7 +7,6 @@
 #include <CLI/CLI.hpp>
 
 #include <ostream>
-#include <sstream>
 
 namespace
 {
@@ -81,19 +80,10 @@ void WriteParameters(std::ostream& page)
 {
   for (const LearningParameter& parameter : GetLearningParameters())
   {
-    std::ostringstream values;
-    if (parameter.Words.empty())
-    {
-      values << parameter.Minimum << " to " << parameter.Maximum << ", default "
-             << parameter.Default;
-    }
-    else
-    {
-      values << Join(parameter.Words, " or ") << ", the first by default";
-    }
+    const std::string values = parameter.Range + ", default " + parameter.Default;
     page << ".TP\n"
          << Bold(parameter.Name) << "\n"
-         << Escaped(parameter.Description + " (" + values.str() + ")") << "\n";
+         << Escaped(parameter.Description + " (" + values + ")") << "\n";
   }
 }
 

@@ -85,14 +85,12 @@ def one_property(found, parameter):
     if is_own:
         lines += [*enumeration(found, parameter.type), ""]
     lines += ["///@{", *documentation(found, parameter)]
+    low, high = (vtk_number(parameter, end) for end in (parameter.low, parameter.high))
+    lines += wrapped(f"vtkNeuralMeshSetClampMacro({name}, {kind}, {low}, {high});", "  ", "")
+    lines.append(f"vtkGetMacro({name}, {kind});")
     if parameter.type == "bool":
-        lines += [f"vtkSetMacro({name}, {kind});", f"vtkGetMacro({name}, {kind});",
-                  f"vtkBooleanMacro({name}, {kind});"]
-    else:
-        low, high = (vtk_number(parameter, end) for end in (parameter.low, parameter.high))
-        lines += wrapped(f"vtkNeuralMeshSetClampMacro({name}, {kind}, {low}, {high});", "  ", "")
-        lines.append(f"vtkGetMacro({name}, {kind});")
-    if is_own:
+        lines.append(f"vtkBooleanMacro({name}, {kind});")
+    if parameter.choice:
         lines += choosers(found, parameter.type)
     return [*lines, "///@}"]
 
@@ -158,6 +156,7 @@ def settings(found, name):
         if p.command is None:
             low, high = (str(e) if p.choice else vtk_number(p, e) for e in (p.low, p.high))
             words = [snake_case(value.name) for value in p.choice.values] if p.choice else []
+            words += ["off", "on"] if p.type == "bool" else []
             quoted = ", ".join(f'"{text}"' for text in [p.short, *words])
             uses.append(f"use({p.name}, {low}, {high}, {quoted})")
     return macro(name, uses)

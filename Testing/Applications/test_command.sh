@@ -76,12 +76,73 @@ reconstruct cloud.xyz mesh.ply --set WinnerRate=2
 reconstruct cloud.xyz mesh.ply --set WinnerRate=x
 reconstruct cloud.xyz mesh.ply --set NoiseWindow=10.5
 reconstruct cloud.xyz mesh.ply --set Nothing=1
+reconstruct cloud.xyz mesh.ply --set EdgeFlips=2
+reconstruct cloud.xyz mesh.ply --set EdgeFlips=yes
 reconstruct cloud.xyz mesh.ply --time-limit -1
 reconstruct cloud.xyz mesh.ply --shift automatic
 reconstruct cloud.xyz mesh.ply --shift 1,2
 reconstruct cloud.xyz mesh.ply --shift 1,2,3,4
 reconstruct cloud.xyz mesh.ply --shift 1,nan,3
+reconstruct cloud.xyz mesh.ply --time-limit nan
+reconstruct cloud.xyz mesh.ply --checkpoint run --checkpoint-interval nan
 CASES
+  expect 2 "$neuralmesh" reconstruct cloud.xyz mesh.ply --set MaximumIterations=9223372036854775808
+  grep -q 'must be an integer from 0 to 9223372036854775807$' err || { cat err; fail "another range"; }
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 100 \
+    --set MaximumIterations=9223372036854775807
+  [ ! -s err ] || { cat err; fail "the largest count is not taken"; }
+}
+
+# Promise: exit status 2, and nothing is written or removed, where a file that is written is that of
+# another option, too, by whatever path.
+test_same_file()
+{
+  local arguments
+  cp cloud.xyz cloud.ply
+  echo kept > curve.csv
+  echo 0 0 9 > views.xyz
+  ln -s . here
+  ln -s cloud.ply link.ply
+  while read -r arguments; do
+    # shellcheck disable=SC2086
+    expect 2 "$neuralmesh" reconstruct $arguments --vertices 100
+    grep -Eq '^neuralmesh: (OUTPUT|--[a-z]+): .* is the file of (INPUT|OUTPUT|--[a-z]+), too$' err ||
+      { cat err; fail "another message for: $arguments"; }
+    [ ! -e mesh.ply ] || fail "something was written for: $arguments"
+  done << 'CASES'
+cloud.xyz mesh.ply --checkpoint mesh.ply
+cloud.xyz mesh.ply --checkpoint ./mesh.ply
+cloud.xyz mesh.ply --checkpoint here/mesh.ply
+cloud.xyz mesh.ply --statistics curve.csv --checkpoint curve.csv
+cloud.ply link.ply
+cloud.ply ./cloud.ply
+cloud.xyz mesh.ply --initial mesh.ply
+cloud.xyz mesh.ply --checkpoint cloud.xyz
+cloud.xyz mesh.ply --views views.xyz --checkpoint views.xyz
+CASES
+  cmp cloud.xyz cloud.ply || fail "the input was changed"
+  [ "$(cat curve.csv)" = kept ] || fail "the table was changed"
+}
+
+# Promise: switches are words or numbers, whole numbers may be written as powers, and as many parameters
+# as one likes are set by --set, each by one of its own, as the help tells.
+test_assignments()
+{
+  local word
+  for word in off false 0; do
+    expect 0 "$neuralmesh" reconstruct cloud.xyz $word.ply --vertices 200 --set EdgeFlips=$word
+    cmp off.ply $word.ply || fail "$word is not off"
+  done
+  for word in on true 1; do
+    expect 0 "$neuralmesh" reconstruct cloud.xyz $word.ply --vertices 200 --set EdgeFlips=$word \
+      --set NoiseWindow=1e3
+    cmp on.ply $word.ply || fail "$word is not on"
+  done
+  ! cmp -s on.ply off.ply || fail "EdgeFlips has no effect"
+  expect 0 "$neuralmesh" reconstruct --help
+  grep -q -- '^  --set NAME=VALUE  ' out || { cat out; fail "the help tells otherwise"; }
+  grep -Eq '^  MaximumPoints +0 +0 to 4294967295 ' out || { cat out; fail "a range is rounded"; }
+  expect 2 "$neuralmesh" reconstruct cloud.xyz mesh.ply --set WinnerRate=0.1 EdgeFlips=on
 }
 
 # says_unknown NAME SUGGESTIONS: what is said in one line of a parameter that does not exist.

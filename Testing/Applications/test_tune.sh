@@ -69,6 +69,12 @@ test_wrong_use()
   expect 1 "$neuralmesh" tune point.xyz
   grep -q 'point.xyz: there are no two points apart from each other' err || fail "not the reason"
   [ ! -s out ] || fail "there is something on stdout"
+  : > empty.xyz
+  expect 1 "$neuralmesh" tune empty.xyz
+  grep -q 'empty.xyz: there are no points in it' err || { cat err; fail "not the reason"; }
+  printf 'nan nan nan\nnan 1 2\n' > nan.xyz
+  expect 1 "$neuralmesh" tune nan.xyz
+  grep -q 'nan.xyz: no point of it is finite' err || { cat err; fail "not the reason"; }
   local arguments
   while read -r arguments; do
     # Some words.
