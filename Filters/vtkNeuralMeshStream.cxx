@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 vtkStandardNewMacro(vtkNeuralMeshStream);
 
@@ -35,7 +36,7 @@ void Fill(const neuralmesh::Reconstruction& result, double unit, vtkPolyData* ou
   output->GetPointData()->SetNormals(vtkMeshArrays::MakeNormals(result.normals));
   output->GetPointData()->AddArray(vtkMeshArrays::MakeNumbers("Activity", result.activities));
   vtkNeuralMeshOrientation::AddReport(result.orientation, output);
-  if (!result.quality || !result.finish)
+  if (!result.quality)
   {
     return;
   }
@@ -44,7 +45,9 @@ void Fill(const neuralmesh::Reconstruction& result, double unit, vtkPolyData* ou
   const auto addCount = [output](const char* name, auto count)
   { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count)); };
   addNumber("Residual", result.quality->residual);
-  addNumber("Noise", result.finish->noise * unit);
+  // As long as nothing is fitted, noise is not known.
+  addNumber("Noise",
+    result.finish ? result.finish->noise * unit : std::numeric_limits<double>::quiet_NaN());
   addNumber("OutlierShare", result.quality->outlierShare);
   addCount("Components", result.quality->surface.components);
   addCount("Genus", result.quality->surface.genus.value_or(-1));

@@ -10,6 +10,7 @@
 #include "vtkExecutive.h"
 #include "vtkPointData.h"
 
+#include <cmath>
 #include <sstream>
 
 namespace
@@ -101,6 +102,27 @@ int CheckMesh()
   return EXIT_SUCCESS;
 }
 
+/// What is finished without a fit is measured all the same; noise is not known then.
+int CheckUnfitted()
+{
+  vtkNew<vtkNeuralMeshStream> stream;
+  stream->SetFitRounds(0);
+  Run(stream);
+  stream->Update();
+  vtkPolyData* mesh = stream->GetOutput();
+  CHECK(mesh->GetNumberOfPoints() > 0);
+  for (const char* name : { "Residual", "OutlierShare", "Components", "Genus", "BoundaryLoops" })
+  {
+    CHECK(mesh->GetFieldData()->HasArray(name));
+    CHECK(std::isfinite(FilterTesting::FieldValue(mesh, name)));
+  }
+  CHECK(std::isnan(FilterTesting::FieldValue(mesh, "Noise")));
+  stream->FinishOutputOff();
+  stream->Update();
+  CHECK(!stream->GetOutput()->GetFieldData()->HasArray("Residual"));
+  return EXIT_SUCCESS;
+}
+
 int CheckErrors()
 {
   vtkNew<vtkNeuralMeshStream> stream;
@@ -171,6 +193,7 @@ int CheckEnds()
 int TestNeuralMeshStream(int, char*[])
 {
   CHECK(CheckMesh() == EXIT_SUCCESS);
+  CHECK(CheckUnfitted() == EXIT_SUCCESS);
   CHECK(CheckErrors() == EXIT_SUCCESS);
   CHECK(CheckEnds() == EXIT_SUCCESS);
   return EXIT_SUCCESS;

@@ -210,7 +210,8 @@ Reconstruction StreamingReconstruction::mesh(
   {
     allHints.normalOf = [this](std::uint32_t point) { return directions_[point].cast<double>(); };
   }
-  describe(std::move(learnt), *cloud_, result.finish ? cloud_.get() : nullptr, allHints, result);
+  const bool isMeasured = isFinished && result.isComplete();
+  describe(std::move(learnt), *cloud_, isMeasured ? cloud_.get() : nullptr, allHints, result);
   return result;
 }
 }
