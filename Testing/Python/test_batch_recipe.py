@@ -98,6 +98,31 @@ class Recipes(BatchTest):
         for count in ("0", "-1", "many"):
             self.assertEqual(self.run_batch("--processes", count)[2], 2)
 
+    # Promise: so is one whose results would be written over a scan, a first mesh or the recipe; nothing is
+    # touched, and in another folder it runs.
+    def test_over_scans(self):
+        write_scan(self.folder / "summary.csv")
+        write_scan(self.folder / "jobs.xyz")
+        (self.folder / "link").symlink_to(self.folder)
+        cases = (
+            ({"scans": ["a.ply"], "format": "ply"}, ".", "the mesh of a would be written there"),
+            ({"scans": ["a.ply"], "format": "ply"}, "link", "the mesh of a would be written there"),
+            ({"scans": ["summary.csv"]}, ".", "the summary would be written there"),
+            ({"scans": ["jobs.xyz"]}, ".", "the report on jobs would be written there"),
+            ({"scans": ["a.xyz"], "format": "ply", "matrix": {"first_mesh": "a.ply"}}, ".",
+             "the mesh of a would be written there"),
+        )
+        write_scan(self.folder / "a.ply")
+        before = {path: path.read_bytes() for path in self.folder.glob("*.*")}
+        for content, output, message in cases:
+            with self.subTest(content):
+                self.write_recipe(**content)
+                before[self.recipe] = self.recipe.read_bytes()
+                _, errors, status = self.run_batch("--output", output)
+                self.assertEqual(status, 2, errors)
+                self.assertIn(message, errors)
+                self.assertEqual({path: path.read_bytes() for path in self.folder.glob("*.*")}, before)
+
     # Promise: all lists of the matrix are crossed, for each scan; they, and not what is fixed, are in
     # the names.
     def test_matrix(self):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """stream(): the mesh follows points that arrive; the example runs."""
 
+import json
+import math
 import os
 import pathlib
 import subprocess
@@ -9,6 +11,8 @@ import unittest
 import neuralmesh
 import numpy as np
 import support
+from neuralmesh._parameters import snake_case
+from neuralmesh._stream import PARAMETERS
 
 EXAMPLE = pathlib.Path(__file__).parents[2] / "Documentation" / "Examples" / "turning_scanner.py"
 
@@ -22,7 +26,55 @@ def in_parts(cloud, parts=3, **parameters):
     return stream
 
 
+LIST = pathlib.Path(__file__).parents[2] / "Filters" / "Parameters.json"
+# What a stream is learnt with: conditions of all that has another one cannot be met.
+LEARNT_WITH = {"Order is Exact", "TopologyLearning is off", "ComputeFeatureStrength is off"}
+
+
+def counts(entry):
+    """Whether a parameter of the list can count for a stream."""
+    decided = {c for c in entry.get("when", []) if c.split()[0] in {c.split()[0] for c in LEARNT_WITH}}
+    return "NoiseFiltering" in entry.get("variants", ["NoiseFiltering"]) and decided <= LEARNT_WITH
+
+
 class Streams(unittest.TestCase):
+    # Promise: stream() takes, of the parameters of all classes, those that can count for it, and names
+    # the others.
+    def test_parameters(self):
+        groups = json.loads(LIST.read_text(encoding="utf-8"))["groups"]
+        entries = [e for group in groups for e in group["parameters"] if "class" not in e]
+        fixed = {"Variant", "Order", "TopologyLearning", "ComputeFeatureStrength", "CurvatureDensity"}
+        wanted = {snake_case(e["name"]) for e in entries if counts(e) and e["name"] not in fixed}
+        self.assertEqual(set(PARAMETERS), wanted)
+        for name in ("topology_patience", "jump", "list_vertices", "curvature_density"):
+            with self.assertRaisesRegex(TypeError, name):
+                neuralmesh.stream(**{name: 1})
+
+    # Promise: numbers of samples are integers above 0, however they are written, seconds above 0; None
+    # is the default.
+    def test_samples(self):
+        stream = neuralmesh.stream(300)
+        stream.add_points(support.sphere(2000))
+        for samples in (1.5, 0, -1, float("nan"), "5", True, [5]):
+            with self.assertRaisesRegex(ValueError, "samples must be an integer above 0"):
+                stream.learn(samples)
+        for seconds in (0, -1, float("nan"), "5", True):
+            with self.assertRaisesRegex(ValueError, "seconds must be a number above 0"):
+                stream.learn(seconds=seconds)
+        self.assertEqual(stream.learn(5000.0), 5000)
+        self.assertEqual(stream.learn(None), 60 * 300 + 150000)
+
+    # Promise: a finished mesh is measured, also if it is not fitted; then the noise is not known.
+    def test_unfitted(self):
+        stream = neuralmesh.stream(300, fit_rounds=0)
+        stream.add_points(support.sphere(2000))
+        stream.learn()
+        fields = stream.mesh().GetFieldData()
+        for name in ("Residual", "OutlierShare", "Components", "Genus", "BoundaryLoops"):
+            self.assertTrue(math.isfinite(fields.GetArray(name).GetValue(0)), name)
+        self.assertTrue(math.isnan(fields.GetArray("Noise").GetValue(0)))
+        self.assertIsNone(stream.mesh(finish=False).GetFieldData().GetArray("Residual"))
+
     # Promise: points are added as arrays or datasets, samples are learnt, and the mesh has all that
     # came; the same calls give the same bytes, whether somebody looks on or not.
     def test_mesh_follows(self):

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import numbers
+
+import numpy as np
 from numpy.typing import ArrayLike
 from vtkmodules.vtkCommonDataModel import vtkPointSet, vtkPolyData
 
@@ -12,12 +15,19 @@ from ._points import as_dataset, direction, place, with_normals
 from .vtkFiltersNeuralMesh import vtkNeuralMeshStream
 
 _NAMED = ("number_of_vertices", "seed", "reservoir_size", "finish_output")
-# A stream is learnt in one variant, with one order; so these can have no other value.
+# A stream is learnt in one variant, with one order; so these can have no other value ...
 _FIXED = ("variant", "order", "preset", "topology_learning", "compute_feature_strength")
+# ... and these count with others only, or with a cloud that is known as a whole.
+_WITHOUT_EFFECT = (
+    "area_weight", "boundary_merging_factor", "constant_weight", "counter_decay",
+    "curvature_density", "feature_memory", "feature_samples", "jump", "jump_fraction",
+    "list_vertices", "normal_weight", "topology_patience", "topology_rules",
+    "triangle_removal_factor", "volume_weight",
+)  # fmt: skip
 PARAMETERS = {
     name: parameter
     for name, parameter in parameters_of(vtkNeuralMeshStream).items()
-    if name not in _NAMED + _FIXED
+    if name not in _NAMED + _FIXED + _WITHOUT_EFFECT
 }
 
 
@@ -65,19 +75,21 @@ class Stream:
         """Learn, and return the number of samples that were learnt.
 
         Args:
-            samples: How many to learn; the default, 60 for each vertex and 150000 more, lets a mesh
-                grow to all its vertices.
+            samples: How many to learn, an integer; the default, or None, stands for 60 for each vertex
+                and 150000 more, which lets a mesh grow to all its vertices.
             seconds: How long to learn instead, about; the mesh then depends on the machine.
             progress: As in reconstruct(); if it returns False, learning ends.
 
         Raises:
-            ValueError: samples or seconds are not above 0, or both are given.
+            ValueError: samples or seconds are not above 0, samples are no integer, or both are given.
         """
         if samples is not None and seconds is not None:
             raise ValueError("samples and seconds exclude each other")
-        wanted = seconds if seconds is not None else samples
-        if wanted is not None and not wanted > 0:
-            raise ValueError(f"samples or seconds must be above 0, not {wanted!r}")
+        if seconds is not None and not (_is_number(seconds) and seconds > 0):
+            raise ValueError(f"seconds must be a number above 0, not {seconds!r}")
+        is_whole = samples is None or (_is_number(samples) and samples % 1 == 0 and samples > 0)
+        if not is_whole:
+            raise ValueError(f"samples must be an integer above 0, not {samples!r}")
         if seconds is not None:
             return self._call(self._algorithm.LearnForSeconds, float(seconds), progress=progress)
         if samples is None:
@@ -127,6 +139,10 @@ class Stream:
         return observed_call(self._algorithm, progress, function, *arguments)
 
 
+def _is_number(value: object) -> bool:
+    return isinstance(value, numbers.Real) and not isinstance(value, (bool, np.bool_))
+
+
 def stream(
     vertices: int = 20000,
     seed: int = 1,
@@ -145,8 +161,8 @@ def stream(
         reservoir: How many points are kept to learn from, from 100 to 4294967295, of any number that
             come, each with the same chance. About 130 bytes each.
         up: As in reconstruct().
-        **parameters: Any other property of vtkNeuralMeshStream, in snake case. Names, defaults and
-            ranges:
+        **parameters: Any other property of vtkNeuralMeshStream that counts for a stream, in snake
+            case. Names, defaults and ranges:
 
 {table}
 

@@ -11,7 +11,7 @@ from .. import __version__
 from .._command import add_processes_option, run_command
 from .gallery import write_gallery
 from .recipe import Job, Recipe, RecipeError, read_recipe
-from .report import is_done, write_summary
+from .report import is_done, require_distinct, summary_path, write_summary
 from .running import run_jobs
 from .atomic_file import alone_in
 
@@ -85,11 +85,12 @@ def _parser() -> argparse.ArgumentParser:
 def _batch(recipe_path: Path, output: Path | None, processes: int) -> int:
     recipe = read_recipe(recipe_path)
     folder = (output or recipe_path.parent / f"{recipe_path.stem}-results").absolute()
+    require_distinct(recipe_path, recipe, folder)
     folder.mkdir(parents=True, exist_ok=True)
     with alone_in(folder, "batch"):
         failed = _run(recipe, folder, processes)
         write_summary(folder, recipe)
-        print(f"summary    {folder / 'summary.csv'}")
+        print(f"summary    {summary_path(folder)}")
         if recipe.gallery:
             for problem in write_gallery(folder, recipe, recipe_path.stem):
                 print(f"neuralmesh: {problem}", file=sys.stderr)

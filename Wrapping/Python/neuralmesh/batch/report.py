@@ -8,12 +8,13 @@ import hashlib
 import io
 import json
 import math
+import os
 from pathlib import Path
 from typing import Any
 
 from .. import VTK_VERSION, __version__
 from .._parameters import snake_case
-from .recipe import Job, Recipe
+from .recipe import Job, Recipe, RecipeError
 from .atomic_file import write_text
 
 PHASES = ("cloud", "start", "learning", "finish")
@@ -26,6 +27,23 @@ def report_path(folder: Path, job_name: str) -> Path:
 
 def result_path(folder: Path, job_name: str, mesh_format: str) -> Path:
     return folder / f"{job_name}.{mesh_format}"
+
+
+def summary_path(folder: Path) -> Path:
+    return folder / "summary.csv"
+
+
+def require_distinct(recipe_path: Path, recipe: Recipe, folder: Path) -> None:
+    """Raise RecipeError where what a job writes is a scan, a first mesh, or the recipe itself."""
+    written = {"the summary": summary_path(folder), "the gallery": folder / "index.html"}
+    for job in recipe.jobs:
+        written[f"the mesh of {job.name}"] = result_path(folder, job.name, recipe.format)
+        written[f"the report on {job.name}"] = report_path(folder, job.name)
+    places = {os.path.realpath(path): what for what, path in written.items()}
+    for path in [recipe_path, *(path for job in recipe.jobs for path in (job.scan, job.first_mesh))]:
+        if path is not None and os.path.realpath(path) in places:
+            what = places[os.path.realpath(path)]
+            raise RecipeError(f"{path}: {what} would be written there; choose another folder")
 
 
 def checkpoint_path(folder: Path, job_name: str, identity: dict[str, Any]) -> Path:
@@ -101,7 +119,7 @@ def write_summary(folder: Path, recipe: Recipe) -> None:
     writer = csv.DictWriter(text, names, restval="", lineterminator="\n")
     writer.writeheader()
     writer.writerows(rows)
-    write_text(folder / "summary.csv", text.getvalue())
+    write_text(summary_path(folder), text.getvalue())
 
 
 def _row(job: Job, report: dict[str, Any], recipe: Recipe) -> dict[str, Any]:
