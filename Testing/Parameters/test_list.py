@@ -12,9 +12,14 @@ import unittest
 import xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).parents[2]
-LIST = "Filters/Parameters.json"
-COMMAND = "Applications/ReconstructCommand.cxx"
 SCRIPT = ROOT / "CMake" / "Parameters" / "generate.py"
+sys.path.insert(0, str(SCRIPT.parent))
+sys.dont_write_bytecode = True
+
+import generate
+from parameter_list import ListError
+
+LIST = generate.LIST
 GOOD = json.loads((ROOT / LIST).read_text(encoding="utf-8"))
 
 NEW = {
@@ -37,14 +42,9 @@ class ListTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.sources = pathlib.Path(folder.name, "sources")
         self.build = pathlib.Path(folder.name, "build")
-        for template in [LIST, COMMAND, *self.inputs()]:
+        for template in [LIST, generate.COMMAND, *generate.TEMPLATES]:
             (self.sources / template).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / template, self.sources / template)
-
-    def inputs(self):
-        """What the script reads, relative to the sources."""
-        output = self.generate(ROOT).stdout
-        return [str(pathlib.Path(line).relative_to(ROOT)) for line in output.splitlines()]
 
     def generate(self, sources):
         command = [sys.executable, "-B", SCRIPT, sources, self.build]
@@ -60,15 +60,14 @@ class ListTest(unittest.TestCase):
 
 class BadLists(ListTest):
     def check_refused(self, content, message):
-        """One line says what is wrong, and nothing is written."""
-        shutil.rmtree(self.build, ignore_errors=True)
+        """One line says what is wrong."""
         self.write(content)
-        process = self.generate(self.sources)
-        self.assertEqual(process.returncode, 1, process.stderr)
-        self.assertIn(message, process.stderr)
-        self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
-        self.assertTrue(process.stderr.startswith(str(self.sources / LIST)), process.stderr)
-        self.assertFalse(self.build.exists())
+        with self.assertRaises(ListError) as caught:
+            generate.written(self.sources)
+        text = str(caught.exception)
+        self.assertIn(message, text)
+        self.assertEqual(text.count("\n"), 0, text)
+        self.assertTrue(text.startswith(str(self.sources / LIST)), text)
 
     # Promise: what is wrong with an entry is said in a line, with its name.
     def test_entries(self):
@@ -211,6 +210,18 @@ class BadLists(ListTest):
         content = copy.deepcopy(GOOD)
         content["groups"][0]["panel"] = "Outcome"
         self.check_refused(content, "outcome: no template has the group in a group of the panel")
+
+    # Promise: the script ends with the line, whoever finds what is wrong, and writes nothing.
+    def test_script(self):
+        content = copy.deepcopy(GOOD)
+        entry_of(content, "NumberOfVertices")["name"] = "VertexCount"
+        for content, message in ((content, "there is no parameter 'NumberOfVertices'"), ("{", "Expecting")):
+            self.write(content)
+            process = self.generate(self.sources)
+            self.assertEqual(process.returncode, 1, process.stderr)
+            self.assertIn(message, process.stderr)
+            self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
+            self.assertFalse(self.build.exists())
 
     # Promise: a file that is no list is refused, too.
     def test_files(self):
