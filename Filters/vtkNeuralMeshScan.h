@@ -109,7 +109,7 @@ public:
    * Whether points are taken away that cannot be seen from Viewpoint: those with a triangle in
    * between, whichever way it is oriented. Default off.
    */
-  vtkSetMacro(Occlusion, vtkTypeBool);
+  vtkNeuralMeshSetClampMacro(Occlusion, vtkTypeBool, 0, 1);
   vtkGetMacro(Occlusion, vtkTypeBool);
   vtkBooleanMacro(Occlusion, vtkTypeBool);
   ///@}
