@@ -184,6 +184,26 @@ test_help()
   expect 0 "$neuralmesh" --version
 }
 
+# Promise: the help tells default and range of each parameter that has an option, as they are in the list.
+test_defaults()
+{
+  expect 0 "$neuralmesh" reconstruct --help
+  /usr/bin/python3 - "$(dirname "$0")/../../Filters/Parameters.json" <<'PYTHON' || fail "another help"
+import json, re, sys
+help = open("out").read()
+entries = [e for group in json.load(open(sys.argv[1]))["groups"] for e in group["parameters"]]
+numbers = [e for e in entries if e.get("command") and "range" in e]
+assert len(numbers) >= 6, numbers
+for entry in numbers:
+    option = re.search(r"^  " + entry["command"] + r"\b.*\n?.*", help, re.MULTILINE)[0]
+    low, high = entry["range"]
+    ends = f"from {low} on" if high is None else f"{low} to {high}"
+    assert re.search(rf"\b{ends}\b", option), option
+    default = entry["default"]
+    assert f"(default {default})" in option or entry["command"] == "--ensemble" and f", {default} say" in option
+PYTHON
+}
+
 # Promise: --quiet prints nothing.
 test_quiet()
 {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of parameters that stand in pages by hand, in words of their own: their figures are those of
-the list."""
+"""Tables of parameters that stand in pages by hand, in words of their own, and options of the command:
+their figures are those of the list."""
 
 import pathlib
 import re
@@ -60,6 +60,21 @@ class Pages(unittest.TestCase):
                     if "unit" in row:
                         self.assertEqual(row["unit"], parameter.unit or "")
         self.assertEqual(seen, PAGES)
+
+    # Promise: the command has no default and no range of its own: a changed list changes it.
+    def test_command(self):
+        figures = set()
+        for parameter in (p for p in LIST.parameters if p.command and p.range):
+            figures.update((parameter.default, parameter.low, parameter.high))
+        # Small ones stand for many things.
+        figures = {str(int(figure)) for figure in figures if abs(figure) >= 20}
+        self.assertGreater(figures, {"20000", "60", "255", "1024", "1000000000"})
+        for name in ("ReconstructCommand.cxx", "TuneCommand.cxx"):
+            text = (ROOT / "Applications" / name).read_text(encoding="utf-8")
+            code = re.sub(r'"[^"]*For example[^"]*"|".*--vertices \d+\\n"', "", text)
+            self.assertEqual(set(re.findall(r"\b\d+\b", code)) & figures, set(), name)
+            # Of words: defaults are those of a filter, never set here.
+            self.assertNotRegex(code, r"\(default\)[:;]|, the default|[^=!]= vtkNeuralMesh::[A-Z_]+;")
 
 
 if __name__ == "__main__":
