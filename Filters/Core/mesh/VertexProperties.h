@@ -27,7 +27,8 @@ struct VertexProperty
 };
 
 /// Values that belong to the vertices of a mesh and follow all its operations: a split, a
-/// renumbering, a copy. What a split does to a property is told once, where it is added.
+/// renumbering, a copy. What a split does to a property is told once, where it is added. Values are
+/// std::uint8_t, float or double; another type is one more in columns_.
 class VertexProperties
 {
 public:
@@ -35,6 +36,9 @@ public:
   template <typename T>
   VertexProperty<T> add(std::size_t indexEnd, T first, OnSplit onSplit)
   {
+    static_assert(
+      std::is_same_v<T, std::uint8_t> || std::is_same_v<T, float> || std::is_same_v<T, double>,
+      "values of vertices are std::uint8_t, float or double; see columns_");
     columns_.push_back(Column<T>{ std::vector<T>(indexEnd, first), first, onSplit });
     return { columns_.size() - 1 };
   }
