@@ -103,7 +103,9 @@ class Recipes(BatchTest):
     def test_over_scans(self):
         write_scan(self.folder / "summary.csv")
         write_scan(self.folder / "jobs.xyz")
-        (self.folder / "link").symlink_to(self.folder)
+        link = self.folder / "link"
+        link.symlink_to(self.folder)
+        self.addCleanup(link.unlink)
         cases = (
             ({"scans": ["a.ply"], "format": "ply"}, ".", "the mesh of a would be written there"),
             ({"scans": ["a.ply"], "format": "ply"}, "link", "the mesh of a would be written there"),
