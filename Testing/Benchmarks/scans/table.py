@@ -14,6 +14,7 @@ from typing import Optional
 
 import numpy as np
 
+import crossings
 import files
 import measure
 import rows
@@ -77,10 +78,10 @@ def digest(*paths):
 
 
 def program(command):
-    """What tells this build from another one: the command and the libraries of ours that it loads."""
+    """What tells this build from another one: the command, the libraries of ours that it loads, and how is measured."""
     loaded = subprocess.run(["ldd", command], capture_output=True, text=True).stdout
     own = [line.split("=>")[1].split()[0] for line in loaded.splitlines() if "NeuralMesh" in line and "=>" in line]
-    return digest(command, *own)
+    return digest(command, *own, measure.__file__, crossings.__file__)
 
 
 def run(command, cloud, scan, seed, mesh, points):
