@@ -43,9 +43,9 @@ def from_cgal(name):
         return {"file": (archive.extractfile(f"data/points_3/{name}").read(), name.rsplit(".", 1)[1])}
 
 
-def open_sphere(degrees):
+def open_sphere(degrees, count=110000):
     """Without the cap at the bottom that spans so many degrees from its middle."""
-    points = sampled(shapes.sphere(), 110000)["points"]
+    points = sampled(shapes.sphere(), count)["points"]
     kept = points[:, 2] > -np.cos(np.radians(degrees)) * np.linalg.norm(points, axis=1)
     return {"points": points[kept], "mesh": shapes.sphere()}
 
@@ -70,12 +70,12 @@ def density(ratio):
     return {"points": np.column_stack((x, y, wave(x, y))) + random.normal(0, 0.0002, (len(x), 3))}
 
 
-def islands():
+def islands(per_area=400000):
     """A wavy sheet in four parts, of which the smallest has a hundredth of the area of the largest."""
     random = np.random.default_rng(2)
     points, part = [], []
     for index, (left, low, side) in enumerate(((0, 0, 0.6), (0.63, 0, 0.19), (0.63, 0.3, 0.06), (0.8, 0.3, 0.1))):
-        x, y = random.random((2, int(400000 * side * side))) * side + [[left], [low]]
+        x, y = random.random((2, int(per_area * side * side))) * side + [[left], [low]]
         points.append(np.column_stack((x, y, wave(x, y))))
         part.append(np.full(len(x), index))
     points = np.vstack(points)

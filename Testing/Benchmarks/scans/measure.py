@@ -47,6 +47,11 @@ class Points:
         self.data = files.poly_data(points, np.zeros((0, 3), int))
         self.locator = vtkStaticPointLocator()
         self.locator.SetDataSet(self.data)
+        # Points of a surface are in few of the cells, so that the usual number of cells would be too small.
+        sides = np.ptp(points, axis=0)
+        most = min(200, np.sqrt(len(points)) / 2)
+        self.locator.AutomaticOff()
+        self.locator.SetDivisions(*(max(1, int(most * side / sides.max())) for side in sides))
         self.locator.BuildLocator()
 
     def nearest(self, places):

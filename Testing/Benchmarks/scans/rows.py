@@ -86,4 +86,14 @@ def coarse():
         yield Cloud(f"bunny_{vertices}", "coarse", made.small_bunny, {"ears": 2, "missed": 3}, vertices=vertices)
 
 
-CLOUDS = {cloud.name: cloud for row in (scans, openings, thin, uneven, real, coarse) for cloud in row()}
+def small():
+    """For a test: some thousand points, and goals that leave room."""
+    yield Cloud("small_sphere", "small", lambda: made.open_sphere(45, 20000),
+                {"pieces": 1, "loops": 1, "inside": 1, "seen": 0.05, "torn": 0})
+    yield Cloud("small_islands", "small", lambda: made.islands(50000),
+                {"missed": 5, "invented": 2, "far": 0.1, "main": 75, "crossings": 0})
+    yield Cloud("small_box", "small", lambda: made.sampled(made.shapes.box(4.8), 20000),
+                {"pieces": 1, "genus": 0, "loops": 0, "mean": 0.02, "hausdorff": 2, "crossings": 0})
+
+
+CLOUDS = {cloud.name: cloud for row in (scans, openings, thin, uneven, real, coarse, small) for cloud in row()}

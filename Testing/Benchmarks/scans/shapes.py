@@ -17,13 +17,13 @@ def connected(count, pairs):
     """The same number for all of so many things that pairs connect."""
     label = np.arange(count)
     while True:
-        before = label.copy()
-        least = np.minimum(*label[pairs.T])
-        for column in pairs.T:
-            np.minimum.at(label, column, least)
-        label = label[label]
-        if (label == before).all():
+        least, most = np.sort(label[pairs.T], axis=0)
+        apart = least < most
+        if not apart.any():
             return label
+        np.minimum.at(label, most[apart], least[apart])
+        while (label[label] != label).any():
+            label = label[label]
 
 
 def sphere(levels=6):
