@@ -106,3 +106,26 @@ def spoilt(name, noise=0.0, outliers=0, holes=0, radius=0.0):
     points = np.vstack((points + random.normal(0, noise / 100, points.shape),
                         random.uniform(low, high, (outliers, 3))))
     return {"points": random.permutation(points), "mesh": made["mesh"]}
+
+
+def terrain():
+    """A height field with noise of 0.05."""
+    points, triangles = shapes.rectangle(1, 1, 0.005)
+    random = np.random.default_rng(3)
+    height = np.zeros(len(points))
+    for waves in range(1, 31):
+        turn, phase = random.uniform(0, 2 * np.pi, 2)
+        height += np.sin(2 * np.pi * waves / 3 * (points @ (np.cos(turn), np.sin(turn))) + phase) / waves ** 1.5 / 15
+    return sampled((shapes.unit(np.column_stack((points, height))), triangles), noise=0.05)
+
+
+def one_view():
+    """What one viewpoint sees of a model at less than 75 degrees, with noise of 0.05."""
+    points, triangles = model("bunny")
+    camera = scanner.DepthMap(points, triangles, np.array([0, 0.2, 1]) * scanner.DISTANCE, 1500)
+    corners = points[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    cosine = (normals @ -camera.axes[2]) / np.linalg.norm(normals, axis=1).clip(1e-30)
+    seen = np.isin(np.arange(len(triangles)), camera.triangle) & (cosine > np.cos(np.radians(75)))
+    used, seen = np.unique(triangles[seen], return_inverse=True)
+    return sampled((points[used], seen.reshape(-1, 3)), noise=0.05)

@@ -17,7 +17,10 @@ VERTICES = 20000
 @dataclasses.dataclass
 class Cloud:
     """A line of the table. Without `make`, the cloud is not to be had but in the folder that the user names, under
-    its name, with the reference of this name, or under its own with `_reference`."""
+    its name or that of `file`, with the reference of this name, or under its own with `_reference`.
+
+    With `relative`, the goals are what an earlier build reaches, as means over the seeds, times these factors; what
+    is to be met exactly is to be the same with the same seeds."""
 
     name: str
     row: str
@@ -26,6 +29,11 @@ class Cloud:
     reference: Optional[str] = None
     vertices: Optional[int] = None
     options: tuple = ()
+    file: str = ""
+    relative: bool = False
+
+    def __post_init__(self):
+        self.file = self.file or self.name
 
 
 def scans():
@@ -86,14 +94,34 @@ def coarse():
         yield Cloud(f"bunny_{vertices}", "coarse", made.small_bunny, {"ears": 2, "missed": 3}, vertices=vertices)
 
 
+def fit():
+    """The rows of Documentation/Fit.md."""
+    close = ("--boundaries", "close")
+    for file, make, reference, options in (
+            ("bunny_200k", lambda: made.sampled(made.model("bunny")), "bunny_pmp", ()),
+            ("armadillo_200k", lambda: made.sampled(made.model("armadillo")), "armadillo", ()),
+            ("knot_200k", lambda: made.sampled(made.model("knot1")), "knot", ()),
+            ("duckhandle_200k", None, "duckhandle", ()),
+            ("bunny_200k_noise", lambda: made.spoilt("bunny", 0.5), "bunny_pmp", ()),
+            ("bunny_200k_noise_outl", lambda: made.spoilt("bunny", 0.5, 4000), "bunny_pmp", ()),
+            ("bunny_200k_holes", lambda: made.spoilt("bunny", holes=8, radius=3), "bunny_pmp", ()),
+            ("bunny_200k_holes", lambda: made.spoilt("bunny", holes=8, radius=3), "bunny_pmp", close),
+            ("bunny_rawscan", None, "bunny_pmp", close),
+            ("terrain_200k", made.terrain, "terrain", ()),
+            ("bunny_view_200k", made.one_view, "bunny_view", ())):
+        yield Cloud(file + ("_close" if options else ""), "fit", make,
+                    {"pieces": 1, "genus": 1, "loops": 1, "mean": 1.02, "rms": 1.02, "normals": 1.02, "hausdorff": 1.15},
+                    f"{reference}_reference", options=options, file=file, relative=True)
+
+
 def small():
     """For a test: some thousand points, and goals that leave room."""
     yield Cloud("small_sphere", "small", lambda: made.open_sphere(45, 20000),
-                {"pieces": 1, "loops": 1, "inside": 1, "seen": 0.05, "torn": 0})
+                {"pieces": 1, "loops": 1, "seen": 0.05})
     yield Cloud("small_islands", "small", lambda: made.islands(50000),
                 {"missed": 5, "invented": 2, "far": 0.1, "main": 75, "crossings": 0})
     yield Cloud("small_box", "small", lambda: made.sampled(made.shapes.box(4.8), 20000),
                 {"pieces": 1, "genus": 0, "loops": 0, "mean": 0.02, "hausdorff": 2, "crossings": 0})
 
 
-CLOUDS = {cloud.name: cloud for row in (scans, openings, thin, uneven, real, coarse, small) for cloud in row()}
+CLOUDS = {cloud.name: cloud for row in (scans, openings, thin, uneven, real, coarse, fit, small) for cloud in row()}

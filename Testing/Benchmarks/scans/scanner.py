@@ -12,10 +12,10 @@ DISTANCE = 2.5  # of the eyes
 WIDTH = 1.1  # of the picture, at the middle of the object
 
 
-def eyes_above_table(count, up, lowest, turn):
-    """Places all around, spread evenly, not below the given height."""
+def eyes_above_table(count, up, turn):
+    """Places all around, spread evenly, not below the middle of the object."""
     index = np.arange(count) + 0.5
-    height = lowest + (1 - lowest) * index / count
+    height = index / count
     angle = turn + np.pi * (1 + np.sqrt(5)) * index
     ring = np.sqrt(1 - height * height)
     eyes = np.column_stack((ring * np.cos(angle), ring * np.sin(angle), height)) * DISTANCE
@@ -107,7 +107,7 @@ def scan(points, triangles, views, registration, *, up="y", seed=1, size=385, no
     corners = points[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.linalg.norm(normals, axis=1)[:, None].clip(1e-30)
-    eyes = eyes_above_table(views, up, -0.35, random.uniform(0, 2 * np.pi))
+    eyes = eyes_above_table(views, up, random.uniform(0, 2 * np.pi))
     clouds, view = [], []
     for index, eye in enumerate(eyes):
         camera = DepthMap(points, triangles, eye, size)

@@ -33,10 +33,10 @@ class Scan:
 
 def found(cloud, folder):
     """The cloud from the folder that the user names, or None."""
-    path = f"{folder}/{cloud.name}.ply"
+    path = f"{folder}/{cloud.file}.ply"
     if not folder or not os.path.exists(path):
         return None
-    references = [f"{folder}/{name}.ply" for name in (cloud.reference, f"{cloud.name}_reference") if name]
+    references = [f"{folder}/{name}.ply" for name in (cloud.reference, f"{cloud.file}_reference") if name]
     scan = Scan(path, next(filter(os.path.exists, references), None))
     if os.path.exists(path[:-4] + ".npz"):
         known = np.load(path[:-4] + ".npz")
@@ -47,26 +47,26 @@ def found(cloud, folder):
 
 def made(cloud, folder):
     """The cloud as it is made, in the folder of the work; it is not made twice."""
-    kept = f"{folder}/{cloud.name}.json"
+    kept = f"{folder}/{cloud.file}.json"
     if not os.path.exists(kept):
         content = cloud.make()
         data, ending = content.get("file", (None, "ply"))
-        written = {"path": f"{folder}/{cloud.name}.{ending}"}
+        written = {"path": f"{folder}/{cloud.file}.{ending}"}
         if data is None:
             rows.made.clouds.write_ply(written["path"], content["points"])
         else:
             with open(written["path"], "wb") as file:
                 file.write(data)
         if "mesh" in content:
-            written["reference"] = f"{folder}/{cloud.name}_reference.ply"
+            written["reference"] = f"{folder}/{cloud.file}_reference.ply"
             files.write_mesh(written["reference"], *content["mesh"])
         known = {name: content[name] for name in ("view", "eyes", "part") if name in content}
-        np.savez_compressed(f"{folder}/{cloud.name}.npz", **known)
+        np.savez_compressed(f"{folder}/{cloud.file}.npz", **known)
         with open(kept, "w", encoding="ascii") as file:
             json.dump(written, file)
     with open(kept, encoding="ascii") as file:
         written = json.load(file)
-    return Scan(**written, **np.load(f"{folder}/{cloud.name}.npz"))
+    return Scan(**written, **np.load(f"{folder}/{cloud.file}.npz"))
 
 
 def digest(*paths):
@@ -99,6 +99,7 @@ def run(command, cloud, scan, seed, mesh, points):
 def figures(command, build, cloud, scan, seed, folder):
     """The figures of one run; those of an earlier one, if the build, the cloud and the figures asked for are the same."""
     mesh, kept = (f"{folder}/{cloud.name}_seed_{seed}.{ending}" for ending in ("ply", "json"))
+    os.makedirs(folder, exist_ok=True)
     known = [path for path in (scan.reference, scan.path[:-4] + ".npz") if path and os.path.exists(path)]
     key = [build, digest(scan.path, *known), sorted(cloud.goals), cloud.vertices, list(cloud.options)]
     if os.path.exists(kept):
@@ -140,6 +141,37 @@ def number(value):
     return "none" if value is None else f"{value:.4g}"
 
 
+def relative_goals(cloud, results):
+    """The goals that an earlier build sets."""
+    reached = [result["figures"] for result in results]
+    return {name: [figures[name] for figures in reached] if name in rows.EXACTLY
+            else goal * np.mean([figures[name] for figures in reached]) for name, goal in cloud.goals.items()}
+
+
+def relative_line(cloud, results, before):
+    """The line of a cloud on which an earlier build sets the goals, and whether they are met."""
+    failed = [result["error"] for result in (*before, *results) if "error" in result]
+    if failed:
+        return f"| {cloud.name} | {results[0]['points']} | | {failed[0]} | | | **no** |", False
+    goals, words, reached, met = relative_goals(cloud, before), [], [], True
+    for name, goal in goals.items():
+        found = [result["figures"][name] for result in results]
+        if name in rows.EXACTLY:
+            there = found == goal
+            told, found = (" or ".join(number(value) for value in dict.fromkeys(values)) for values in (goal, found))
+            words.append(f"{name} {told}")
+        else:
+            found = np.mean(found)
+            there, found = found <= goal, number(found)
+            words.append(f"{name} ≤ {number(goal)}")
+        met &= bool(there)
+        reached.append(f"{name} {found}" if there else f"**{name} {found}**")
+    warned = sum("warning" in result["said"].lower() for result in results)
+    cpu = max(result["cpu"] for result in results)
+    return (f"| {cloud.name} | {results[0]['points']} | {', '.join(words)} | {', '.join(reached)} "
+            f"| {warned} of {len(results)} | {cpu:.1f} | {'yes' if met else '**no**'} |"), met
+
+
 def line(cloud, scan, results):
     """The line of the table, and whether the goals are met."""
     signs = {name: "" if name in rows.EXACTLY else "≥ " if name in rows.AT_LEAST else "≤ " for name in cloud.goals}
@@ -171,16 +203,35 @@ def chosen(words):
             if (not words and cloud.row != "small") or any(fnmatch.fnmatch(name, word) for word in words for name in (cloud.name, cloud.row))]
 
 
+def measured(cloud, arguments, build):
+    """The line of the table, whether the goals are met, and whether the cloud is here."""
+    scan = found(cloud, arguments.data) or (made(cloud, arguments.work) if cloud.make else None)
+    if scan is None:
+        return *line(cloud, None, []), False
+    if cloud.relative and not arguments.before:
+        return f"| {cloud.name} | | what an earlier build reaches | | | | no --before |", True, False
+
+    def all_seeds(command, program_of, folder):
+        seeds = arguments.seeds or ("1,2,3,4,5,6,7,8,9,10" if cloud.relative else "1,2,3,4,5")
+        return [figures(command, program_of, cloud, scan, int(seed), folder) for seed in seeds.split(",")]
+
+    results = all_seeds(arguments.command, build, arguments.work)
+    if not cloud.relative:
+        return *line(cloud, scan, results), True
+    before = all_seeds(arguments.before, program(arguments.before), f"{arguments.work}/before")
+    return *relative_line(cloud, results, before), True
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("command")
     parser.add_argument("work")
-    parser.add_argument("--seeds", default="1,2,3,4,5")
-    parser.add_argument("--data", default=os.environ.get("NEURALMESH_SCANS", ""))
+    parser.add_argument("--seeds")
+    parser.add_argument("--data", default="")
+    parser.add_argument("--before")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("rows", nargs="*")
     arguments = parser.parse_intermixed_args()
-    seeds = [int(seed) for seed in arguments.seeds.split(",")]
     wanted = chosen(arguments.rows)
     if arguments.list:
         print("\n".join(f"{cloud.row}: {cloud.name}" for cloud in wanted))
@@ -190,13 +241,11 @@ def main():
     print("| cloud | points | to reach | reached | warned | CPU s | met |\n|---|--:|---|---|---|--:|---|", flush=True)
     missed = here = 0
     for cloud in wanted:
-        scan = found(cloud, arguments.data) or (made(cloud, arguments.work) if cloud.make else None)
-        results = [figures(arguments.command, build, cloud, scan, seed, arguments.work) for seed in seeds] if scan else []
-        text, met = line(cloud, scan, results)
+        text, met, is_here = measured(cloud, arguments, build)
         print(text, flush=True)
         missed += not met
-        here += scan is not None
-    print(f"\n{missed} of {here} clouds miss their goals, {len(wanted) - here} are not here.")
+        here += is_here
+    print(f"\n{missed} of {here} clouds miss their goals, {len(wanted) - here} were not measured.")
     return 1 if missed else 0
 
 
