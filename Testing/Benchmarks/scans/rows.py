@@ -48,7 +48,7 @@ def openings():
     right = {"pieces": 1, "loops": 1, "inside": 1, "seen": 0.010}
     for degrees in (15, 30, 45, 60, 75, 90):
         yield Cloud(f"open_sphere_{degrees}", "open_spheres", functools.partial(made.open_sphere, degrees), right)
-    for percent, tilt in ((8, 0), (15, 0), (25, 0), (8, 15), (15, -20), (25, 25)):
+    for percent, tilt in ((8, 0), (15, 0), (25, 0), (8, 15), (15, -15), (25, 25)):
         yield Cloud(f"open_bunny_{percent}" + (f"_tilted_{tilt}" if tilt else ""), "open_bunnies",
                     functools.partial(made.open_bunny, percent, tilt), right, "bunny_pmp_reference")
     for percent in (1, 2, 4):
