@@ -72,9 +72,11 @@ class Points:
 
     def are_around(self, places, radius):
         """Whether there are so many points around each place that it counts as seen."""
-        if len(self.points) < SEEN_POINTS:
-            return np.zeros(len(places), bool)
-        return self.distances(places, SEEN_POINTS)[:, -1] <= radius
+        found, result = vtkIdList(), np.zeros(len(places), bool)
+        for i, place in enumerate(places.tolist()):
+            self.locator.FindPointsWithinRadius(radius, place, found)
+            result[i] = found.GetNumberOfIds() >= SEEN_POINTS
+        return result
 
 
 class Surface:
