@@ -532,15 +532,7 @@ void vtkNeuralMesh::FillOutput(const vtkNeuralMeshRun& run,
   const neuralmesh::Reconstruction& result, vtkPolyData* output, vtkTable* learningCurve)
 {
   vtkNeuralMeshReport::FillLearningCurve(result.curve.rows(), learningCurve);
-  output->SetPoints(vtkTriangleMeshCollector::MakePoints(result.mesh, run.PointsPrecision));
-  output->SetPolys(vtkTriangleMeshCollector::MakeCells(result.mesh));
-  output->GetPointData()->SetNormals(vtkMeshArrays::MakeNormals(result.normals));
-  output->GetPointData()->AddArray(vtkMeshArrays::MakeNumbers("Activity", result.activities));
-  if (!result.featureStrengths.empty())
-  {
-    output->GetPointData()->AddArray(
-      vtkMeshArrays::MakeNumbers("FeatureStrength", result.featureStrengths));
-  }
+  vtkNeuralMeshReport::FillMesh(result, run.PointsPrecision, output);
   const auto addCount = [output](const char* name, auto count)
   { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count)); };
   addCount("NumberOfVertices", output->GetNumberOfPoints());

@@ -4,6 +4,7 @@
 #include "run/Reconstruction.h"
 #include "run/Tuning.h"
 #include "vtkMeshArrays.h"
+#include "vtkTriangleMeshCollector.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -11,6 +12,7 @@
 #include "vtkLogger.h"
 #include "vtkNew.h"
 #include "vtkObject.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
@@ -42,6 +44,20 @@ std::string Assignment(const neuralmesh::TuningChoice& choice)
   text << choice.parameter << "=" << choice.value;
   return text.str();
 }
+}
+
+void vtkNeuralMeshReport::FillMesh(
+  const neuralmesh::Reconstruction& result, int precision, vtkPolyData* output)
+{
+  output->SetPoints(vtkTriangleMeshCollector::MakePoints(result.mesh, precision));
+  output->SetPolys(vtkTriangleMeshCollector::MakeCells(result.mesh));
+  output->GetPointData()->SetNormals(vtkMeshArrays::MakeNormals(result.normals));
+  output->GetPointData()->AddArray(vtkMeshArrays::MakeNumbers("Activity", result.activities));
+  if (!result.featureStrengths.empty())
+  {
+    output->GetPointData()->AddArray(
+      vtkMeshArrays::MakeNumbers("FeatureStrength", result.featureStrengths));
+  }
 }
 
 void vtkNeuralMeshReport::AddQuality(

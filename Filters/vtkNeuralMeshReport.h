@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkNeuralMeshReport
- * @brief   what a run of vtkNeuralMesh tells of itself: field data, learning curve, log
+ * @brief   what comes of a run of vtkNeuralMesh: mesh, field data, learning curve, log
  *
  * Internal to the module.
  */
@@ -25,6 +25,9 @@ struct Tuning;
 class vtkNeuralMeshReport
 {
 public:
+  /** Triangles, points of a precision of vtkAlgorithm, and arrays of the vertices. */
+  static void FillMesh(
+    const neuralmesh::Reconstruction& result, int precision, vtkPolyData* output);
   /** What the mesh is worth, in units of the input, where a unit of the cloud is so long. */
   static void AddQuality(
     const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output);

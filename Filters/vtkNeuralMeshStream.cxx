@@ -5,9 +5,9 @@
 #include "run/StreamingReconstruction.h"
 #include "vtkMeshArrays.h"
 #include "vtkNeuralMeshOrientation.h"
+#include "vtkNeuralMeshReport.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkPointCloudCollector.h"
-#include "vtkTriangleMeshCollector.h"
 
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
@@ -30,11 +30,7 @@ constexpr std::uint64_t SamplesPerLook = 20000;
 
 void Fill(const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output)
 {
-  output->SetPoints(
-    vtkTriangleMeshCollector::MakePoints(result.mesh, vtkAlgorithm::DOUBLE_PRECISION));
-  output->SetPolys(vtkTriangleMeshCollector::MakeCells(result.mesh));
-  output->GetPointData()->SetNormals(vtkMeshArrays::MakeNormals(result.normals));
-  output->GetPointData()->AddArray(vtkMeshArrays::MakeNumbers("Activity", result.activities));
+  vtkNeuralMeshReport::FillMesh(result, vtkAlgorithm::DOUBLE_PRECISION, output);
   vtkNeuralMeshOrientation::AddReport(result.orientation, output);
   if (!result.quality)
   {
