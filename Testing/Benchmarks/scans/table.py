@@ -18,6 +18,7 @@ import crossings
 import files
 import measure
 import rows
+import shapes
 
 
 @dataclasses.dataclass
@@ -46,9 +47,14 @@ def found(cloud, folder):
 
 
 def made(cloud, folder):
-    """The cloud as it is made, in the folder of the work; it is not made twice."""
+    """The cloud as it is made, in the folder of the work; it is not made twice in the same way."""
     kept = f"{folder}/{cloud.file}.json"
-    if not os.path.exists(kept):
+    makers = digest(*(module.__file__ for module in (rows, rows.made, rows.made.clouds, rows.made.scanner, shapes)))
+    written = {}
+    if os.path.exists(kept):
+        with open(kept, encoding="ascii") as file:
+            written = json.load(file)
+    if written.pop("makers", None) != makers:
         content = cloud.make()
         data, ending = content.get("file", (None, "ply"))
         written = {"path": f"{folder}/{cloud.file}.{ending}"}
@@ -63,9 +69,7 @@ def made(cloud, folder):
         known = {name: content[name] for name in ("view", "eyes", "part") if name in content}
         np.savez_compressed(f"{folder}/{cloud.file}.npz", **known)
         with open(kept, "w", encoding="ascii") as file:
-            json.dump(written, file)
-    with open(kept, encoding="ascii") as file:
-        written = json.load(file)
+            json.dump({**written, "makers": makers}, file)
     return Scan(**written, **np.load(f"{folder}/{cloud.file}.npz"))
 
 

@@ -27,7 +27,7 @@ import table
 
 COMMAND = os.environ["NEURALMESH_TEST_COMMAND"]
 # Enough for what is told here.
-measure.SAMPLES, measure.SEEN_SAMPLES, measure.COMPARED_SAMPLES = 6000, 6000, 20000
+measure.SAMPLES, measure.SEEN_SAMPLES, measure.COMPARED_SAMPLES = 4000, 4000, 6000
 
 
 def measured(names, mesh, points=None, reference=None, **known):
@@ -171,8 +171,8 @@ class Shapes(unittest.TestCase):
 
     def test_topology(self):
         for shape, genus in ((shapes.box(0.3), 0), (shapes.plate(), 2), (shapes.chair(), 10)):
-            found = measured(("pieces", "genus", "loops", "crossings"), shape, reference=shape)
-            self.assertEqual(found, {"pieces": 1, "genus": genus, "loops": 0, "crossings": 0})
+            found = measured(("pieces", "genus", "loops"), shape, reference=shape)
+            self.assertEqual(found, {"pieces": 1, "genus": genus, "loops": 0})
             self.assertGreater(measure.Surface(*shape).volume(), 0)
             self.assertAlmostEqual(np.linalg.norm(np.ptp(shape[0], axis=0)), 1)
 
