@@ -16,8 +16,6 @@ def symbol(parameter):
 
 def value(parameter, given):
     """A cell of the table."""
-    if parameter.choice and parameter.choice.owner:
-        return str(parameter.number(given))
     if isinstance(given, str) and not parameter.choice:
         return f"{float(fractions.Fraction(given)):.3f}"
     return shown(parameter, given)
