@@ -67,9 +67,11 @@ has_files bin/neuralmesh lib/libvtkFiltersNeuralMesh.so include/NeuralMesh/vtkNe
 [ "$("$root/usr/bin/neuralmesh" --version)" = "$version" ] || fail "another version of the command"
 [ "$(readelf -S "$root/usr/bin/neuralmesh" | grep -c debug)" -eq 0 ] || fail "it is not stripped"
 
-# Promise: nothing belongs elsewhere, and nothing names the folder of the build.
+# Promise: nothing belongs elsewhere, and nothing names the folder of the build or that of the sources.
 [ -z "$(find "$root" -mindepth 1 -maxdepth 1 ! -name usr)" ] || fail "there is more than /usr"
 ! grep -rlF "$(realpath "$build")" "$root" || fail "these name the folder of the build"
+sources=$(realpath "$(dirname "$0")/../..")
+! grep -rlF "$sources/" "$root" || fail "these name the folder of the sources"
 
 # Promise: what Python compiles when the package is installed goes when it is removed.
 grep -q "py3compile -p $name" "$scratch/control/postinst" || fail "nothing is compiled"
