@@ -126,6 +126,11 @@ def one_view():
     corners = points[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     cosine = (normals @ -camera.axes[2]) / np.linalg.norm(normals, axis=1).clip(1e-30)
-    seen = np.isin(np.arange(len(triangles)), camera.triangle) & (cosine > np.cos(np.radians(75)))
-    used, seen = np.unique(triangles[seen], return_inverse=True)
+    part = (np.isin(np.arange(len(triangles)), camera.triangle) & (cosine > np.cos(np.radians(75)))).astype(float)
+    for _ in range(8):  # no ragged outlines, no specks
+        total = np.bincount(triangles.ravel(), np.repeat(part, 3)) / np.bincount(triangles.ravel())
+        part = total[triangles].mean(axis=1)
+    seen = triangles[part > 0.5]
+    label = shapes.connected(len(points), np.vstack((seen[:, :2], seen[:, 1:])))[seen[:, 0]]
+    used, seen = np.unique(seen[label == np.bincount(label).argmax()], return_inverse=True)
     return sampled((points[used], seen.reshape(-1, 3)), noise=0.05)
