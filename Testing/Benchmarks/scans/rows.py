@@ -110,7 +110,8 @@ def fit():
             ("terrain_200k", made.terrain, "terrain", ()),
             ("bunny_view_200k", made.one_view, "bunny_view", ())):
         yield Cloud(file + ("_close" if options else ""), "fit", make,
-                    {"pieces": 1, "genus": 1, "loops": 1, "mean": 1.02, "rms": 1.02, "normals": 1.02, "hausdorff": 1.15},
+                    {"pieces": 1, "genus": 1, "loops": 1,
+                     "mean": 1.02, "rms": 1.02, "normals": 1.02, "hausdorff": 1.15},
                     f"{reference}_reference", options=options, file=file, relative=True)
 
 

@@ -101,7 +101,7 @@ def run(command, cloud, scan, seed, mesh, points):
 
 
 def figures(command, build, cloud, scan, seed, folder):
-    """The figures of one run; those of an earlier one, if the build, the cloud and the figures asked for are the same."""
+    """The figures of one run; those of an earlier one, if build, cloud and the figures asked for are the same."""
     mesh, kept = (f"{folder}/{cloud.name}_seed_{seed}.{ending}" for ending in ("ply", "json"))
     os.makedirs(folder, exist_ok=True)
     known = [path for path in (scan.reference, scan.path[:-4] + ".npz") if path and os.path.exists(path)]
@@ -200,12 +200,15 @@ def line(cloud, scan, results):
 
 def chosen(words):
     """The clouds whose names or rows are those, or match them."""
-    known = rows.CLOUDS.values()
+    def are_meant(word):
+        return [cloud for cloud in rows.CLOUDS.values()
+                if any(fnmatch.fnmatch(name, word) for name in (cloud.name, cloud.row))]
+
     for word in words:
-        if not any(fnmatch.fnmatch(name, word) for cloud in known for name in (cloud.name, cloud.row)):
+        if not are_meant(word):
             sys.exit(f"scans.sh: there is no row {word}; --list names them")
-    return [cloud for cloud in known
-            if (not words and cloud.row != "small") or any(fnmatch.fnmatch(name, word) for word in words for name in (cloud.name, cloud.row))]
+    meant = {cloud.name for word in words for cloud in are_meant(word)}
+    return [cloud for cloud in rows.CLOUDS.values() if (cloud.name in meant if words else cloud.row != "small")]
 
 
 def measured(cloud, arguments, build):
