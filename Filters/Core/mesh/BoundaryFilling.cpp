@@ -79,13 +79,14 @@ bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLon
 }
 
 std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longestEdge,
-  const std::function<bool(const Triangle&)>& isAllowed)
+  const std::function<bool(const Triangle&)>& isAllowed, std::size_t mostEdges)
 {
   std::size_t filled = 0;
   for (BoundaryManager::LoopIndex index = 0; index < boundaries.loops().size(); ++index)
   {
     const std::vector<VertexIndex> loop = boundaries.vertices(mesh, index);
-    if (!loop.empty() && fillLoop(mesh, loop, float(longestEdge * longestEdge), isAllowed))
+    if (!loop.empty() && loop.size() <= mostEdges &&
+      fillLoop(mesh, loop, float(longestEdge * longestEdge), isAllowed))
     {
       boundaries.retrace(mesh, loop);
       ++filled;

@@ -10,6 +10,12 @@
 
 namespace neuralmesh
 {
+namespace
+{
+/// A first surface that is told in detail by a front: the others are learnt.
+constexpr double PartOfFront = 0.75;
+}
+
 Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Progress& progress,
   const Executor& executor)
 {
@@ -18,14 +24,15 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
   {
     return result;
   }
-  auto surface = firstSurface(
-    cloud, firstVertices(parameters.numberOfVertices), parameters.boundaries, progress, executor);
+  auto surface = firstSurface(cloud, firstVertices(parameters.numberOfVertices),
+    std::size_t(PartOfFront * double(parameters.numberOfVertices)), parameters.boundaries, progress,
+    executor);
   if (!surface)
   {
     return result;
   }
   result.mesh = std::move(surface->mesh);
-  if (parameters.boundaries == Boundaries::Keep)
+  if (parameters.boundaries == Boundaries::Keep && surface->bridgeWidth > 0.)
   {
     result.bridgeWidth = surface->bridgeWidth;
   }

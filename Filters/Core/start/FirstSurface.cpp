@@ -8,6 +8,8 @@
 #include "mesh/BoundaryFilling.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/Simplification.h"
+#include "start/Evidence.h"
+#include "start/FrontSurface.h"
 #include "start/OccupiedSolid.h"
 #include "start/OneSheet.h"
 #include "start/VoxelSurface.h"
@@ -43,6 +45,25 @@ constexpr double PartOfGrids = 0.5;
 
 /// Above, points lie in two layers. Noise has 0.8, what is evenly spread between two planes 0.87.
 constexpr double EvennessOfLayers = 0.88;
+
+/// A closed solid that leaves so many points unexplained is not what they lie on.
+constexpr double LeastUnexplained = 0.005;
+/// The same of one sheet, which may have lost what is thin.
+constexpr double LeastUnexplainedBySheet = 0.002;
+/// Of a sheet, in edges: with more it lies between layers.
+constexpr double MostMedianOfSheet = 0.1;
+/// A sheet with more boundaries was torn.
+constexpr std::size_t MostLoopsOfSheet = 2;
+/// Of a front.
+constexpr std::size_t LeastSamples = 6000;
+constexpr std::size_t MostSamples = 14000;
+constexpr std::uint64_t SeedOfFront = 1;
+/// See FrontSurface::disorder(): less is a surface without doubt. Where there is no other that is, more
+/// will do.
+constexpr double MostDisorder = 5.;
+constexpr double MostDisorderAtAll = 40.;
+/// Of its samples: more lie in no layer where there are outliers in all of space.
+constexpr double MostScatter = 0.03;
 
 constexpr int FitRounds = 2;
 constexpr double FitSmoothness = 1.;
@@ -279,49 +300,177 @@ std::optional<FirstSurface> openSurface(const PointCloud& cloud, const FirstSurf
   }
   return result;
 }
+
+bool hasRightSize(const FirstSurface& surface, std::size_t mostVertices)
+{
+  const std::size_t count = surface.mesh.vertexCount();
+  return count > 3 && count <= mostVertices;
+}
+
+/// A first surface, and what the points say of it.
+struct Candidate
+{
+  FirstSurface surface;
+  Evidence evidence;
+  bool explains = false; ///< the points, so that no other needs to be tried
+};
+
+/// The closed solid, fitted, and opened where there is no data if that is to be. Nothing if it has too
+/// many vertices, or the run was ended.
+std::optional<Candidate> solidCandidate(const PointCloud& cloud, const NearestPoints& nearest,
+  FirstSurface solid, std::size_t mostVertices, Boundaries boundaries, const Progress& progress,
+  const Executor& executor)
+{
+  simplify(solid.mesh, mostVertices);
+  FirstFit fit(cloud, solid.mesh, executor);
+  if (!hasRightSize(solid, mostVertices) || !fit.run(progress))
+  {
+    return {};
+  }
+  const Evidence evidence = evidenceFor(cloud, nearest, solid.mesh);
+  if (boundaries == Boundaries::Keep)
+  {
+    fit.openGaps(solid.bridgeWidth);
+  }
+  if (!hasRightSize(solid, mostVertices))
+  {
+    return {};
+  }
+  const bool explains = solid.isCertain && evidence.unexplained < LeastUnexplained;
+  return Candidate{ std::move(solid), evidence, explains };
+}
+
+std::size_t pieceCount(const Mesh& mesh)
+{
+  DisjointSets sets(mesh.indexEnd());
+  std::size_t count = mesh.vertexCount();
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    for (const VertexIndex neighbor : mesh.ring(v))
+    {
+      if (!sets.areJoined(v, neighbor))
+      {
+        sets.join(v, neighbor);
+        --count;
+      }
+    }
+  }
+  return count;
+}
+
+/// One sheet of the skin, if that is one.
+std::optional<Candidate> sheetCandidate(const PointCloud& cloud, const NearestPoints& nearest,
+  const FirstSurface& skin, std::size_t mostVertices, Boundaries boundaries,
+  const Progress& progress, const Executor& executor)
+{
+  auto sheet = openSurface(cloud, skin, mostVertices, boundaries, progress, executor);
+  if (!sheet || !hasRightSize(*sheet, mostVertices))
+  {
+    return {};
+  }
+  Candidate result{ std::move(*sheet), {}, false };
+  const Mesh& mesh = result.surface.mesh;
+  result.evidence = evidenceFor(cloud, nearest, mesh);
+  result.explains = result.evidence.unexplained < LeastUnexplainedBySheet &&
+    result.evidence.medianInEdges < MostMedianOfSheet && pieceCount(mesh) == 1 &&
+    BoundaryManager(mesh).loopCount() <= MostLoopsOfSheet;
+  return result;
+}
+
+/// The skin as it is: a thin solid, of which any gap would show the other side.
+std::optional<FirstSurface> thinSolid(const PointCloud& cloud, FirstSurface skin,
+  std::size_t mostVertices, const Progress& progress, const Executor& executor)
+{
+  simplify(skin.mesh, mostVertices);
+  FirstFit fit(cloud, skin.mesh, executor);
+  return hasRightSize(skin, mostVertices) && fit.run(progress) ? std::optional(std::move(skin))
+                                                               : std::nullopt;
+}
+
+/// The front of the candidates that agrees best with itself, if any does.
+std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const NearestPoints& nearest,
+  std::size_t mostVertices, Boundaries boundaries, const Progress& progress)
+{
+  const std::size_t samples = std::clamp(mostVertices, LeastSamples, MostSamples);
+  std::optional<FrontSurface> best;
+  double at = 0.;
+  for (const Layers layers : { Layers::Joined, Layers::Apart })
+  {
+    auto front =
+      frontSurface(cloud, nearest, samples, layers, SeedOfFront, partOf(progress, at, at + 0.5));
+    if (front && (!best || front->disorder() < best->disorder()))
+    {
+      best = std::move(front);
+    }
+    if (best && best->disorder() < MostDisorder)
+    {
+      break;
+    }
+    at = 0.5;
+  }
+  if (!progress(1.))
+  {
+    return {};
+  }
+  if (!best || best->disorder() > MostDisorderAtAll)
+  {
+    return {};
+  }
+  FirstSurface result;
+  result.mesh = std::move(best->mesh);
+  result.isOpen = true;
+  result.isCertain = best->disorder() < MostDisorder && best->scatter < MostScatter;
+  simplify(result.mesh, mostVertices);
+  if (boundaries == Boundaries::Close)
+  {
+    closeBoundaries(result.mesh);
+  }
+  return hasRightSize(result, mostVertices) ? std::optional(std::move(result)) : std::nullopt;
+}
 }
 
 std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
-  Boundaries boundaries, const Progress& progress, const Executor& executor)
+  std::size_t mostOfFront, Boundaries boundaries, const Progress& progress,
+  const Executor& executor)
 {
   if (cloud.differentCount() < LeastPointsForGrid)
   {
     return {};
   }
-  const auto hasRightSize = [&](const FirstSurface& surface)
-  {
-    const std::size_t count = surface.mesh.vertexCount();
-    return count > 3 && count <= mostVertices;
-  };
   std::vector<Skin> skins;
-  std::optional<FirstSurface> result =
-    closedSurface(cloud, skins, partOf(progress, 0., PartOfGrids));
-  const Progress fitting = partOf(progress, PartOfGrids, 1.);
-  const bool hasInterior = result.has_value();
-  if (!hasInterior && (result = finestSkin(cloud, skins)))
+  auto solid = closedSurface(cloud, skins, partOf(progress, 0., PartOfGrids));
+  const auto skin = solid ? std::nullopt : finestSkin(cloud, skins);
+  const Progress ofGrid = partOf(progress, PartOfGrids, 0.5 * (1. + PartOfGrids));
+  const Progress ofFront = partOf(progress, 0.5 * (1. + PartOfGrids), 1.);
+  const NearestPoints nearest(cloud.points());
+  std::optional<Candidate> grid;
+  if (solid)
   {
-    auto sheet =
-      openSurface(cloud, *result, mostVertices, boundaries, partOf(fitting, 0., 0.5), executor);
-    if (sheet && hasRightSize(*sheet))
+    grid =
+      solidCandidate(cloud, nearest, std::move(*solid), mostVertices, boundaries, ofGrid, executor);
+  }
+  else if (skin)
+  {
+    grid = sheetCandidate(cloud, nearest, *skin, mostVertices, boundaries, ofGrid, executor);
+  }
+  if (grid && grid->explains && progress(1.))
+  {
+    return std::move(grid->surface);
+  }
+  if (auto front = surfaceOfFront(cloud, nearest, mostOfFront, boundaries, ofFront))
+  {
+    const bool isClosed = grid && !skin && grid->surface.isCertain;
+    const double left = grid ? grid->evidence.unexplained : 1.;
+    if ((front->isCertain || !isClosed) &&
+      evidenceFor(cloud, nearest, front->mesh).unexplained <= left)
     {
-      return sheet;
+      return front;
     }
   }
-  if (!result)
+  if (grid)
   {
-    return {};
+    return std::move(grid->surface);
   }
-  simplify(result->mesh, mostVertices);
-  FirstFit fit(cloud, result->mesh, executor);
-  if (!hasRightSize(*result) || !fit.run(partOf(fitting, 0.5, 1.)))
-  {
-    return {};
-  }
-  // Of a thin solid any gap would show the other side.
-  if (hasInterior && boundaries == Boundaries::Keep)
-  {
-    fit.openGaps(result->bridgeWidth);
-  }
-  return hasRightSize(*result) ? std::move(result) : std::nullopt;
+  return skin ? thinSolid(cloud, *skin, mostVertices, ofFront, executor) : std::nullopt;
 }
 }

@@ -20,8 +20,8 @@ struct FirstSurface
   long genus = 0;
   std::size_t components = 0;
   bool isOpen = false;
-  bool isCertain = false;    ///< whether the next coarser grid gives the same topology
-  double bridgeWidth = 0.;   ///< gaps up to about that were closed
+  bool isCertain = false;  ///< whether the next coarser grid gives the same topology
+  double bridgeWidth = 0.; ///< gaps up to about that were closed; 0 if it is open where it is to be
   float skinThickness = 0.f; ///< about, if it is a skin around points that enclose nothing
 };
 
@@ -30,9 +30,12 @@ struct FirstSurface
 /// encloses anything the cloud is open, and it is one sheet. Then fitted to the cloud, and opened
 /// where there is no data, or closed.
 ///
-/// Has at most so many vertices. Nothing if that is too few for the topology, or the cloud has too
+/// Where that does not explain the points, as what they lie on is thin, uneven, or open, a front is grown
+/// over samples of the layers; what explains more is taken.
+///
+/// From a grid it has at most `mostVertices`, from a front at most `mostOfFront`. Nothing if that is too few for the topology, or the cloud has too
 /// few points to tell.
 std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
-  Boundaries boundaries, const Progress& progress,
+  std::size_t mostOfFront, Boundaries boundaries, const Progress& progress,
   const Executor& executor = Executor::sequential());
 }

@@ -126,7 +126,7 @@ TEST(FirstSurface, ClosedShapes)
     {
       SCOPED_TRACE(shape.name + ", " + scan.name);
       const PointCloud cloud(generateCloud(shape.triangles, scan.options));
-      const auto first = firstSurface(cloud, MostVertices, Boundaries::Keep, goOn);
+      const auto first = firstSurface(cloud, MostVertices, MostVertices, Boundaries::Keep, goOn);
       ASSERT_TRUE(first.has_value());
       EXPECT_FALSE(first->isOpen);
       EXPECT_EQ(first->genus, shape.genus);
@@ -161,14 +161,14 @@ TEST(FirstSurface, DensityGradients)
       {
         SCOPED_TRACE(shape.name + ", " + std::to_string(gradient) + ", " + std::to_string(axis));
         const PointCloud cloud(generateCloud(shape.triangles, options));
-        const auto first = firstSurface(cloud, MostVertices, Boundaries::Keep, goOn);
+        const auto first = firstSurface(cloud, MostVertices, MostVertices, Boundaries::Keep, goOn);
         ASSERT_TRUE(first.has_value());
         EXPECT_TRUE(reportOf(first->mesh).isClosed());
         EXPECT_EQ(reportOf(first->mesh).genus(), shape.genus);
       }
       options.gradient = 10.;
       const PointCloud open(generateCloud(heightField(), options));
-      const auto sheet = firstSurface(open, MostVertices, Boundaries::Keep, goOn);
+      const auto sheet = firstSurface(open, MostVertices, MostVertices, Boundaries::Keep, goOn);
       ASSERT_TRUE(sheet.has_value());
       EXPECT_TRUE(sheet->isOpen);
       EXPECT_EQ(reportOf(sheet->mesh).components, 1u);
@@ -189,8 +189,8 @@ TEST(FirstSurface, OutliersAreNoComponents)
       options.count = 20000;
       options.outliers = 0.1;
       options.seed = seed;
-      const auto first =
-        firstSurface(cloudOf(shape.triangles, options), MostVertices, Boundaries::Close, goOn);
+      const auto first = firstSurface(
+        cloudOf(shape.triangles, options), MostVertices, MostVertices, Boundaries::Close, goOn);
       ASSERT_TRUE(first.has_value());
       EXPECT_EQ(first->components, 1u);
       EXPECT_EQ(first->genus, shape.genus);
@@ -206,7 +206,7 @@ TEST(FirstSurface, SeparateSpheres)
   {
     SCOPED_TRACE(distance);
     const PointCloud cloud = cloudOf(twoSpheres(distance));
-    const auto first = firstSurface(cloud, MostVertices, Boundaries::Keep, goOn);
+    const auto first = firstSurface(cloud, MostVertices, MostVertices, Boundaries::Keep, goOn);
     ASSERT_TRUE(first.has_value());
     EXPECT_FALSE(first->isOpen);
     EXPECT_EQ(first->components, 2u);
@@ -228,8 +228,8 @@ TEST(FirstSurface, ManyEqualSpheres)
   }
   CloudOptions options;
   options.count = 100000;
-  const auto first =
-    firstSurface(cloudOf(spheresAt(centers), options), 4 * MostVertices, Boundaries::Keep, goOn);
+  const auto first = firstSurface(cloudOf(spheresAt(centers), options), 4 * MostVertices,
+    4 * MostVertices, Boundaries::Keep, goOn);
   ASSERT_TRUE(first.has_value());
   EXPECT_EQ(reportOf(first->mesh).components, 64u);
 }
@@ -247,7 +247,7 @@ TEST(FirstSurface, OpenScansGiveOneSheet)
       CloudOptions options;
       options.noise = noise;
       const PointCloud cloud = cloudOf(shape, options);
-      const auto first = firstSurface(cloud, MostVertices, Boundaries::Keep, goOn);
+      const auto first = firstSurface(cloud, MostVertices, MostVertices, Boundaries::Keep, goOn);
       ASSERT_TRUE(first.has_value());
       EXPECT_TRUE(first->isOpen);
       EXPECT_EQ(defectOf(first->mesh), "");
@@ -271,7 +271,7 @@ TEST(FirstSurface, SheetsKeepTheirSide)
     CloudOptions options;
     options.count = 100000;
     const PointCloud cloud = cloudOf(ruggedField(turn), options);
-    const auto first = firstSurface(cloud, MostVertices, Boundaries::Keep, goOn);
+    const auto first = firstSurface(cloud, MostVertices, MostVertices, Boundaries::Keep, goOn);
     ASSERT_TRUE(first.has_value());
     double up = 0., down = 0.;
     first->mesh.forEachTriangle(
@@ -299,7 +299,7 @@ TEST(FirstSurface, HolesStayOrAreClosed)
   const PointCloud cloud(points);
   for (const Boundaries boundaries : { Boundaries::Keep, Boundaries::Close })
   {
-    const auto first = firstSurface(cloud, MostVertices, boundaries, goOn);
+    const auto first = firstSurface(cloud, MostVertices, MostVertices, boundaries, goOn);
     ASSERT_TRUE(first.has_value());
     const ManifoldReport report = reportOf(first->mesh);
     EXPECT_EQ(report.defect, "");
@@ -313,7 +313,7 @@ TEST(FirstSurface, HolesStayOrAreClosed)
 TEST(FirstSurface, OpenScansAreClosed)
 {
   const PointCloud cloud = cloudOf(cutSphere(0.));
-  const auto first = firstSurface(cloud, MostVertices, Boundaries::Close, goOn);
+  const auto first = firstSurface(cloud, MostVertices, MostVertices, Boundaries::Close, goOn);
   ASSERT_TRUE(first.has_value());
   const ManifoldReport report = reportOf(first->mesh);
   EXPECT_EQ(report.defect, "");
@@ -331,14 +331,15 @@ TEST(FirstSurface, NothingOfFewPoints)
     std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
     for (int i = 0; i < 3; ++i)
     {
-      EXPECT_FALSE(firstSurface(PointCloud(points), MostVertices, Boundaries::Keep, goOn));
+      EXPECT_FALSE(
+        firstSurface(PointCloud(points), MostVertices, MostVertices, Boundaries::Keep, goOn));
       points.insert(points.end(), points.begin(), points.end());
     }
   }
   CloudOptions options;
   options.count = 2000;
-  EXPECT_TRUE(firstSurface(
-    PointCloud(generateCloud(makeSphere(), options)), MostVertices, Boundaries::Keep, goOn));
+  EXPECT_TRUE(firstSurface(PointCloud(generateCloud(makeSphere(), options)), MostVertices,
+    MostVertices, Boundaries::Keep, goOn));
 }
 
 // It has at most as many vertices as it may have, down to those that the shape needs.
@@ -350,13 +351,13 @@ TEST(FirstSurface, KeepsToTheVertexLimit)
     for (const std::size_t most : { 3000u, 500u, 60u, 20u })
     {
       SCOPED_TRACE(shape.name + ", " + std::to_string(most));
-      const auto first = firstSurface(cloud, most, Boundaries::Keep, goOn);
+      const auto first = firstSurface(cloud, most, most, Boundaries::Keep, goOn);
       ASSERT_TRUE(first.has_value());
       EXPECT_EQ(first->mesh.vertexCount(), most);
       EXPECT_EQ(defectOf(first->mesh), "");
       EXPECT_EQ(reportOf(first->mesh).genus(), shape.genus);
     }
-    EXPECT_FALSE(firstSurface(cloud, 3, Boundaries::Keep, goOn));
+    EXPECT_FALSE(firstSurface(cloud, 3, 3, Boundaries::Keep, goOn));
   }
 }
 
@@ -374,14 +375,14 @@ TEST(FirstSurface, CanBeEndedAnywhere)
       ++calls;
       return true;
     };
-    ASSERT_TRUE(firstSurface(cloud, 200, Boundaries::Keep, count));
+    ASSERT_TRUE(firstSurface(cloud, 200, 200, Boundaries::Keep, count));
     ASSERT_GT(calls, 5);
     std::size_t ended = 0;
     for (int last = 0; last < calls; ++last)
     {
       int left = last;
       const auto first =
-        firstSurface(cloud, 200, Boundaries::Keep, [&](double) { return left-- > 0; });
+        firstSurface(cloud, 200, 200, Boundaries::Keep, [&](double) { return left-- > 0; });
       ended += !first;
       if (first)
       {
@@ -397,7 +398,7 @@ TEST(FirstSurface, CanBeEndedAnywhere)
 TEST(FirstSurface, ProgressRises)
 {
   std::vector<double> told;
-  firstSurface(cloudOf(makeSphere()), 500, Boundaries::Keep,
+  firstSurface(cloudOf(makeSphere()), 500, 500, Boundaries::Keep,
     [&](double fraction)
     {
       told.push_back(fraction);

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cloud/NearestPoints.h"
+
+namespace neuralmesh
+{
+NearestPoints::NearestPoints(std::span<const Vector4> points)
+  : points_(points)
+{
+  if (points.empty())
+  {
+    return;
+  }
+  std::vector<Box> boxes((points.size() + Fan - 1) / Fan);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    boxes[i / Fan].extend(points[i]);
+  }
+  levels_.push_back(std::move(boxes));
+  while (levels_.back().size() > Fan)
+  {
+    const std::vector<Box>& finer = levels_.back();
+    std::vector<Box> coarser((finer.size() + Fan - 1) / Fan);
+    for (std::size_t i = 0; i < finer.size(); ++i)
+    {
+      coarser[i / Fan].extend(finer[i]);
+    }
+    levels_.push_back(std::move(coarser));
+  }
+}
+
+/// The nearest that were found so far, in order.
+struct NearestPoints::Search
+{
+  Vector4 point;
+  std::span<NearPoint> nearest;
+  std::size_t count = 0;
+
+  float squaredReach() const
+  {
+    return count < nearest.size() ? std::numeric_limits<float>::infinity()
+                                  : nearest[count - 1].squaredDistance;
+  }
+
+  void take(NearPoint found)
+  {
+    if (count == nearest.size())
+    {
+      if (!(found < nearest[count - 1]))
+      {
+        return;
+      }
+      --count;
+    }
+    std::size_t at = count++;
+    for (; at > 0 && found < nearest[at - 1]; --at)
+    {
+      nearest[at] = nearest[at - 1];
+    }
+    nearest[at] = found;
+  }
+};
+
+void NearestPoints::visit(
+  Search& search, std::size_t level, std::size_t begin, std::size_t end) const
+{
+  // At most Fan of them; the nearest first.
+  std::array<NearPoint, Fan> order;
+  const std::size_t count = end - begin;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    NearPoint box{ squaredDistance(levels_[level][begin + i], search.point),
+      std::uint32_t(begin + i) };
+    std::size_t at = i;
+    for (; at > 0 && box < order[at - 1]; --at)
+    {
+      order[at] = order[at - 1];
+    }
+    order[at] = box;
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto [squared, index] = order[i];
+    if (squared > search.squaredReach())
+    {
+      return;
+    }
+    if (level > 0)
+    {
+      visit(search, level - 1, Fan * index,
+        std::min(Fan * (index + std::size_t(1)), levels_[level - 1].size()));
+      continue;
+    }
+    const std::size_t last = std::min(Fan * (index + std::size_t(1)), points_.size());
+    for (std::size_t p = Fan * index; p < last; ++p)
+    {
+      search.take({ squaredNorm(points_[p] - search.point), std::uint32_t(p) });
+    }
+  }
+}
+
+std::size_t NearestPoints::find(Vector4 point, std::span<NearPoint> nearest) const
+{
+  Search search{ point, nearest };
+  if (!levels_.empty() && !nearest.empty())
+  {
+    visit(search, levels_.size() - 1, 0, levels_.back().size());
+  }
+  return search.count;
+}
+}

@@ -1,0 +1,505 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "start/AdvancingFront.h"
+
+#include "mesh/Delaunay.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+namespace neuralmesh
+{
+namespace
+{
+/// The circle of a triangle, at most, against the mean radius of its samples.
+constexpr double LargestCircle = 3.;
+/// Where the surface bends by more, candidates wait: cosine of 30 degrees.
+constexpr double CosineOfSmooth = 0.866;
+/// A candidate that lies back on its triangle is none: cosine of 150 degrees.
+constexpr double CosineOfFold = -0.866;
+/// A candidate that bends has a ball at most so much larger than that of the triangle.
+constexpr double LargestGrowth = 5.;
+
+/// Against the distance: between samples whose normals are the same.
+constexpr float LargestRise = 0.3f;
+constexpr float ErrorsOfRise = 3.f;
+
+constexpr double None = std::numeric_limits<double>::infinity();
+
+/// A triangle of the Delaunay cells: opposite to a vertex of one.
+struct Facet
+{
+  std::int32_t cell = -1;
+  std::int32_t index = 0;
+};
+
+/// The Delaunay cells of the samples, and the radii of the empty balls of their triangles.
+class Facets
+{
+public:
+  explicit Facets(std::span<const LayerSample> samples)
+    : samples_(samples)
+    , positions_(positionsOf(samples))
+    , delaunay_(positions_)
+    , centers_(delaunay_.cells().size())
+  {
+    for (std::size_t i = 0; i < centers_.size(); ++i)
+    {
+      if (!delaunay_.cells()[i].isOutside())
+      {
+        centers_[i] = centerOf(delaunay_.cells()[i]);
+      }
+    }
+  }
+
+  const std::vector<Delaunay::Cell>& cells() const { return delaunay_.cells(); }
+  Eigen::Vector3d position(std::int32_t v) const { return positions_[std::size_t(v)].toDouble(); }
+
+  /// The radius of the smallest ball through the corners of a triangle that holds no sample; None if
+  /// the triangle is too large for its samples.
+  double radius(Facet facet) const
+  {
+    const Delaunay::Cell& cell = cells()[std::size_t(facet.cell)];
+    const auto [a, b, c] = Delaunay::facet(cell, facet.index);
+    const Eigen::Vector3d u = position(b) - position(a), v = position(c) - position(a);
+    const Eigen::Vector3d normal = u.cross(v);
+    const double squared = normal.squaredNorm();
+    if (!(squared > 0.))
+    {
+      return None;
+    }
+    const double circle =
+      0.5 * std::sqrt(u.squaredNorm() * v.squaredNorm() * (u - v).squaredNorm() / squared);
+    const double size = double(samples_[std::size_t(a)].radius + samples_[std::size_t(b)].radius +
+                          samples_[std::size_t(c)].radius) /
+      3.;
+    if (!(circle <= LargestCircle * size))
+    {
+      return None;
+    }
+    // The centers of empty balls lie between those of the two cells: if these are on the two sides of
+    // the triangle, the smallest ball is that of its circle.
+    const std::int32_t other = cell.neighbors[std::size_t(facet.index)];
+    const double side = sideOf(facet.cell, a, normal, true);
+    const double otherSide = sideOf(other, a, normal, false);
+    if (side >= 0. && otherSide <= 0.)
+    {
+      return circle;
+    }
+    const std::int32_t nearer = side < 0. ? facet.cell : other;
+    return (centers_[std::size_t(nearer)] - position(a)).norm();
+  }
+
+  /// Whether two samples lie in one layer as far as their normals tell: the way from the one to the other
+  /// rises above the planes of both no more than these differ.
+  bool areInOneLayer(std::int32_t a, std::int32_t b) const
+  {
+    const LayerSample &p = samples_[std::size_t(a)], &q = samples_[std::size_t(b)];
+    if (squaredNorm(p.normal) == 0.f || squaredNorm(q.normal) == 0.f)
+    {
+      return true;
+    }
+    const Vector4 way = q.position - p.position;
+    const float rise = std::max(std::abs(dot(way, p.normal)), std::abs(dot(way, q.normal)));
+    const float turn = std::sqrt(squaredNorm(cross(p.normal, q.normal)));
+    const float length = std::sqrt(squaredNorm(way));
+    return rise <= length * (LargestRise + turn) + ErrorsOfRise * (p.error + q.error);
+  }
+
+private:
+  static std::vector<Vector4> positionsOf(std::span<const LayerSample> samples)
+  {
+    std::vector<Vector4> positions(samples.size());
+    std::transform(samples.begin(), samples.end(), positions.begin(),
+      [](const LayerSample& sample) { return sample.position; });
+    return positions;
+  }
+
+  /// Of the center of a cell's ball, to a triangle; of what is outside, as far as one likes.
+  double sideOf(
+    std::int32_t cell, std::int32_t corner, const Eigen::Vector3d& normal, bool isInFront) const
+  {
+    if (cells()[std::size_t(cell)].isOutside())
+    {
+      return isInFront ? None : -None;
+    }
+    return normal.dot(centers_[std::size_t(cell)] - position(corner));
+  }
+
+  Eigen::Vector3d centerOf(const Delaunay::Cell& cell) const
+  {
+    const Eigen::Vector3d a = position(cell.vertices[0]);
+    const Eigen::Vector3d u = position(cell.vertices[1]) - a, v = position(cell.vertices[2]) - a,
+                          w = position(cell.vertices[3]) - a;
+    const Eigen::Vector3d uv = u.cross(v);
+    const double volume = 2. * uv.dot(w);
+    if (!(std::abs(volume) > 0.))
+    {
+      return a;
+    }
+    return a +
+      (w.squaredNorm() * uv + v.squaredNorm() * w.cross(u) + u.squaredNorm() * v.cross(w)) / volume;
+  }
+
+  std::span<const LayerSample> samples_;
+  std::vector<Vector4> positions_;
+  Delaunay delaunay_;
+  std::vector<Eigen::Vector3d> centers_;
+};
+
+/// Grows the surface.
+class AdvancingFront
+{
+public:
+  AdvancingFront(const Facets& facets, std::size_t sampleCount, Layers layers)
+    : facets_(facets)
+    , firstEdge_(sampleCount, NoEdge)
+    , openEdges_(sampleCount, 0)
+    , keepsToLayers_(layers == Layers::Apart)
+  {
+  }
+
+  std::vector<std::array<std::uint32_t, 3>> run()
+  {
+    for (const Seed& seed : seeds())
+    {
+      const auto corners = cornersOf(seed.facet);
+      const bool isFree = std::all_of(
+        corners.begin(), corners.end(), [&](std::int32_t v) { return !isOnSurface(v); });
+      const auto [a, b, c] = corners;
+      if (isFree &&
+        (!keepsToLayers_ ||
+          (facets_.areInOneLayer(a, b) && facets_.areInOneLayer(b, c) &&
+            facets_.areInOneLayer(c, a))))
+      {
+        addTriangle(corners, seed.facet, seed.radius);
+        advance();
+      }
+    }
+    // Rims of plates, where one layer goes over into the other.
+    keepsToLayers_ = false;
+    for (std::uint32_t edge = 0; edge < edges_.size(); ++edge)
+    {
+      propose(edge);
+    }
+    advance();
+    return std::move(triangles_);
+  }
+
+private:
+  static constexpr std::uint32_t NoEdge = ~0u;
+
+  struct Seed
+  {
+    double radius;
+    Facet facet;
+  };
+
+  /// A directed edge of a triangle. It belongs to the front as long as the triangle on its other side is
+  /// missing.
+  struct Edge
+  {
+    std::int32_t from, to;
+    std::int32_t apex; ///< of its triangle
+    std::uint32_t nextAtFrom;
+    Facet facet; ///< of its triangle
+    double radius;
+    bool isOpen;
+  };
+
+  /// The triangle with which the front would go on at an edge. The classes come one after another.
+  enum class Class
+  {
+    Smooth,
+    Bend
+  };
+  struct Candidate
+  {
+    Class order;
+    double value; ///< the lower, the earlier
+    std::uint32_t edge;
+    std::int32_t apex;
+    Facet facet;
+    double radius;
+
+    bool operator>(const Candidate& other) const
+    {
+      return std::tie(order, value, edge) > std::tie(other.order, other.value, other.edge);
+    }
+  };
+
+  std::vector<Seed> seeds() const
+  {
+    std::vector<Seed> result;
+    const auto& cells = facets_.cells();
+    for (std::int32_t cell = 0; cell < std::int32_t(cells.size()); ++cell)
+    {
+      for (std::int32_t index = 0; index < 4; ++index)
+      {
+        const Facet facet{ cell, index };
+        const auto [a, b, c] = cornersOf(facet);
+        const bool isFinite = std::min({ a, b, c }) != Delaunay::Outside;
+        if (isFinite && cell < cells[std::size_t(cell)].neighbors[std::size_t(index)])
+        {
+          const double radius = facets_.radius(facet);
+          if (radius < None)
+          {
+            result.push_back({ radius, facet });
+          }
+        }
+      }
+    }
+    std::sort(result.begin(), result.end(),
+      [](const Seed& a, const Seed& b)
+      {
+        return std::tie(a.radius, a.facet.cell, a.facet.index) <
+          std::tie(b.radius, b.facet.cell, b.facet.index);
+      });
+    return result;
+  }
+
+  std::array<std::int32_t, 3> cornersOf(Facet facet) const
+  {
+    return Delaunay::facet(facets_.cells()[std::size_t(facet.cell)], facet.index);
+  }
+
+  bool isOnSurface(std::int32_t v) const { return firstEdge_[std::size_t(v)] != NoEdge; }
+  bool isOnFront(std::int32_t v) const { return openEdges_[std::size_t(v)] > 0; }
+
+  std::uint32_t find(std::int32_t from, std::int32_t to) const
+  {
+    std::uint32_t edge = firstEdge_[std::size_t(from)];
+    while (edge != NoEdge && edges_[edge].to != to)
+    {
+      edge = edges_[edge].nextAtFrom;
+    }
+    return edge;
+  }
+  bool isOpen(std::int32_t from, std::int32_t to) const
+  {
+    const std::uint32_t edge = find(from, to);
+    return edge != NoEdge && edges_[edge].isOpen;
+  }
+
+  void addTriangle(const std::array<std::int32_t, 3>& corners, Facet facet, double radius)
+  {
+    triangles_.push_back(
+      { std::uint32_t(corners[0]), std::uint32_t(corners[1]), std::uint32_t(corners[2]) });
+    std::array<std::uint32_t, 3> own;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::int32_t from = corners[i], to = corners[(i + 1) % 3], apex = corners[(i + 2) % 3];
+      const std::uint32_t twin = find(to, from);
+      const bool isOpen = twin == NoEdge;
+      if (isOpen)
+      {
+        ++openEdges_[std::size_t(from)];
+        ++openEdges_[std::size_t(to)];
+      }
+      else
+      {
+        edges_[twin].isOpen = false;
+        --openEdges_[std::size_t(from)];
+        --openEdges_[std::size_t(to)];
+      }
+      own[i] = std::uint32_t(edges_.size());
+      edges_.push_back({ from, to, apex, firstEdge_[std::size_t(from)], facet, radius, isOpen });
+      firstEdge_[std::size_t(from)] = own[i];
+    }
+    for (const std::uint32_t edge : own)
+    {
+      propose(edge);
+    }
+  }
+
+  /// Puts the best candidate of an edge into the queue.
+  void propose(std::uint32_t edge)
+  {
+    if (edges_[edge].isOpen)
+    {
+      if (const auto candidate = bestAt(edge))
+      {
+        queue_.push(*candidate);
+      }
+    }
+  }
+
+  /// Whether a triangle on the other side of the edge would keep the surface a manifold.
+  bool isAllowed(const Edge& edge, std::int32_t apex) const
+  {
+    return !isOnSurface(apex) ||
+      (isOnFront(apex) && find(edge.from, apex) == NoEdge && find(apex, edge.to) == NoEdge);
+  }
+  /// Whether the apex has no edge in common with the edge, but is on the front.
+  bool isBridge(const Edge& edge, std::int32_t apex) const
+  {
+    return isOnSurface(apex) && !isOpen(apex, edge.from) && !isOpen(edge.to, apex);
+  }
+
+  template <typename Use>
+  void forEachFacetAt(const Edge& edge, Use use) const
+  {
+    // Round the edge, from cell to cell.
+    std::int32_t cell = edge.facet.cell;
+    std::int32_t entered = edge.apex;
+    const std::int32_t first = cell;
+    do
+    {
+      const Delaunay::Cell& c = facets_.cells()[std::size_t(cell)];
+      std::int32_t index = 0;
+      while (c.vertices[std::size_t(index)] == edge.from ||
+        c.vertices[std::size_t(index)] == edge.to || c.vertices[std::size_t(index)] == entered)
+      {
+        ++index;
+      }
+      // The facet that is left through is opposite to the vertex of the one that was entered through.
+      const std::int32_t apex = c.vertices[std::size_t(index)];
+      const std::int32_t opposite = std::int32_t(c.indexOf(entered));
+      if (apex != Delaunay::Outside)
+      {
+        use(apex, Facet{ cell, opposite });
+      }
+      entered = apex;
+      cell = c.neighbors[std::size_t(opposite)];
+    } while (cell != first);
+  }
+
+  std::optional<Candidate> bestAt(std::uint32_t index) const
+  {
+    const Edge& edge = edges_[index];
+    const Eigen::Vector3d from = facets_.position(edge.from);
+    const Eigen::Vector3d along = facets_.position(edge.to) - from;
+    const Eigen::Vector3d normal = along.cross(facets_.position(edge.apex) - from).normalized();
+    Candidate best{ Class::Bend, None, index, -1, {}, None };
+    double bestCosine = 0.;
+    forEachFacetAt(edge,
+      [&](std::int32_t apex, Facet facet)
+      {
+        if (apex == edge.apex || !isAllowed(edge, apex) ||
+          (keepsToLayers_ &&
+            !(facets_.areInOneLayer(edge.from, apex) && facets_.areInOneLayer(edge.to, apex))))
+        {
+          return;
+        }
+        const double radius = facets_.radius(facet);
+        if (!(radius < best.radius))
+        {
+          return;
+        }
+        const double cosine = normal.dot((facets_.position(apex) - from).cross(along).normalized());
+        if (cosine > CosineOfFold)
+        {
+          best.apex = apex;
+          best.facet = facet;
+          best.radius = radius;
+          bestCosine = cosine;
+        }
+      });
+    if (best.apex < 0)
+    {
+      return {};
+    }
+    if (bestCosine > CosineOfSmooth)
+    {
+      best.order = Class::Smooth;
+      best.value = best.radius;
+    }
+    else if (best.radius < LargestGrowth * edge.radius)
+    {
+      best.value = -bestCosine;
+    }
+    else
+    {
+      return {};
+    }
+    return best;
+  }
+
+  /// Whether the front would go on from a bridge by closing the corner beside it: then it is no chance
+  /// meeting.
+  bool leadsToCorner(const Candidate& candidate)
+  {
+    const Edge edge = edges_[candidate.edge];
+    const std::int32_t apex = candidate.apex;
+    for (const bool isAtFrom : { true, false })
+    {
+      // The new edges of the triangle from-apex-to, seen from it.
+      const Edge side{ isAtFrom ? edge.from : apex, isAtFrom ? apex : edge.to,
+        isAtFrom ? edge.to : edge.from, NoEdge, candidate.facet, candidate.radius, true };
+      edges_.push_back(side);
+      const auto next = bestAt(std::uint32_t(edges_.size() - 1));
+      edges_.pop_back();
+      if (next && next->order == Class::Smooth &&
+        (isOpen(apex, next->apex) || isOpen(next->apex, apex)))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void advance()
+  {
+    std::size_t before;
+    do
+    {
+      before = triangles_.size();
+      advanceOnce();
+      for (const std::uint32_t edge : std::exchange(waiting_, {}))
+      {
+        propose(edge);
+      }
+    } while (triangles_.size() > before);
+    queue_ = {};
+  }
+
+  void advanceOnce()
+  {
+    while (!queue_.empty())
+    {
+      const Candidate candidate = queue_.top();
+      queue_.pop();
+      const Edge edge = edges_[candidate.edge];
+      if (!edge.isOpen)
+      {
+        continue;
+      }
+      if (!isAllowed(edge, candidate.apex))
+      {
+        propose(candidate.edge);
+        continue;
+      }
+      if (isBridge(edge, candidate.apex) && !leadsToCorner(candidate))
+      {
+        // Perhaps once more of the front is there.
+        waiting_.push_back(candidate.edge);
+        continue;
+      }
+      addTriangle({ edge.to, edge.from, candidate.apex }, candidate.facet, candidate.radius);
+    }
+  }
+
+  const Facets& facets_;
+  std::vector<std::uint32_t> firstEdge_; ///< that begins at a sample
+  std::vector<std::uint32_t> openEdges_; ///< that begin or end there
+  std::vector<Edge> edges_;
+  std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
+  bool keepsToLayers_;
+  std::vector<std::uint32_t> waiting_; ///< edges whose candidates are bridges to nowhere
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+};
+}
+
+std::vector<std::array<std::uint32_t, 3>> advancingFront(
+  std::span<const LayerSample> samples, Layers layers)
+{
+  const Facets facets(samples);
+  return AdvancingFront(facets, samples.size(), layers).run();
+}
+}

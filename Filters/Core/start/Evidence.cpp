@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "start/Evidence.h"
+
+#include "base/Median.h"
+#include "cloud/CloudDistance.h"
+#include "start/LayerSamples.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr std::size_t PointsAsked = 4000;
+/// Of those off the mesh, so many are looked at closely.
+constexpr std::size_t MostLookedAt = 200;
+constexpr float SpacingsOff = 3.f;
+}
+
+Evidence evidenceFor(const PointCloud& cloud, const NearestPoints& nearest, const Mesh& mesh)
+{
+  const VertexGrid grid = gridOf(mesh, cloud);
+  const std::span<const Vector4> points = cloud.points();
+  const std::size_t asked = std::min(points.size(), PointsAsked);
+  std::vector<float> distances(asked);
+  std::vector<std::uint32_t> indices(asked);
+  for (std::size_t i = 0; i < asked; ++i)
+  {
+    indices[i] = std::uint32_t(i * points.size() / asked);
+    distances[i] = float(distanceToSurface(points[indices[i]], mesh, grid));
+  }
+  const float median = medianOf(distances);
+  const double edge = mesh.meanEdge();
+  const float far = outlierDistance(median, edge);
+  std::vector<std::uint32_t> off;
+  for (std::size_t i = 0; i < asked; ++i)
+  {
+    if (distances[i] > far && distances[i] > SpacingsOff * pointSpacing(nearest, indices[i]))
+    {
+      off.push_back(indices[i]);
+    }
+  }
+  const std::size_t looked = std::min(off.size(), MostLookedAt);
+  std::size_t inLayer = 0;
+  for (std::size_t i = 0; i < looked; ++i)
+  {
+    // An outlier beside a surface is moved onto that.
+    const auto place = placeInLayer(nearest, off[i * off.size() / looked]);
+    inLayer += place && float(distanceToSurface(*place, mesh, grid)) > far ? 1 : 0;
+  }
+  Evidence result;
+  result.unexplained =
+    looked > 0 ? double(off.size()) / double(asked) * double(inLayer) / double(looked) : 0.;
+  result.medianInEdges = double(median) / edge;
+  return result;
+}
+}

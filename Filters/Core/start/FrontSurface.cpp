@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "start/FrontSurface.h"
+
+#include "base/DisjointSets.h"
+#include "cloud/MeshBuilder.h"
+#include "mesh/BoundaryFilling.h"
+#include "mesh/FanSplitting.h"
+#include "mesh/SelfIntersections.h"
+#include "start/AdvancingFront.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Of all triangles; smaller pieces are left over from points that lie on no surface.
+constexpr double SmallestPiece = 0.0005;
+constexpr std::size_t LeastTriangles = 12;
+/// Longer loops are openings.
+constexpr std::size_t MostEdgesOfGap = 12;
+constexpr int CutRounds = 3;
+// Of the time.
+constexpr double PartOfSamples = 0.7;
+constexpr double PartOfFront = 0.9;
+
+void dropSmallPieces(TriangleMesh& mesh)
+{
+  DisjointSets sets(mesh.points.size());
+  for (const auto& [a, b, c] : mesh.triangles)
+  {
+    sets.join(a, b);
+    sets.join(b, c);
+  }
+  std::vector<std::size_t> sizes(mesh.points.size(), 0);
+  for (const auto& triangle : mesh.triangles)
+  {
+    ++sizes[sets.root(triangle[0])];
+  }
+  const std::size_t least =
+    std::max(LeastTriangles, std::size_t(SmallestPiece * double(mesh.triangles.size())));
+  std::erase_if(
+    mesh.triangles, [&](const auto& triangle) { return sizes[sets.root(triangle[0])] < least; });
+}
+
+std::size_t fillGaps(Mesh& mesh)
+{
+  BoundaryManager boundaries(mesh);
+  return fillBoundaries(
+    mesh, boundaries, std::numeric_limits<float>::max(), nullptr, MostEdgesOfGap);
+}
+
+/// Takes away what intersects; what is left over there is filled if it is small.
+void removeCrossings(Mesh& mesh)
+{
+  for (int round = 0; round < CutRounds; ++round)
+  {
+    const std::vector<Triangle> crossing = intersectingTriangles(mesh);
+    if (crossing.empty())
+    {
+      break;
+    }
+    mesh.removeTriangles(crossing);
+  }
+}
+}
+
+std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestPoints& nearest,
+  std::size_t count, Layers layers, std::uint64_t seed, const Progress& progress)
+{
+  const auto [samples, inNoLayer] =
+    layerSamples(nearest, count, layers, seed, partOf(progress, 0., PartOfSamples));
+  if (!progress(PartOfSamples))
+  {
+    return {};
+  }
+  TriangleMesh triangles;
+  triangles.points.reserve(samples.size());
+  for (const LayerSample& sample : samples)
+  {
+    triangles.points.push_back(cloud.toInput(sample.position));
+  }
+  triangles.triangles = advancingFront(samples, layers);
+  if (!progress(PartOfFront))
+  {
+    return {};
+  }
+  splitFans(triangles);
+  dropSmallPieces(triangles);
+  if (triangles.triangles.empty())
+  {
+    return {};
+  }
+  FrontSurface result;
+  result.mesh = buildMesh(std::move(triangles), cloud);
+  result.samples = samples.size();
+  result.scatter = double(inNoLayer) / double(samples.size() + inNoLayer);
+  result.filledLoops = fillGaps(result.mesh);
+  result.crossings = intersectingPairs(result.mesh).size();
+  if (result.crossings > 0)
+  {
+    removeCrossings(result.mesh);
+    fillGaps(result.mesh);
+    removeCrossings(result.mesh);
+  }
+  result.mesh.dropErased();
+  return result;
+}
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Progress.h"
+#include "cloud/NearestPoints.h"
+#include "cloud/PointCloud.h"
+#include "mesh/Mesh.h"
+#include "start/LayerSamples.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace neuralmesh
+{
+/// A surface by an advancing front, and how well the samples agreed to make one.
+struct FrontSurface
+{
+  Mesh mesh;
+  std::size_t samples = 0;
+  double scatter = 0.;         ///< share of the samples that lie in no layer, and were left out
+  std::size_t filledLoops = 0; ///< small ones that the front had left
+  std::size_t crossings = 0; ///< pairs of triangles that intersected, before these were taken away
+
+  /// Loops filled and crossings, for a thousand samples. Surfaces have few; where it is many the samples
+  /// tell no surface.
+  double disorder() const
+  {
+    return samples > 0 ? 1000. * double(filledLoops + crossings) / double(samples) : 0.;
+  }
+};
+
+/// The surface of about `count` samples on the layers of the cloud: with boundaries where the cloud ends,
+/// and as many pieces as that has. Without pieces of less than 1/2000 of the triangles. Nothing if there
+/// are too few points, or it was ended before.
+std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestPoints& nearest,
+  std::size_t count, Layers layers, std::uint64_t seed, const Progress& progress);
+}

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "start/LayerSamples.h"
+
+#include "base/Median.h"
+#include "base/Morton.h"
+#include "base/Random.h"
+#include "start/LocalLayer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Neighbours that tell the distance between points.
+constexpr std::size_t Neighbors = 7;
+/// Points that tell how it is distributed.
+constexpr std::size_t SurveyPoints = 2000;
+/// Of the distance to the last neighbour, at least, is the radius: a sample stands for more points
+/// than itself where there are so few.
+constexpr float LeastRadius = 0.5f;
+/// Samples for each disk of the radius that points fill, as chance packs them.
+constexpr double Packing = 0.41;
+/// Points that a layer is told by, the fewest that make the error small against the radius; and the part
+/// of their scatter that is left where a quadric is fitted to so few.
+struct LayerPoints
+{
+  std::size_t count;
+  float scatterLeft;
+};
+constexpr std::array<LayerPoints, 3> LayerPointsTried{ { { 16, 0.44f }, { 32, 0.63f },
+  { 64, 0.79f } } };
+constexpr float SmallError = 0.04f;
+/// With less, points lie along a line of the scanner, and the layer may turn about it.
+constexpr float LeastBreadth = 0.15f;
+/// A layer that is told anew from where the sample was moved to.
+constexpr float NoticeableError = 0.02f;
+/// A move farther than this part of the radius of the points that tell is none onto a surface.
+constexpr float FarthestMove = 0.7f;
+/// Points that spread so much of their radius across are in no layer.
+constexpr float ScatterOfNoLayer = 0.25f;
+/// Samples that came that close to each other when they were moved.
+constexpr float ClosestOfMoved = 0.4f;
+/// The layer of a sample goes up so much at most, against the distance, and is so thick against the noise.
+constexpr float SlopeOfDisk = 0.25f;
+constexpr float NoiseOfDisk = 3.f;
+
+constexpr std::uint32_t NoSample = ~0u;
+constexpr std::size_t SamplesPerCheck = 256;
+
+/// How far points are from each other around one.
+struct Spacing
+{
+  float mean;
+  float farthest;
+};
+
+Spacing spacingAt(const NearestPoints& nearest, std::uint32_t point)
+{
+  std::array<NearPoint, Neighbors + 1> found;
+  const std::size_t count = nearest.find(nearest.points()[point], found);
+  float sum = 0.f;
+  for (std::size_t i = 1; i < count; ++i)
+  {
+    sum += std::sqrt(found[i].squaredDistance);
+  }
+  return { count > 1 ? sum / float(count - 1) : 0.f,
+    count > 1 ? std::sqrt(found[count - 1].squaredDistance) : 0.f };
+}
+
+/// The radius of the disk that a sample has to itself.
+class DiskRadius
+{
+public:
+  /// Such that about `count` samples come of all points.
+  DiskRadius(const NearestPoints& nearest, std::size_t count)
+  {
+    const std::size_t points = nearest.points().size();
+    const std::size_t asked = std::min(points, SurveyPoints);
+    std::vector<Spacing> survey(asked);
+    std::vector<float> means(asked);
+    for (std::size_t i = 0; i < asked; ++i)
+    {
+      survey[i] = spacingAt(nearest, std::uint32_t(i * points / asked));
+      means[i] = survey[i].mean;
+    }
+    usual_ = std::max(medianOf(std::move(means)), std::numeric_limits<float>::min());
+    // Bisection: the number falls with the factor.
+    double low = 1e-6, high = 1e6;
+    for (int i = 0; i < 60; ++i)
+    {
+      const double middle = std::sqrt(low * high);
+      factor_ = float(middle) * usual_;
+      double disks = 0.;
+      for (const Spacing& spacing : survey)
+      {
+        const double part = double(spacing.mean) / std::max(double(of(spacing)), 1e-30);
+        disks += std::min(1., Packing * part * part);
+      }
+      (disks * double(points) / double(asked) > double(count) ? low : high) = middle;
+    }
+  }
+
+  float of(const Spacing& spacing) const
+  {
+    return std::max(factor_ * std::sqrt(spacing.mean / usual_), LeastRadius * spacing.farthest);
+  }
+
+private:
+  float usual_;
+  float factor_ = 0.f;
+};
+
+/// The numbers below `count`, shuffled.
+std::vector<std::uint32_t> shuffled(std::size_t count, std::uint64_t seed)
+{
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  Random random(seed);
+  for (std::size_t i = count; i > 1; --i)
+  {
+    std::swap(order[i - 1], order[random.below(std::uint32_t(i))]);
+  }
+  return order;
+}
+
+struct Told
+{
+  LocalLayer layer;
+  float noise = 0.f;
+  float error = 0.f;
+  LayerPoints points{}; ///< that tell; 0 = none yet
+};
+
+Told tell(const NearestPoints& nearest, Vector4 place, LayerPoints points)
+{
+  std::array<NearPoint, MostPointsOfLayer> found;
+  const std::size_t there = nearest.find(place, std::span(found).first(points.count));
+  if (there < 6)
+  {
+    return {};
+  }
+  Told result{ localLayer(place, nearest.points(), std::span(found).first(there)), 0.f, 0.f,
+    points };
+  result.noise = result.layer.scatter / points.scatterLeft;
+  result.error = result.noise * std::sqrt(6.f / float(points.count));
+  return result;
+}
+
+/// Moves a sample onto its layer. Returns whether it lies in one.
+bool moveOntoLayer(const NearestPoints& nearest, LayerSample& sample)
+{
+  const Vector4 place = sample.position;
+  Told best;
+  for (const LayerPoints points : LayerPointsTried)
+  {
+    const Told told = tell(nearest, place, points);
+    if (told.points.count > 0 &&
+      (best.points.count == 0 || best.layer.breadth < LeastBreadth || told.error < best.error))
+    {
+      best = told;
+      if (told.layer.distance < FarthestMove * told.layer.radius)
+      {
+        sample.position = told.layer.position;
+      }
+    }
+    if (best.points.count > 0 && best.error <= SmallError * sample.radius &&
+      best.layer.breadth >= LeastBreadth)
+    {
+      break;
+    }
+  }
+  if (best.points.count == 0)
+  {
+    return false;
+  }
+  const auto takeNormal = [&](const LocalLayer& layer)
+  { sample.normal = layer.breadth >= LeastBreadth ? layer.normal : Vector4(); };
+  takeNormal(best.layer);
+  sample.noise = best.noise;
+  sample.error = best.error;
+  if (best.error > NoticeableError * sample.radius)
+  {
+    const Told again = tell(nearest, sample.position, best.points);
+    if (again.layer.distance < FarthestMove * again.layer.radius)
+    {
+      sample.position = again.layer.position;
+      takeNormal(again.layer);
+    }
+  }
+  return best.noise < ScatterOfNoLayer * best.layer.radius;
+}
+
+/// Whether a place within the radius of a sample lies in its layer, not in another one beside it.
+bool isOnDisk(const LayerSample& sample, Vector4 place)
+{
+  const Vector4 offset = place - sample.position;
+  const float height = std::abs(dot(offset, sample.normal));
+  return height <= NoiseOfDisk * sample.noise ||
+    height * height <= SlopeOfDisk * SlopeOfDisk * squaredNorm(offset);
+}
+
+/// Without those that came too close to others when they were moved.
+std::vector<LayerSample> apart(std::vector<LayerSample> samples, Layers layers, std::uint64_t seed)
+{
+  std::vector<Vector4> positions;
+  for (const LayerSample& sample : samples)
+  {
+    positions.push_back(sample.position);
+  }
+  Box box;
+  std::for_each(
+    positions.begin(), positions.end(), [&](Vector4 position) { box.extend(position); });
+  std::vector<LayerSample> sorted;
+  std::vector<Vector4> sortedPositions;
+  for (const std::uint32_t i : mortonOrder(positions, box.low, box.high))
+  {
+    sorted.push_back(samples[i]);
+    sortedPositions.push_back(positions[i]);
+  }
+  const NearestPoints nearest(sortedPositions);
+  std::vector<bool> isCovered(sorted.size(), false);
+  std::vector<std::uint32_t> kept;
+  for (const std::uint32_t i : shuffled(sorted.size(), seed))
+  {
+    if (isCovered[i])
+    {
+      continue;
+    }
+    kept.push_back(i);
+    nearest.forEachWithin(sortedPositions[i], ClosestOfMoved * sorted[i].radius,
+      [&](std::uint32_t other, float)
+      {
+        if (layers == Layers::Joined || isOnDisk(sorted[i], sortedPositions[other]))
+        {
+          isCovered[other] = true;
+        }
+      });
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<LayerSample> result;
+  for (const std::uint32_t i : kept)
+  {
+    result.push_back(sorted[i]);
+  }
+  return result;
+}
+}
+
+float pointSpacing(const NearestPoints& nearest, std::uint32_t point)
+{
+  return spacingAt(nearest, point).mean;
+}
+
+std::optional<Vector4> placeInLayer(const NearestPoints& nearest, std::uint32_t point)
+{
+  LayerSample sample;
+  sample.position = nearest.points()[point];
+  sample.radius = spacingAt(nearest, point).farthest;
+  return moveOntoLayer(nearest, sample) ? std::optional(sample.position) : std::nullopt;
+}
+
+LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layers layers,
+  std::uint64_t seed, const Progress& progress)
+{
+  const DiskRadius diskRadius(nearest, count);
+  const std::span<const Vector4> points = nearest.points();
+  std::vector<bool> isCovered(points.size(), false);
+  // Of each point, the last sample in whose reach it is.
+  std::vector<std::uint32_t> reachedBy(points.size(), NoSample);
+  std::vector<LayerSample> samples;
+  std::size_t inNoLayer = 0;
+  for (const std::uint32_t point : shuffled(points.size(), seed))
+  {
+    if (isCovered[point])
+    {
+      continue;
+    }
+    if (samples.size() % SamplesPerCheck == 0 &&
+      !progress(std::min(1., double(samples.size()) / double(count))))
+    {
+      return {};
+    }
+    LayerSample sample;
+    sample.position = points[point];
+    sample.radius = diskRadius.of(spacingAt(nearest, point));
+    const bool isInLayer = moveOntoLayer(nearest, sample);
+    // Noise had it look as if it were in another layer than what is there.
+    if (isInLayer && reachedBy[point] != NoSample &&
+      isOnDisk(samples[reachedBy[point]], sample.position))
+    {
+      continue;
+    }
+    nearest.forEachWithin(points[point], sample.radius,
+      [&](std::uint32_t other, float)
+      {
+        if (layers == Layers::Joined || !isInLayer || isOnDisk(sample, points[other]))
+        {
+          isCovered[other] = true;
+        }
+        else
+        {
+          reachedBy[other] = std::uint32_t(samples.size());
+        }
+      });
+    if (isInLayer)
+    {
+      samples.push_back(sample);
+    }
+    else
+    {
+      ++inNoLayer;
+    }
+  }
+  return { apart(std::move(samples), layers, seed), inNoLayer };
+}
+}

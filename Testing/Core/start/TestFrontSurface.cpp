@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "start/FrontSurface.h"
+
+#include "cloud/CloudGenerator.h"
+#include "cloud/MeshBuilder.h"
+#include "mesh/SelfIntersections.h"
+#include "mesh/SurfaceReport.h"
+
+#include "MeshTools.h"
+#include "Shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+PointCloud cloudOf(const TriangleMesh& surface, double noise = 0., std::size_t count = 40000)
+{
+  CloudOptions options;
+  options.count = count;
+  options.noise = noise;
+  return PointCloud(generateCloud(surface, options));
+}
+
+/// A box of 2 x 2 x `thickness`.
+TriangleMesh plate(double thickness)
+{
+  TriangleMesh result = makeCube(16);
+  double highest = 0.;
+  for (const Eigen::Vector3d& point : result.points)
+  {
+    highest = std::max(highest, std::abs(point.z()));
+  }
+  for (Eigen::Vector3d& point : result.points)
+  {
+    point /= highest;
+    point.z() *= 0.5 * thickness;
+  }
+  return result;
+}
+
+SurfaceReport reportOf(const FrontSurface& front, const PointCloud& cloud)
+{
+  EXPECT_EQ(defectOf(front.mesh), "");
+  EXPECT_TRUE(intersectingPairs(front.mesh).empty());
+  return reportSurface(neuralmesh::trianglesOf(front.mesh, cloud));
+}
+
+std::optional<FrontSurface> front(
+  const PointCloud& cloud, std::size_t samples, Layers layers = Layers::Joined)
+{
+  return frontSurface(
+    cloud, NearestPoints(cloud.points()), samples, layers, 1, [](double) { return true; });
+}
+}
+
+// Keeps the promise: of closed shapes the front is closed, and has their genus.
+TEST(FrontSurface, ClosesWhereTheShapeIsClosed)
+{
+  for (const long genus : { 0, 1 })
+  {
+    const PointCloud cloud = cloudOf(genus == 0 ? makeSphere() : makeTorus());
+    const auto surface = front(cloud, 3000);
+    ASSERT_TRUE(surface);
+    const SurfaceReport report = reportOf(*surface, cloud);
+    EXPECT_TRUE(report.isClosed());
+    EXPECT_EQ(report.genus, genus);
+    EXPECT_EQ(report.components, 1u);
+    EXPECT_LT(surface->disorder(), 2.);
+  }
+}
+
+// Keeps the promise: the surface ends where the points end, and pieces stay apart.
+TEST(FrontSurface, EndsWhereThePointsEnd)
+{
+  TriangleMesh surface = makeSphere();
+  std::erase_if(surface.triangles,
+    [&](const auto& triangle) { return std::abs(surface.points[triangle[0]].z()) < 0.3; });
+  const PointCloud cloud = cloudOf(surface);
+  const auto caps = front(cloud, 3000);
+  ASSERT_TRUE(caps);
+  const SurfaceReport report = reportOf(*caps, cloud);
+  EXPECT_EQ(report.components, 2u);
+  EXPECT_EQ(report.boundaryLoops, 2u);
+}
+
+// Keeps the promise: what is thinner than the distance between samples has two sides all the same, if
+// layers are kept apart; and where they are not, the disorder tells.
+TEST(FrontSurface, KeepsTheTwoSidesOfAPlate)
+{
+  const PointCloud cloud = cloudOf(plate(0.03), 0., 100000);
+  const auto apart = front(cloud, 4000, Layers::Apart), joined = front(cloud, 4000);
+  ASSERT_TRUE(apart);
+  ASSERT_TRUE(joined);
+  const SurfaceReport report = reportOf(*apart, cloud);
+  EXPECT_TRUE(report.isClosed());
+  EXPECT_EQ(report.genus, 0);
+  EXPECT_EQ(report.components, 1u);
+  EXPECT_LT(apart->disorder(), 5.);
+  EXPECT_GT(joined->disorder(), 20.);
+}
+
+// Keeps the promise: samples lie closer to the surface than the points do.
+TEST(FrontSurface, TakesAwayNoise)
+{
+  const PointCloud cloud = cloudOf(makeSphere(), 0.004);
+  const auto surface = front(cloud, 2000);
+  ASSERT_TRUE(surface);
+  const auto meanHeight = [&](std::span<const Vector4> points)
+  {
+    double sum = 0.;
+    for (const Vector4 point : points)
+    {
+      sum += std::abs(cloud.toInput(point).norm() - 1.);
+    }
+    return sum / double(points.size());
+  };
+  EXPECT_LT(meanHeight(surface->mesh.positions()), 0.5 * meanHeight(cloud.points()));
+}
+
+// Keeps the promise: the same bytes each time.
+TEST(FrontSurface, IsTheSameEachTime)
+{
+  const PointCloud cloud = cloudOf(makeTorus(), 0.003, 10000);
+  const auto first = front(cloud, 2000), second = front(cloud, 2000);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(neuralmesh::trianglesOf(first->mesh, cloud).points,
+    neuralmesh::trianglesOf(second->mesh, cloud).points);
+}
+
+// Keeps the promise: it can be ended at any time.
+TEST(FrontSurface, CanBeEnded)
+{
+  const PointCloud cloud = cloudOf(makeSphere());
+  const NearestPoints nearest(cloud.points());
+  int calls = 0;
+  const auto surfaceAfter = [&](int last)
+  {
+    calls = 0;
+    return frontSurface(
+      cloud, nearest, 2000, Layers::Joined, 1, [&](double) { return calls++ < last; });
+  };
+  ASSERT_TRUE(surfaceAfter(1000));
+  const int all = calls;
+  EXPECT_GT(all, 5);
+  for (int last = 0; last < all; ++last)
+  {
+    EXPECT_FALSE(surfaceAfter(last));
+    EXPECT_LE(calls, last + 2);
+  }
+}
+
+// Keeps the promise: too few points are no surface, whatever lies where.
+TEST(FrontSurface, TakesFewAndFlatPoints)
+{
+  for (const std::size_t count : { 2u, 3u, 5u, 20u })
+  {
+    std::vector<Eigen::Vector3d> line, spot;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      line.emplace_back(double(i), 0., 0.);
+      spot.emplace_back(i == 0 ? 1. : 0., 0., 0.);
+    }
+    EXPECT_FALSE(front(PointCloud(line), 100));
+    EXPECT_FALSE(front(PointCloud(spot), 100));
+  }
+}
+}
