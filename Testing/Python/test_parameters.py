@@ -75,6 +75,14 @@ class Values(unittest.TestCase):
                 getter = "Get" + name.removeprefix("Set")
                 self.assertEqual(getattr(assigned, getter)(), getattr(fresh, getter)(), name)
 
+    # Promise: choices of VTK are words, too.
+    def test_precision(self):
+        for word, data_type in (("single", "float"), ("double", "double")):
+            mesh = reconstruct(output_points_precision=word)
+            self.assertEqual(mesh.GetPoints().GetData().GetDataTypeAsString(), data_type)
+        with self.assertRaisesRegex(ValueError, "'single' or 'double'|'double'.*'single'"):
+            reconstruct(output_points_precision=1)
+
 
 class Errors(unittest.TestCase):
     # Promise: each parameter with a range takes its ends, and nothing beyond; the ValueError names
