@@ -476,7 +476,8 @@ bool vtkNeuralMesh::BeginRun(
   {
     vtkWarningMacro(<< "The mesh to start from has " << run.FirstMesh->vertexCount()
                     << " vertices, more than " << this->NumberOfVertices
-                    << ": it comes out as it is.");
+                    << (run.Parameters.fitRounds > 0 ? ": it is fitted, but grows no further."
+                                                     : ": it comes out as it is."));
   }
   return true;
 }

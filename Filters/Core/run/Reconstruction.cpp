@@ -72,7 +72,7 @@ Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
   Checkpoint checkpoint(plan, input, requested);
 
   result.times.enter(Phase::Start);
-  const Parameters parameters = first ? requested : learnable(requested, input);
+  const Parameters parameters = learnable(requested, input);
   const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
   const double startOfLearning = startsFromSpace ? StartOfLearning : 0.;
   const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
@@ -96,10 +96,11 @@ Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
   learner.reset();
 
   result.times.enter(Phase::Finish);
-  if (parameters.fitRounds > 0 && result.isComplete() && result.counts.iterations > 0)
+  // A first mesh may have all vertices already: then it is fitted as it is.
+  if (parameters.fitRounds > 0 && result.isComplete() && (first || result.counts.iterations > 0))
   {
     const std::size_t vertices = result.stopReason == StopReason::Vertices
-      ? std::size_t(requested.numberOfVertices)
+      ? std::max(std::size_t(requested.numberOfVertices), learnt.mesh.vertexCount())
       : learnt.mesh.vertexCount();
     const Progress finishing = partOf(progress, endOfLearning, 1.);
     result.finish = finish(

@@ -56,10 +56,10 @@ inline constexpr double EndOfLearning = 0.65;
 
 /// Grows a mesh over a cloud that has an extent: from `first`, or what the parameters have it start
 /// from if there is none, until a stopping rule is met. Then finishes it, unless there is no time
-/// left, or nothing was learnt; and turns it to its outer side, by `hints` if they tell. Snapshots of
-/// the growth go to `watch`. The run goes on from the checkpoint that `plan` names, if there is one, and
-/// leaves one there: in the end, too, for what becomes of the result is not known here. Throws as
-/// Checkpoint does.
+/// left, or there is neither a first mesh nor anything learnt; and turns it to its outer side, by
+/// `hints` if they tell. Snapshots of the growth go to `watch`. The run goes on from the checkpoint
+/// that `plan` names, if there is one, and leaves one there: in the end, too, for what becomes of the
+/// result is not known here. Throws as Checkpoint does.
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
   const Progress& progress, const std::optional<Mesh>& first = {}, const GrowthWatch& watch = {},
   const CheckpointPlan& plan = {}, const Executor& executor = Executor::sequential(),

@@ -77,15 +77,16 @@ TEST_P(FirstMesh, KeepsVerticesThatCouldNotWinYet)
   EXPECT_GT(result.mesh.points.size(), torus.points.size());
 }
 
-// A first mesh of all the vertices that are asked for, or more, comes out unlearnt.
+// A first mesh of all the vertices that are asked for, or more, comes out as it is if there is no fit.
 TEST_P(FirstMesh, ComesOutUnlearntIfLargeEnough)
 {
   const TriangleMesh torus = makeTorus(0.4, 20);
   const PointCloud cloud = cloudOf(makeTorus(0.3));
   for (const std::size_t vertices : { torus.points.size(), torus.points.size() - 1 })
   {
-    const Reconstruction result =
-      reconstruct(cloud, parameters(vertices), goOn, buildMesh(torus, cloud));
+    Parameters withoutFit = parameters(vertices);
+    withoutFit.fitRounds = 0;
+    const Reconstruction result = reconstruct(cloud, withoutFit, goOn, buildMesh(torus, cloud));
     EXPECT_EQ(result.stopReason, StopReason::Vertices);
     EXPECT_EQ(result.counts.iterations, 0u);
     ASSERT_EQ(result.mesh.points.size(), torus.points.size());
@@ -145,5 +146,48 @@ TEST(FirstMeshRun, ProgressStartsAtZero)
   EXPECT_EQ(told.front(), 0.);
   EXPECT_GT(told.back(), 0.5);
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+}
+
+// A first mesh that has as many vertices as asked for, or more, is fitted: it comes closer to the
+// surface, and no vertex comes or goes.
+TEST(FittedFirstMesh, OfAllVertices)
+{
+  const PointCloud cloud(sphereCloud());
+  TriangleMesh rough = makeSphere(18);
+  Random random(4);
+  for (Eigen::Vector3d& point : rough.points)
+  {
+    point += randomPoint(random, 0.02f).toDouble();
+  }
+  const Mesh first = buildMesh(rough, cloud);
+  for (const std::size_t wanted : { rough.points.size(), rough.points.size() / 2 })
+  {
+    Parameters parameters;
+    parameters.numberOfVertices = wanted;
+    const Reconstruction result = reconstruct(cloud, parameters, goOn, first);
+    EXPECT_EQ(result.stopReason, StopReason::Vertices);
+    EXPECT_EQ(result.counts.iterations, 0u);
+    ASSERT_TRUE(result.finish);
+    EXPECT_EQ(result.mesh.points.size(), rough.points.size());
+    parameters.fitRounds = 0;
+    const Reconstruction asItIs = reconstruct(cloud, parameters, goOn, first);
+    EXPECT_LT(result.quality->residual, 0.3 * asItIs.quality->residual);
+  }
+}
+
+// More vertices than half of the different points are not learnt from a first mesh either: what is
+// asked for beyond comes from halving edges.
+TEST(FittedFirstMesh, GrowsNoFurtherThanThereArePoints)
+{
+  CloudOptions options;
+  options.count = 1400;
+  const PointCloud cloud(sphereCloud(options));
+  Parameters parameters;
+  parameters.numberOfVertices = 3000;
+  const Mesh first = buildMesh(makeSphere(6), cloud);
+  const Reconstruction result = reconstruct(cloud, parameters, goOn, first);
+  EXPECT_EQ(result.mesh.points.size(), 3000u);
+  EXPECT_LE(first.vertexCount() + result.counts.additions - result.counts.removals, 710u);
+  EXPECT_EQ(checkManifold(result.mesh.points.size(), result.mesh.triangles).defect, "");
 }
 }
