@@ -5,6 +5,7 @@
 #include "learn/ExactOrder.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace neuralmesh
 {
@@ -17,6 +18,10 @@ constexpr std::size_t VerticesPerSampleOfBatch = 8;
 /// many samples at most: each time the limit sinks, until it tells outliers.
 constexpr int FirstObservations = 8;
 constexpr std::size_t MostFirstSamples = 1 << 16;
+
+/// Where points are sparse, edges are long and samples far from their winners: closer than so many
+/// edges none is an outlier.
+constexpr float LeastOutlierEdges = 2.f;
 
 /// Radius of the first tetrahedron; the bulk of the cloud has a diagonal of 1.
 constexpr float FirstRadius = 0.1f;
@@ -35,6 +40,20 @@ Mesh firstTetrahedron(const PointCloud& cloud)
 {
   const Vector4 center = max(min(meanOf(cloud.points()), cloud.bulkMax()), cloud.bulkMin());
   return Mesh::tetrahedron(center, FirstRadius);
+}
+
+/// The mean edge opposite to a vertex: of a spike that an outlier has drawn out, these are as short as
+/// around it.
+float meanOppositeEdge(const Mesh& mesh, VertexIndex v)
+{
+  const Ring& ring = mesh.ring(v);
+  float sum = 0.f;
+  for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+  {
+    sum +=
+      std::sqrt(squaredNorm(mesh.position(ring[ring.after(slot)]) - mesh.position(ring[slot])));
+  }
+  return sum / float(ring.triangleCount());
 }
 
 /// Counters with which no vertex counts as idle before it could win: with counters of zero, most of
@@ -172,7 +191,7 @@ void Learner::basicStep(Vector4 sample, VertexIndex winner)
   const Vector4 toSample = sample - mesh().position(winner); // d
   const float squaredDistance = squaredNorm(toSample);
   noiseFilter_.observeNowAndThen(squaredDistance);
-  if (noiseFilter_.rejects(squaredDistance))
+  if (isOutlier(winner, squaredDistance))
   {
     ++counts_.rejectedSamples;
     neuralMesh_.pass(decay_);
@@ -194,6 +213,16 @@ void Learner::basicStep(Vector4 sample, VertexIndex winner)
   {
     neuralMesh_.values(*hasWon_)[winner] = 1;
   }
+}
+
+bool Learner::isOutlier(VertexIndex winner, float squaredDistance) const
+{
+  if (!noiseFilter_.rejects(squaredDistance))
+  {
+    return false;
+  }
+  const float near = LeastOutlierEdges * meanOppositeEdge(mesh(), winner);
+  return squaredDistance > near * near;
 }
 
 double Learner::gainOfMove(VertexIndex winner, Vector4 position)

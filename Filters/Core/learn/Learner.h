@@ -127,6 +127,8 @@ private:
   void learnBatch(std::size_t size);
   void findWinners(std::span<const Vector4> samples);
   void basicStep(Vector4 sample, VertexIndex winner);
+  /// Whether nothing is to be learnt of a sample so far from its winner.
+  bool isOutlier(VertexIndex winner, float squaredDistance) const;
   double gainOfMove(VertexIndex winner, Vector4 position);
   /// Takes the distances to a first mesh before it moves: outliers would pull at it at once.
   void observeFirstMesh();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AllocationCounter.h"
+#include "cloud/MeshBuilder.h"
 #include "learn/ExactOrder.h"
 #include "learn/ListOrder.h"
 #include "LearnerSettings.h"
@@ -9,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -279,6 +281,44 @@ TEST(Learner, OutliersAreRejected)
   EXPECT_EQ(unlimited.counts.rejectedSamples, 0u);
   EXPECT_LT(deviationFromSphere(limited.mesh).largest, 0.1);
   EXPECT_GT(deviationFromSphere(unlimited.mesh).largest, 0.1);
+}
+
+// Where points are sparse, samples far from their winners are no outliers: of a small cloud beside one
+// of a hundred times as many points, as large, hardly a sample is rejected, and its part of the mesh
+// keeps its vertices.
+TEST(Learner, SparsePartsAreNoOutliers)
+{
+  CloudOptions options;
+  options.count = 40000;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
+  const auto beside = [](const Eigen::Vector3d& point) -> Eigen::Vector3d
+  { return point + Eigen::Vector3d(3., 0., 0.); };
+  options.count = 400;
+  options.seed = 2;
+  for (const Eigen::Vector3d& point : generateCloud(makeSphere(), options))
+  {
+    points.push_back(beside(point));
+  }
+  const PointCloud cloud(points);
+  TriangleMesh spheres = makeSphere(30);
+  const auto verticesOfDense = std::uint32_t(spheres.points.size());
+  const TriangleMesh coarse = makeSphere(3);
+  for (const Eigen::Vector3d& point : coarse.points)
+  {
+    spheres.points.push_back(beside(point));
+  }
+  for (const auto& [a, b, c] : coarse.triangles)
+  {
+    spheres.triangles.push_back({ a + verticesOfDense, b + verticesOfDense, c + verticesOfDense });
+  }
+  Parameters parameters;
+  parameters.numberOfVertices = 2 * verticesOfDense;
+  parameters.fitRounds = 0;
+  const Reconstruction result = reconstruct(cloud, parameters, goOn, buildMesh(spheres, cloud));
+  EXPECT_LT(double(result.counts.rejectedSamples), 0.001 * double(result.counts.iterations));
+  const auto isBeside = [](const Eigen::Vector3d& point) { return point.x() > 1.5; };
+  EXPECT_GT(std::count_if(result.mesh.points.begin(), result.mesh.points.end(), isBeside),
+    std::ptrdiff_t(coarse.points.size()) / 2);
 }
 
 // --- Memory --------------------------------------------------------------------------------------
