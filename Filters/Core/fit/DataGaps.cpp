@@ -3,6 +3,7 @@
 
 #include "base/DisjointSets.h"
 #include "cloud/VertexGrid.h"
+#include "fit/LocalSpacing.h"
 #include "mesh/BoundaryFilling.h"
 #include "mesh/BoundaryManager.h"
 #include "mesh/BoundaryMerging.h"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -31,6 +33,9 @@ constexpr double LeastMedians = 5.;
 /// chance.
 constexpr std::size_t LeastSamplesPerTriangle = 2;
 constexpr double LeastSpacingsIfEmpty = 1.5;
+/// Of the distance between samples on average: where they are farther from each other, it is theirs
+/// that counts, and triangles may be too small there.
+constexpr double SparseSpacings = 2.;
 
 double areaOf(const Mesh& mesh, const Triangle& triangle)
 {
@@ -131,35 +136,94 @@ std::vector<Piece> findPieces(const Mesh& mesh, const NumberedTriangles& triangl
   return pieces;
 }
 
-/// Some points of a cloud, for the distance to the closest of them.
+/// The closest of some points.
 class SomePoints
 {
 public:
-  SomePoints(const PointCloud& cloud, std::size_t count)
+  SomePoints(const PointCloud& cloud, std::vector<Vector4> points)
+    : points_(std::move(points))
   {
-    const std::size_t all = cloud.points().size();
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      points_.push_back(cloud.points()[i * all / count]);
-    }
     const Vector4 size = cloud.bulkMax() - cloud.bulkMin();
-    const float cell = 2.f * std::sqrt(squaredNorm(size) / float(count));
-    grid_.reset(cloud.bulkMin(), cloud.bulkMax(), cell, count);
-    for (std::size_t i = 0; i < count; ++i)
+    const float cell = 2.f * std::sqrt(squaredNorm(size) / float(points_.size()));
+    grid_.reset(cloud.bulkMin(), cloud.bulkMax(), cell, points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i)
     {
       grid_.insert(VertexIndex(i), points_[i]);
     }
   }
+  /// So many of a cloud.
+  SomePoints(const PointCloud& cloud, std::size_t count)
+    : SomePoints(cloud, picked(cloud, count))
+  {
+  }
 
+  std::size_t closest(Vector4 point) const { return grid_.closest(point, points_); }
   double distance(Vector4 point) const
   {
-    const VertexIndex closest = grid_.closest(point, points_);
-    return std::sqrt(double(squaredNorm(points_[closest] - point)));
+    return std::sqrt(double(squaredNorm(points_[closest(point)] - point)));
   }
 
 private:
+  static std::vector<Vector4> picked(const PointCloud& cloud, std::size_t count)
+  {
+    const std::size_t all = cloud.points().size();
+    std::vector<Vector4> points;
+    points.reserve(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      points.push_back(cloud.points()[i * all / count]);
+    }
+    return points;
+  }
+
   std::vector<Vector4> points_;
   VertexGrid grid_;
+};
+
+/// Where samples are sparse: how far they are from each other around those that are closest.
+class SparseSpacing
+{
+public:
+  SparseSpacing(const PointCloud& cloud, const Mesh& mesh, std::span<const PlaceOnMesh> places)
+    : cloud_(cloud)
+    , mesh_(mesh)
+    , places_(places)
+    , spacing_(mesh, places)
+    , least_(SparseSpacings * double(spacing_.usual()))
+    , isAnywhere_(std::any_of(places.begin(), places.end(),
+        [this](const PlaceOnMesh& place) { return double(spacing_.samplesAt(place)) > least_; }))
+  {
+  }
+
+  /// 0 where they are not.
+  double at(Vector4 point)
+  {
+    if (!isAnywhere_)
+    {
+      return 0.;
+    }
+    if (!points_)
+    {
+      std::vector<Vector4> points;
+      points.reserve(places_.size());
+      for (const PlaceOnMesh& place : places_)
+      {
+        points.push_back(pointAt(place, mesh_.positions()));
+      }
+      points_.emplace(cloud_, std::move(points));
+    }
+    const double spacing = double(spacing_.samplesAt(places_[points_->closest(point)]));
+    return spacing > least_ ? spacing : 0.;
+  }
+
+private:
+  const PointCloud& cloud_;
+  const Mesh& mesh_;
+  std::span<const PlaceOnMesh> places_;
+  LocalSpacing spacing_;
+  double least_;
+  bool isAnywhere_;
+  std::optional<SomePoints> points_;
 };
 }
 
@@ -181,13 +245,24 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
     }
     return points->distance(centerOf(mesh, triangles.all()[t]));
   };
+  // Where samples are sparse, their number on average tells nothing.
+  SparseSpacing sparse(cloud, mesh, places);
+  const auto sparseSpacing = [&](std::uint32_t t)
+  { return sparse.at(centerOf(mesh, triangles.all()[t])); };
+  const auto isTooSmall = [&](std::uint32_t t)
+  {
+    const double spacing = sparseSpacing(t);
+    return areaOf(mesh, triangles.all()[t]) < double(LeastSamplesPerTriangle) * spacing * spacing &&
+      distance(t) <= LeastSpacingsIfEmpty * spacing;
+  };
   const bool isFine = places.size() < LeastSamplesPerTriangle * triangles.all().size();
   const double meanDensity = isFine ? double(places.size()) / areaOf(mesh) : 0.;
   const double meanSpacing = isFine ? 1. / std::sqrt(meanDensity) : 0.;
   std::vector<bool> isEmpty(samples.size());
   for (std::uint32_t t = 0; t < samples.size(); ++t)
   {
-    isEmpty[t] = samples[t] == 0 && (!isFine || distance(t) > LeastSpacingsIfEmpty * meanSpacing);
+    isEmpty[t] = samples[t] == 0 && (!isFine || distance(t) > LeastSpacingsIfEmpty * meanSpacing) &&
+      !isTooSmall(t);
   }
   std::vector<Piece> pieces = findPieces(mesh, triangles, samples, isEmpty);
   // Small triangles around a piece may have too few samples to tell.
@@ -200,7 +275,8 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   {
     const double spacing = std::max(meanSpacing, 1. / std::sqrt(densityAt(piece)));
     const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
-    const auto isFar = [&](std::uint32_t t) { return distance(t) > reach; };
+    const auto isFar = [&](std::uint32_t t)
+    { return distance(t) > std::max(reach, LeastSpacings * sparseSpacing(t)); };
     if (piece.isAtBoundary || std::any_of(piece.triangles.begin(), piece.triangles.end(), isFar))
     {
       for (const std::uint32_t t : piece.triangles)

@@ -15,8 +15,8 @@ namespace neuralmesh
 /// - are so large that many should, if samples lay there as densely as around the piece, and
 /// - lie at a boundary, or reach farther away from all points than points are from each other and
 ///   from the mesh; else the mesh does not fit yet.
-/// Where triangles are smaller than the distance between samples, those near to a point are no part
-/// of such pieces.
+/// Where triangles are smaller than the distance between samples, everywhere or around those nearest
+/// to them, those near to a point are no part of such pieces.
 /// `places` are those of samples evenly picked from the cloud, `medianDistance` is that of the
 /// samples to the mesh.
 std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,

@@ -16,6 +16,10 @@ constexpr double Slip = 0.01;
 /// In the first round samples are no outliers up to so many edges: the mesh does not fit yet.
 constexpr float FirstOutlierEdges = 1.f;
 constexpr float LaterOutlierEdges = 0.5f;
+/// ... and, where samples are so many times farther from each other than usual, up to so many edges and
+/// so many times the distance between samples around their places.
+constexpr float SparseSpacings = 2.f;
+constexpr float OutlierSpacings = 3.f;
 constexpr std::size_t SamplesPerAbortCheck = 65536;
 // Parts for the executor.
 constexpr std::size_t FitSamplesPerRange = 1024;
@@ -81,6 +85,7 @@ SurfaceFit::SurfaceFit(
     }
   }
   places_.resize(count);
+  isUsed_.resize(count);
 }
 
 bool SurfaceFit::findPlaces(const Progress& progress)
@@ -110,8 +115,32 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   hasPlaces_ = true;
   medianDistance_ = std::sqrt(medianOf(distances, executor_));
   outlierDistance_ = neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(), edges);
+  chooseUsed(edges);
   fillSystem();
   return true;
+}
+
+void SurfaceFit::chooseUsed(float edges)
+{
+  const LocalSpacing& spacing = spacing_.emplace(mesh_, places_);
+  const float usual = spacing.usual();
+  executor_.forEachRange(places_.size(), FitSamplesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const PlaceOnMesh& place = places_[i];
+        const auto isWithin = [&place](float distance)
+        { return place.squaredDistance <= distance * distance; };
+        const auto isNearForSparse = [&]
+        {
+          const float local = spacing.samplesAt(place);
+          return local > SparseSpacings * usual &&
+            (isWithin(edges * spacing.edgeAt(place)) || isWithin(OutlierSpacings * local));
+        };
+        isUsed_[i] = isWithin(outlierDistance_) || isNearForSparse() ? 1 : 0;
+      }
+    });
 }
 
 void SurfaceFit::fillSystem()
@@ -119,8 +148,8 @@ void SurfaceFit::fillSystem()
   // Anew, as edges may have been flipped.
   system_.emplace(mesh_, Slip, executor_);
   forEachRows([this](const FitSystem::Rows& rows) { fillRows(rows); });
-  usedCount_ = std::size_t(executor_.sum(places_.size(), FitSamplesPerRange,
-    [this](std::size_t i) { return isUsed(places_[i]) ? 1. : 0.; }));
+  usedCount_ = std::size_t(executor_.sum(
+    places_.size(), FitSamplesPerRange, [this](std::size_t i) { return isUsed(i) ? 1. : 0.; }));
   if (isOpen(mesh_))
   {
     pullBoundariesIn();
@@ -147,7 +176,7 @@ void SurfaceFit::fillRows(const FitSystem::Rows& rows)
   {
     const PlaceOnMesh& place = places_[i];
     const auto& [a, b, c] = place.triangle;
-    if (isUsed(place) && (rows.has(a) || rows.has(b) || rows.has(c)))
+    if (isUsed(i) && (rows.has(a) || rows.has(b) || rows.has(c)))
     {
       // Beyond a boundary the distance along the surface counts in full: there is no other place.
       const Vector4 normal =
@@ -186,11 +215,11 @@ void SurfaceFit::pullBoundariesIn()
   forEachRows(
     [&](const FitSystem::Rows& rows)
     {
-      for (const PlaceOnMesh& place : places_)
+      for (std::size_t i = 0; i < places_.size(); ++i)
       {
-        if (isUsed(place))
+        if (isUsed(i))
         {
-          measure(place, rows);
+          measure(places_[i], rows);
         }
       }
     });
@@ -282,7 +311,7 @@ double SurfaceFit::residualVariance(std::span<const Vector4> positions, double l
   const auto squaredDistance = [&](std::size_t i)
   {
     const PlaceOnMesh& place = places_[i];
-    if (!isUsed(place))
+    if (!isUsed(i))
     {
       return 0.;
     }
@@ -290,8 +319,11 @@ double SurfaceFit::residualVariance(std::span<const Vector4> positions, double l
     const Vector4 offset = samples_[i] - positions[place.triangle[0]];
     const float across = dot(offset, normal);
     const float squared = squaredNorm(normal);
+    const float distance = squared > 0.f ? across * across / squared : squaredNorm(offset);
+    // Where points are sparse the mesh may be farther off than any noise.
+    const float most = outlierDistance_ * outlierDistance_;
     return double(weight(i)) *
-      (squared > 0.f ? double(across * across / squared) : double(squaredNorm(offset)));
+      double(place.squaredDistance > most ? std::min(most, distance) : distance);
   };
   const double sum = executor_.sum(samples_.size(), FitSamplesPerRange, squaredDistance);
   // Vertices follow noise, the less the smoother they are held: so many of them do (a curve through
@@ -327,9 +359,10 @@ double SurfaceFit::roughness(std::span<const Vector4> positions) const
 double SurfaceFit::distanceEvenness() const
 {
   double sum = 0., squares = 0., count = 0.;
-  for (const PlaceOnMesh& place : places_)
+  for (std::size_t i = 0; i < places_.size(); ++i)
   {
-    if (isUsed(place) && !isOnBoundary(place, mesh_))
+    const PlaceOnMesh& place = places_[i];
+    if (isUsed(i) && !isOnBoundary(place, mesh_))
     {
       sum += std::sqrt(double(place.squaredDistance));
       squares += double(place.squaredDistance);

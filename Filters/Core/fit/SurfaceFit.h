@@ -6,9 +6,11 @@
 #include "cloud/PlaceOnMesh.h"
 #include "cloud/PointCloud.h"
 #include "fit/FitSystem.h"
+#include "fit/LocalSpacing.h"
 #include "mesh/Mesh.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -32,6 +34,8 @@ class SurfaceFit
 public:
   /// The least lambda that is worth trying: with less, triangles would fold.
   static constexpr double LeastSmoothness = 0.03;
+  /// With a lambda by the data below this one, the cloud counts as clean.
+  static constexpr double CleanSmoothness = 0.2;
 
   /// Takes so many points of the cloud, evenly picked but for those held out, as samples. No vertex
   /// may be erased. Cloud, mesh and executor must outlive the fit.
@@ -52,7 +56,8 @@ public:
   double noise() const { return noise_; }
   /// Part of the samples that are outliers.
   double outlierShare() const;
-  /// Beyond this distance a sample is an outlier.
+  /// Beyond this distance a sample is an outlier; where points are sparse, beyond some edges around its
+  /// place, and some distances between samples there.
   float outlierDistance() const { return outlierDistance_; }
   /// Mean over root mean square of the distances of samples to the mesh: 0.8 for noise, 1 if all are
   /// as far away.
@@ -63,11 +68,10 @@ public:
   std::span<const PlaceOnMesh> places() const { return places_; }
 
 private:
-  bool isUsed(const PlaceOnMesh& place) const
-  {
-    return place.squaredDistance <= outlierDistance_ * outlierDistance_;
-  }
+  bool isUsed(std::size_t sample) const { return isUsed_[sample] != 0; }
   float weight(std::size_t sample) const { return weights_.empty() ? 1.f : weights_[sample]; }
+  /// Tells outliers by how far samples are from each other around their places.
+  void chooseUsed(float edges);
   void fillSystem();
   template <typename Body>
   void forEachRows(const Body& body) const;
@@ -84,7 +88,9 @@ private:
   std::vector<Vector4> samples_;
   std::vector<float> weights_; ///< of the samples; empty if all weigh alike
   std::vector<PlaceOnMesh> places_;
+  std::vector<std::uint8_t> isUsed_; ///< of the samples, those that are no outliers
   bool hasPlaces_ = false;
+  std::optional<LocalSpacing> spacing_; ///< at the last findPlaces()
   std::size_t usedCount_ = 0;
   float outlierDistance_ = 0.f;
   float medianDistance_ = 0.f;

@@ -5,9 +5,13 @@
 #include "cloud/MeshBuilder.h"
 #include "fit/SurfaceFit.h"
 #include "MeshTools.h"
+#include "OpenShapes.h"
 #include "SphereRuns.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
 
 namespace neuralmesh::testing
 {
@@ -179,6 +183,39 @@ TEST(DataGaps, MeshesFinerThanTheCloud)
 }
 
 // A hole through a cube, with a web on both sides: the webs are cut, and their rims joined to a
+// A sheet whose points are a hundred times as sparse on one half as on the other has no gap there, but
+// for a seam beside the dense half, though nearly all of its 3600 triangles are empty; a hole in the
+// sparse half is one.
+TEST(DataGaps, SparsePartsAreNone)
+{
+  Random random(5);
+  const auto isInHole = [](const Eigen::Vector3d& point)
+  { return (point - Eigen::Vector3d(0.75, 0.5, 0.)).norm() < 0.24; };
+  for (const bool hasHole : { false, true })
+  {
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 40400; ++i)
+    {
+      const double x = 0.5 * random.uniform();
+      points.emplace_back(i < 40000 ? x : 0.5 + x, random.uniform(), 0.);
+    }
+    if (hasHole)
+    {
+      std::erase_if(points, isInHole);
+    }
+    const PointCloud cloud(points);
+    Mesh mesh = buildMesh(makeGrid(60), cloud);
+    const std::vector<Triangle> gaps = gapsOf(cloud, mesh);
+    const auto isWithin = [&](const Triangle& triangle)
+    { return isInHole(cloud.toInput(mesh.position(triangle[0]))); };
+    if (hasHole)
+    {
+      EXPECT_GT(std::count_if(gaps.begin(), gaps.end(), isWithin), 200);
+    }
+    EXPECT_LT(std::count_if(gaps.begin(), gaps.end(), std::not_fn(isWithin)), 300);
+  }
+}
+
 // handle. Farther from each other than bridges are wide, they stay open.
 TEST(DataGaps, WebsAcrossHandlesAreCut)
 {

@@ -49,6 +49,18 @@ SurfaceFit fitted(const PointCloud& cloud, Mesh& mesh, double lambda)
   return fit;
 }
 
+double meanDistance(
+  const PointCloud& cloud, const std::vector<Eigen::Vector3d>& points, const Mesh& mesh)
+{
+  const VertexGrid grid = gridOf(mesh, cloud);
+  double sum = 0.;
+  for (const Eigen::Vector3d& point : points)
+  {
+    sum += std::sqrt(double(closestPlace(cloud.fromInput(point), mesh, grid).squaredDistance));
+  }
+  return cloud.unit() * sum / double(points.size());
+}
+
 std::vector<Eigen::Vector3d> pointsOf(const Mesh& mesh)
 {
   std::vector<Eigen::Vector3d> points;
@@ -139,6 +151,33 @@ TEST(SurfaceFit, OutliersDoNotPull)
   EXPECT_GT(fit.outlierShare(), 0.06);
   EXPECT_LT(fit.outlierShare(), 1. / 11. + 0.01);
   EXPECT_LT(largestDistance(sphere, trianglesOf(mesh, cloud)), 0.005 * sphere.diagonal);
+}
+
+/// The unit square with many points in its left half and few in the right one, which rises there
+/// like a roof.
+std::vector<Eigen::Vector3d> roofedSquare(std::size_t dense, std::size_t sparse, double height)
+{
+  Random random(7);
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < dense + sparse; ++i)
+  {
+    const double x = 0.5 * random.uniform(), y = random.uniform();
+    points.emplace_back(
+      i < dense ? x : 0.5 + x, y, i < dense ? 0. : height * (0.5 - std::abs(x - 0.25)));
+  }
+  return points;
+}
+
+// Where points are sparse a distance that would be an outlier's elsewhere is none: the fit brings the
+// mesh to them.
+TEST(SurfaceFit, SparsePointsAreNoOutliers)
+{
+  const std::vector<Eigen::Vector3d> points = roofedSquare(40000, 400, 0.2);
+  const PointCloud cloud(points);
+  Mesh mesh = buildMesh(makeGrid(20), cloud);
+  fitted(cloud, mesh, 0.1);
+  const std::vector<Eigen::Vector3d> sparse(points.begin() + 40000, points.end());
+  EXPECT_LT(meanDistance(cloud, sparse, mesh), 0.02);
 }
 
 // A boundary ends up where the samples end, whether it was inside or far outside of them.
