@@ -85,6 +85,11 @@ void PrintReport(vtkPolyData* mesh)
     std::printf(", noise about %.3g", noise);
   }
   std::printf(", %.2g %% outliers\n", 100.0 * FieldNumber(mesh, "OutlierShare"));
+  if (const long long rounds = FieldValue(mesh, "FitRoundsTakenBack"); rounds > 0)
+  {
+    std::printf("fit        %s taken back: with more of it the mesh was worse than before\n",
+      Counted(rounds, "round", "rounds").c_str());
+  }
   const long long genus = FieldValue(mesh, "Genus");
   const long long cutting = FieldValue(mesh, "IntersectingTriangles");
   std::printf("shape      %s, %s, %s, %s, %s\n",

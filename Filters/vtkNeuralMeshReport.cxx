@@ -82,13 +82,14 @@ void vtkNeuralMeshReport::AddQuality(
   addCount("IntersectingTriangles",
     result.finish ? static_cast<vtkIdType>(result.finish->left.intersectingTriangles)
                   : NotLookedFor);
+  addCount("FitRoundsTakenBack", result.finish ? result.finish->roundsTakenBack : 0);
 }
 
 void vtkNeuralMeshReport::RemoveFrom(vtkPolyData* output)
 {
   for (const char* name : { "Residual", "Noise", "OutlierShare", "RegularRatio", "TriangleQuality",
          "Components", "Genus", "BoundaryLoops", "FoldedEdges", "IntersectingTriangles",
-         "ChosenParameters", "ReasonsOfChoice" })
+         "FitRoundsTakenBack", "ChosenParameters", "ReasonsOfChoice" })
   {
     output->GetFieldData()->RemoveArray(name);
   }

@@ -9,9 +9,9 @@
 
 namespace
 {
-constexpr std::array<const char*, 10> Names{ "Residual", "Noise", "OutlierShare", "RegularRatio",
-  "TriangleQuality", "Components", "Genus", "BoundaryLoops", "FoldedEdges",
-  "IntersectingTriangles" };
+constexpr std::array<const char*, 11> Names{ "Residual", "Noise", "OutlierShare", "RegularRatio",
+  "TriangleQuality", "Components", "Genus", "BoundaryLoops", "FoldedEdges", "IntersectingTriangles",
+  "FitRoundsTakenBack" };
 
 using FilterTesting::FieldValue;
 
@@ -61,6 +61,7 @@ int CheckNoisySphere()
   CHECK(FieldValue(mesh, "Components") == 1 && FieldValue(mesh, "Genus") == 0);
   CHECK(FieldValue(mesh, "BoundaryLoops") == 0 && FieldValue(mesh, "FoldedEdges") == 0);
   CHECK(FieldValue(mesh, "IntersectingTriangles") == 0);
+  CHECK(FieldValue(mesh, "FitRoundsTakenBack") == 0);
 
   const auto again = Run(NoisySphere());
   for (const char* name : Names)

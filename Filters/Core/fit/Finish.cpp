@@ -15,6 +15,11 @@ namespace
 /// Defects, at most, whose vertices are taken away if nothing else helps.
 constexpr std::size_t MostCollapsed = 200;
 
+DefectCount countDefects(const Mesh& mesh)
+{
+  return { intersectingTriangles(mesh).size(), foldedEdges(mesh).size() };
+}
+
 VertexIndex nearestToCollapseInto(const Mesh& mesh, VertexIndex v)
 {
   VertexIndex nearest = NoVertex;
@@ -43,26 +48,75 @@ Finish::Finish(
 
 bool Finish::run(const Progress& progress)
 {
+  const Mesh before = mesh_;
+  FitGuard guard(cloud_, mesh_, executor_);
+  if (!runRounds(plan_.rounds, guard, progress))
+  {
+    return false;
+  }
+  const Progress untilLater = partOf(progress, 1., 1.);
+  for (int rounds = plan_.rounds - 1; rounds >= 0 && isWorseThan(before, guard); --rounds)
+  {
+    mesh_ = before;
+    report_ = FinishReport{};
+    report_.roundsTakenBack = plan_.rounds - rounds;
+    if (!runRounds(rounds, guard, untilLater))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Whether the mesh is, as it is finished now, against what it was at first.
+bool Finish::isWorseThan(const Mesh& before, FitGuard& guard) const
+{
+  // Whoever asks for a smoothness gets it.
+  const ResidualRule rule = plan_.smoothness > 0.      ? ResidualRule::MayGrow
+    : report_.smoothness < SurfaceFit::CleanSmoothness ? ResidualRule::MayNotGrow
+                                                       : ResidualRule::MayBeNoise;
+  if (guard.isWorse(mesh_, rule, report_.repaired.total() > 0))
+  {
+    return true;
+  }
+  const auto shareOf = [](std::size_t triangles, const Mesh& mesh)
+  { return double(triangles) / double(mesh.vertexCount()); };
+  return report_.left.intersectingTriangles > 0 &&
+    shareOf(report_.left.intersectingTriangles, mesh_) >
+    shareOf(intersectingTriangles(before).size(), before);
+}
+
+/// So many rounds of the fit, and what goes with them.
+bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
+{
   const auto samples = std::size_t(plan_.samplesPerVertex * double(plan_.vertexCount));
   std::optional<SurfaceFit> surfaceFit;
   const auto beginAnew = [&] { surfaceFit.emplace(cloud_, mesh_, samples, executor_); };
+  const auto refineAll = [&](double at)
+  {
+    const bool isDone = refine(mesh_, plan_.vertexCount, partOf(progress, at, at));
+    flipEdges(mesh_);
+    return isDone;
+  };
+  if (rounds == 0 && mesh_.vertexCount() < plan_.vertexCount && !refineAll(0.))
+  {
+    return false;
+  }
   beginAnew();
   double smoothness = plan_.smoothness;
-  for (int round = 0; round < plan_.rounds; ++round)
+  for (int round = 0; round < rounds; ++round)
   {
-    const double rounds = plan_.rounds;
-    const bool isLast = round + 1 == plan_.rounds;
+    const bool isLast = round + 1 == rounds;
     if (isLast && mesh_.vertexCount() < plan_.vertexCount)
     {
-      const double at = round / rounds;
-      if (!refine(mesh_, plan_.vertexCount, partOf(progress, at, at)))
+      if (!refineAll(double(round) / rounds))
       {
         return false;
       }
-      flipEdges(mesh_);
       beginAnew();
     }
-    if (!fit(*surfaceFit, smoothness, partOf(progress, round / rounds, (round + 1) / rounds)))
+    if (!fit(*surfaceFit, smoothness,
+          partOf(progress, double(round) / rounds, double(round + 1) / rounds)))
     {
       return false;
     }
@@ -77,26 +131,39 @@ bool Finish::run(const Progress& progress)
       flipEdges(mesh_);
     }
   }
-  repair(partOf(progress, 1., 1.));
+  if (rounds == 0 && !surfaceFit->findPlaces(partOf(progress, 0., 1.)))
+  {
+    return false;
+  }
+  repair(*surfaceFit, guard, partOf(progress, 1., 1.));
   return true;
 }
 
-void Finish::repair(const Progress& progress)
+/// Where the repair would lose samples, it stays as it was, broken or not.
+void Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress)
 {
-  IntersectionRepair repair = repairIntersections(mesh_, progress);
+  const Mesh broken = mesh_;
+  const IntersectionRepair repair = repairIntersections(mesh_, progress);
   report_.repaired = repair.before;
   report_.left = repair.after;
+  if (repair.before.total() > 0 && guard.losesPoints(mesh_, true))
+  {
+    report_.heldVertices += surfaceFit.holdAgainst(broken);
+    report_.left = countDefects(mesh_);
+  }
   while (report_.left.total() > 0 && report_.left.total() <= MostCollapsed)
   {
     const Mesh before = mesh_;
+    const bool wasWorse = guard.losesPoints(before, true);
     collapseDefects();
-    repair = repairIntersections(mesh_, progress);
-    if (repair.after.total() >= report_.left.total() || mesh_.vertexCount() != before.vertexCount())
+    const IntersectionRepair again = repairIntersections(mesh_, progress);
+    if (again.after.total() >= report_.left.total() ||
+      mesh_.vertexCount() != before.vertexCount() || (!wasWorse && guard.losesPoints(mesh_, true)))
     {
       mesh_ = before;
       break;
     }
-    report_.left = repair.after;
+    report_.left = again.after;
   }
 }
 
@@ -141,6 +208,7 @@ bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& prog
   report_.noise = surfaceFit.noise();
   report_.smoothness = surfaceFit.smoothness();
   report_.outlierShare = surfaceFit.outlierShare();
+  report_.heldVertices += surfaceFit.heldCount();
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include "base/Executor.h"
 #include "base/Progress.h"
 #include "cloud/PointCloud.h"
+#include "fit/FitGuard.h"
 #include "fit/IntersectionRepair.h"
 #include "fit/SurfaceFit.h"
 #include "mesh/Mesh.h"
@@ -22,6 +23,11 @@ struct FinishReport
   std::size_t gapTriangles = 0; ///< taken away where there is no data
   DefectCount repaired;         ///< intersections and folds that were there ...
   DefectCount left;             ///< ... and those that could not be mended
+  /// Rounds of the fit that were taken back, as with them the mesh had a worse residual or coverage
+  /// than at first, or more intersections; see FitGuard.h.
+  int roundsTakenBack = 0;
+  std::size_t heldVertices =
+    0; ///< that rounds have left where they were, so that no samples were lost
 };
 
 /// What is to be done with a mesh once it is learnt.
@@ -49,9 +55,11 @@ public:
   const FinishReport& report() const { return report_; }
 
 private:
+  bool runRounds(int rounds, FitGuard& guard, const Progress& progress);
+  bool isWorseThan(const Mesh& before, FitGuard& guard) const;
   bool fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   bool openGaps(const SurfaceFit& surfaceFit);
-  void repair(const Progress& progress);
+  void repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress);
   void collapseDefects();
 
   const PointCloud& cloud_;

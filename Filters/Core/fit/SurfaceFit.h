@@ -6,6 +6,7 @@
 #include "cloud/PlaceOnMesh.h"
 #include "cloud/PointCloud.h"
 #include "fit/FitSystem.h"
+#include "fit/HeldOutPoints.h"
 #include "fit/LocalSpacing.h"
 #include "mesh/Mesh.h"
 
@@ -16,10 +17,6 @@
 
 namespace neuralmesh
 {
-/// Of so many points in the order of the cloud, the fit leaves out the last: they tell how well it
-/// went.
-constexpr std::size_t HeldOutStride = 20;
-
 /// Moves all vertices of a mesh to where the surface is closest to its cloud: to the positions x
 /// that minimise
 ///
@@ -44,8 +41,9 @@ public:
 
   /// Finds the places of the samples on the mesh as it is now. Returns false if it was ended before.
   bool findPlaces(const Progress& progress);
-  /// Moves the vertices. With `lambda` 0 chooses it first. Returns false, and moves none, if it was
-  /// ended before.
+  /// Moves the vertices. With `lambda` 0 chooses it first. Vertices stay where they are if samples
+  /// around them would be lost: farther from the mesh than some distances between samples, though
+  /// they were closer. Returns false, and moves none, if it was ended before.
   bool moveVertices(double lambda, const Progress& progress);
   /// The lambda of the last moveVertices().
   double smoothness() const { return smoothness_; }
@@ -54,6 +52,11 @@ public:
   /// vertices have followed of it added: the noise of the cloud, and what the triangles are too
   /// coarse for.
   double noise() const { return noise_; }
+  /// Vertices that the last moveVertices() has not moved, so that no samples were lost.
+  std::size_t heldCount() const { return heldCount_; }
+  /// Moves vertices back to where they were in `before`, a mesh of the same vertices, if samples around
+  /// them are lost now. Returns how many. Then places must be found anew.
+  std::size_t holdAgainst(const Mesh& before);
   /// Part of the samples that are outliers.
   double outlierShare() const;
   /// Beyond this distance a sample is an outlier; where points are sparse, beyond some edges around its
@@ -72,6 +75,11 @@ private:
   float weight(std::size_t sample) const { return weights_.empty() ? 1.f : weights_[sample]; }
   /// Tells outliers by how far samples are from each other around their places.
   void chooseUsed(float edges);
+  bool isLost(std::size_t sample, float squaredBefore) const;
+  template <typename Distance>
+  std::vector<std::uint8_t> lostPlaces(const Distance& squaredBefore) const;
+  template <typename Distance>
+  std::size_t hold(std::span<const Vector4> before, const Distance& squaredBefore);
   void fillSystem();
   template <typename Body>
   void forEachRows(const Body& body) const;
@@ -92,6 +100,7 @@ private:
   bool hasPlaces_ = false;
   std::optional<LocalSpacing> spacing_; ///< at the last findPlaces()
   std::size_t usedCount_ = 0;
+  std::size_t heldCount_ = 0;
   float outlierDistance_ = 0.f;
   float medianDistance_ = 0.f;
   double smoothness_ = 0.;

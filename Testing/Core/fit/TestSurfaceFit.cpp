@@ -180,6 +180,25 @@ TEST(SurfaceFit, SparsePointsAreNoOutliers)
   EXPECT_LT(meanDistance(cloud, sparse, mesh), 0.02);
 }
 
+// Vertices stay where they are if samples would be lost: however smooth the surface is to be, points
+// that lay on it are near to it afterwards.
+TEST(SurfaceFit, LosesNoSamples)
+{
+  const std::vector<Eigen::Vector3d> points = roofedSquare(0, 40000, 2.);
+  const PointCloud cloud(points);
+  TriangleMesh roof = makeGrid(40);
+  for (Eigen::Vector3d& point : roof.points)
+  {
+    point = { 0.5 + 0.5 * point.x(), point.y(), 2. * (0.5 - std::abs(0.5 * point.x() - 0.25)) };
+  }
+  Mesh mesh = buildMesh(std::move(roof), cloud);
+  SurfaceFit fit(cloud, mesh, SamplesPerVertex * mesh.vertexCount());
+  ASSERT_TRUE(fit.findPlaces(goOn));
+  ASSERT_TRUE(fit.moveVertices(1e6, goOn));
+  EXPECT_GT(fit.heldCount(), 0u);
+  EXPECT_LT(meanDistance(cloud, points, mesh), 0.02);
+}
+
 // A boundary ends up where the samples end, whether it was inside or far outside of them.
 TEST(SurfaceFit, BoundariesEndWhereSamplesEnd)
 {

@@ -104,8 +104,8 @@ def reconstruct(
         `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`, `DroppedPoints`, and the report on
         the quality: `Residual`, `Noise`, `OutlierShare`, `RegularRatio`, `TriangleQuality`,
         `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`,
-        `IntersectingTriangles`. How the surface came to its outer side is told by `OrientedBy`,
-        `UnorientedPieces` and `UnorientedShare`. No pipeline is behind it.
+        `IntersectingTriangles`, `FitRoundsTakenBack`. How the surface came to its outer side is told
+        by `OrientedBy`, `UnorientedPieces` and `UnorientedShare`. No pipeline is behind it.
 
     Raises:
         ValueError: A parameter is out of its range, which the message names; parameters do not go

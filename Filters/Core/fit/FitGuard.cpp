@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/FitGuard.h"
+
+#include "base/Median.h"
+#include "cloud/PlaceOnMesh.h"
+#include "fit/HeldOutPoints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr std::size_t MostPoints = 5000;
+/// A point is missed beyond so many of its own distances to its neighbours ...
+constexpr float MissedSpacings = 3.f;
+/// ... and of the median distance to the mesh: no noise is there.
+constexpr float MissedMedians = 8.f;
+/// ... and if it has come closer or gone farther by this factor: distances of outliers change a little,
+/// whatever is done.
+constexpr float LeastChange = 1.25f;
+/// More points are missed if they are so many deviations more than chance has it: now and then an
+/// outlier lies near to where the mesh was wrong.
+constexpr double Deviations = 2.;
+/// Part of the points that mending intersections may cost.
+constexpr double PriceOfRepair = 0.002;
+/// Median of the size of a Gaussian variable, against its deviation.
+constexpr double MedianOfSizes = 0.6745;
+/// Noise is not quite Gaussian in the scans of devices: deviations by their median count so much.
+constexpr double NoiseMargin = 1.2;
+
+double median(std::vector<float> squared) { return std::sqrt(double(medianOf(squared))); }
+}
+
+FitGuard::FitGuard(const PointCloud& cloud, const Mesh& mesh, const Executor& executor)
+  : cloud_(cloud)
+  , executor_(executor)
+  , points_(heldOutPoints(cloud, MostPoints))
+  , before_(squaredDistances(cloud, points_, mesh, executor))
+  , residual_(residual(before_, mesh.meanEdge()))
+{
+}
+
+bool FitGuard::isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired)
+{
+  const std::vector<float> after = squaredDistances(cloud_, points_, mesh, executor_);
+  return hasGrown(after, mesh.meanEdge(), rule) || losesPoints(after, isRepaired);
+}
+
+bool FitGuard::losesPoints(const Mesh& mesh, bool isRepaired)
+{
+  return losesPoints(squaredDistances(cloud_, points_, mesh, executor_), isRepaired);
+}
+
+/// Of those that are no outliers.
+double FitGuard::residual(const std::vector<float>& squared, double meanEdge) const
+{
+  const float most = outlierDistance(float(median(squared)), meanEdge);
+  double sum = 0., weights = 0.;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+  {
+    if (squared[i] <= most * most)
+    {
+      const double weight = double(cloud_.weight(points_[i]));
+      sum += weight * double(squared[i]);
+      weights += weight;
+    }
+  }
+  return weights > 0. ? std::sqrt(sum / weights) : 0.;
+}
+
+bool FitGuard::hasGrown(const std::vector<float>& after, double meanEdge, ResidualRule rule) const
+{
+  const double now = residual(after, meanEdge);
+  if (rule == ResidualRule::MayGrow || now <= residual_)
+  {
+    return false;
+  }
+  return rule == ResidualRule::MayNotGrow || now > NoiseMargin * median(after) / MedianOfSizes;
+}
+
+bool FitGuard::losesPoints(const std::vector<float>& after, bool isRepaired)
+{
+  const float least = MissedMedians * float(median(after));
+  constexpr float Change = LeastChange * LeastChange;
+  const auto limitOf = [&](std::size_t i)
+  {
+    if (!spacing_)
+    {
+      spacing_.emplace(cloud_, executor_);
+    }
+    const float limit = std::max(least, MissedSpacings * spacing_->at(cloud_.points()[points_[i]]));
+    return limit * limit;
+  };
+  /// How many are missed by `now`, and were not by `then`.
+  const auto newlyMissed = [&](const std::vector<float>& now, const std::vector<float>& then)
+  {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+    {
+      if (now[i] > least * least && now[i] > Change * then[i])
+      {
+        const float limit = limitOf(i);
+        count += now[i] > limit && then[i] <= limit ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  const std::size_t lost = newlyMissed(after, before_);
+  if (lost == 0)
+  {
+    return false;
+  }
+  const std::size_t won = newlyMissed(before_, after);
+  const double price = isRepaired ? PriceOfRepair * double(points_.size()) : 0.;
+  const double chance = Deviations * std::sqrt(double(lost + won));
+  return double(lost) > double(won) + std::max(price, chance);
+}
+}

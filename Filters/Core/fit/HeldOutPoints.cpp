@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/HeldOutPoints.h"
+
+#include "cloud/PlaceOnMesh.h"
+
+#include <algorithm>
+
+namespace neuralmesh
+{
+namespace
+{
+/// A part for the executor.
+constexpr std::size_t PointsPerRange = 512;
+}
+
+std::vector<std::size_t> heldOutPoints(const PointCloud& cloud, std::size_t most)
+{
+  const std::size_t all = cloud.points().size();
+  const std::size_t heldOut = all / HeldOutStride;
+  const std::size_t count = std::min(heldOut == 0 ? all : heldOut, most);
+  std::vector<std::size_t> points(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    points[i] = heldOut == 0 ? i : (i * heldOut / count + 1) * HeldOutStride - 1;
+  }
+  return points;
+}
+
+std::vector<float> squaredDistances(const PointCloud& cloud, const std::vector<std::size_t>& points,
+  const Mesh& mesh, const Executor& executor)
+{
+  const VertexGrid grid = gridOf(mesh, cloud);
+  std::vector<float> result(points.size());
+  executor.forEachRange(points.size(), PointsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        result[i] = closestPlace(cloud.points()[points[i]], mesh, grid).squaredDistance;
+      }
+    });
+  return result;
+}
+}
