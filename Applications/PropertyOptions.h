@@ -18,6 +18,8 @@ struct PropertyNumbers
   ValueT Minimum;
   ValueT Maximum;
 };
+template <typename ValueT>
+PropertyNumbers(ValueT, ValueT, ValueT) -> PropertyNumbers<ValueT>;
 
 #define NEURAL_MESH_NUMBERS(filter, property)                                                      \
   PropertyNumbers                                                                                  \

@@ -25,7 +25,7 @@ constexpr double LeastDeviations = 3.;
 constexpr std::size_t VotesPerVertex = 2;
 constexpr std::size_t LinesOfSight = 16384;
 /// A part for the executor.
-constexpr std::size_t PointsPerRange = 1024;
+constexpr std::size_t VotesPerRange = 1024;
 constexpr std::size_t LinesPerRange = 256;
 
 /// The unit vector, or 0 if there is none.
@@ -137,7 +137,7 @@ std::vector<OrientationVote::Ballot> OrientationVote::countPoints(
   const VertexGrid grid = gridOf(mesh_, cloud_);
   std::vector<Vote> votes(count);
   std::vector<float> squaredDistances(count);
-  executor_.forEachRange(count, PointsPerRange,
+  executor_.forEachRange(count, VotesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

@@ -19,7 +19,7 @@ constexpr double WidestGap = 0.5; ///< in roots of the area of the larger piece
 constexpr float WidthsOfGap = 2.f;
 /// Of the mean of what the vertices at a gap say, from -2 to 2.
 constexpr double LeastAgreement = 0.5;
-constexpr float EdgesPerCell = 2.f;
+constexpr float EdgesPerCellOfPieces = 2.f;
 
 Vector4 unit(Vector4 vector)
 {
@@ -49,7 +49,7 @@ public:
         box.extend(mesh.position(v));
       }
     }
-    grid_.reset(box.low, box.high, EdgesPerCell * float(mesh.meanEdge()), mesh.indexEnd());
+    grid_.reset(box.low, box.high, EdgesPerCellOfPieces * float(mesh.meanEdge()), mesh.indexEnd());
     for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
     {
       grid_.insert(v, mesh.position(v));

@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view ShiftWord = "shift";
 constexpr std::array<const char*, 3> Axes{ "x", "y", "z" };
-constexpr std::uint64_t PieceSize = 1 << 20;
+constexpr std::uint64_t BytesPerPiece = 1 << 20;
 
 [[noreturn]] void throwEndsEarly(const PlyElement& element)
 {
@@ -193,7 +193,7 @@ private:
       piece_.erase(piece_.begin(), piece_.begin() + std::ptrdiff_t(place_));
       place_ = 0;
       const std::size_t kept = piece_.size();
-      piece_.resize(std::size_t(std::min(left_, PieceSize)));
+      piece_.resize(std::size_t(std::min(left_, BytesPerPiece)));
       file_.read(
         reinterpret_cast<char*>(piece_.data() + kept), std::streamsize(piece_.size() - kept));
       if (!file_)

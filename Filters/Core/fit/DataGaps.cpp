@@ -35,7 +35,7 @@ constexpr std::size_t LeastSamplesPerTriangle = 2;
 constexpr double LeastSpacingsIfEmpty = 1.5;
 /// Of the distance between samples on average: where they are farther from each other, it is theirs
 /// that counts, and triangles may be too small there.
-constexpr double SparseSpacings = 2.;
+constexpr double SparseGapSpacings = 2.;
 
 double areaOf(const Mesh& mesh, const Triangle& triangle)
 {
@@ -189,7 +189,7 @@ public:
     , mesh_(mesh)
     , places_(places)
     , spacing_(mesh, places)
-    , least_(SparseSpacings * double(spacing_.usual()))
+    , least_(SparseGapSpacings * double(spacing_.usual()))
     , isAnywhere_(std::any_of(places.begin(), places.end(),
         [this](const PlaceOnMesh& place) { return double(spacing_.samplesAt(place)) > least_; }))
   {

@@ -12,14 +12,14 @@ namespace neuralmesh
 {
 namespace
 {
-constexpr std::size_t MostPoints = 5000;
+constexpr std::size_t MostOfGuard = 5000;
 /// A point is missed beyond so many of its own distances to its neighbours ...
 constexpr float MissedSpacings = 3.f;
 /// ... and of the median distance to the mesh: no noise is there.
 constexpr float MissedMedians = 8.f;
 /// ... and if it has come closer or gone farther by this factor: distances of outliers change a little,
 /// whatever is done.
-constexpr float LeastChange = 1.25f;
+constexpr float LeastChangeOfMissed = 1.25f;
 /// More points are missed if they are so many deviations more than chance has it: now and then an
 /// outlier lies near to where the mesh was wrong.
 constexpr double Deviations = 2.;
@@ -36,7 +36,7 @@ double median(std::vector<float> squared) { return std::sqrt(double(medianOf(squ
 FitGuard::FitGuard(const PointCloud& cloud, const Mesh& mesh, const Executor& executor)
   : cloud_(cloud)
   , executor_(executor)
-  , points_(heldOutPoints(cloud, MostPoints))
+  , points_(heldOutPoints(cloud, MostOfGuard))
   , before_(squaredDistances(cloud, points_, mesh, executor))
   , residual_(residual(before_, mesh.meanEdge()))
 {
@@ -83,7 +83,7 @@ bool FitGuard::hasGrown(const std::vector<float>& after, double meanEdge, Residu
 bool FitGuard::losesPoints(const std::vector<float>& after, bool isRepaired)
 {
   const float least = MissedMedians * float(median(after));
-  constexpr float Change = LeastChange * LeastChange;
+  constexpr float Change = LeastChangeOfMissed * LeastChangeOfMissed;
   const auto limitOf = [&](std::size_t i)
   {
     if (!spacing_)

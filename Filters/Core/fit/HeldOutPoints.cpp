@@ -10,7 +10,7 @@ namespace neuralmesh
 namespace
 {
 /// A part for the executor.
-constexpr std::size_t PointsPerRange = 512;
+constexpr std::size_t HeldOutPerRange = 512;
 }
 
 std::vector<std::size_t> heldOutPoints(const PointCloud& cloud, std::size_t most)
@@ -31,7 +31,7 @@ std::vector<float> squaredDistances(const PointCloud& cloud, const std::vector<s
 {
   const VertexGrid grid = gridOf(mesh, cloud);
   std::vector<float> result(points.size());
-  executor.forEachRange(points.size(), PointsPerRange,
+  executor.forEachRange(points.size(), HeldOutPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "cloud/NearestPoints.h"
 #include "cloud/PointCloud.h"
-#include "mesh/BoxTree.h"
 
 #include <cstddef>
 #include <vector>
@@ -11,27 +11,24 @@
 namespace neuralmesh
 {
 /// How far the points of a cloud are from each other, at any place of it: the mean distance to the
-/// six nearest. A balanced tree of boxes along a Morton curve: O(n) to make, and a query takes
-/// O(log n) however unevenly the points are spread. Of more than a million points it takes so many,
-/// evenly picked; 20 bytes for each.
+/// six nearest. O(n) to make, and a query takes O(log n) however unevenly the points are spread. Of
+/// more than a million points it takes so many, evenly picked; 21 bytes for each.
 class PointSpacing
 {
 public:
   static constexpr std::size_t Neighbors = 6;
 
   explicit PointSpacing(const PointCloud& cloud, const Executor& executor = Executor::sequential());
+  PointSpacing(const PointSpacing&) = delete;
+  PointSpacing& operator=(const PointSpacing&) = delete;
 
   /// Around a point of the cloud, which does not count itself; in units of the cloud. Less where
   /// points coincide, 0 where seven do. If there are fewer points than six others, of those.
   float at(Vector4 point) const;
 
 private:
-  struct Nearest;
-  void search(std::size_t node, Nearest& nearest) const;
-
-  std::vector<Vector4> points_; ///< along the curve
-  std::vector<Box> boxes_;      ///< the children of i are 2 i and 2 i + 1; leaves are the last half
-  std::size_t leaves_ = 1;
-  float scale_ = 1.f; ///< by which all points lie closer than those picked
+  std::vector<Vector4> points_; ///< along a Morton curve
+  NearestPoints nearest_;       ///< of them
+  float scale_ = 1.f;           ///< by which all points lie closer than those picked
 };
 }

@@ -134,7 +134,7 @@ private:
 
   Eigen::Vector3d centerOf(const Delaunay::Cell& cell) const
   {
-    const Eigen::Vector3d a = position(cell.vertices[0]);
+    Eigen::Vector3d a = position(cell.vertices[0]);
     const Eigen::Vector3d u = position(cell.vertices[1]) - a, v = position(cell.vertices[2]) - a,
                           w = position(cell.vertices[3]) - a;
     const Eigen::Vector3d uv = u.cross(v);

@@ -25,7 +25,7 @@ constexpr std::size_t MostEdgesOfGap = 12;
 constexpr int CutRounds = 3;
 // Of the time.
 constexpr double PartOfSamples = 0.7;
-constexpr double PartOfFront = 0.9;
+constexpr double PartOfLayers = 0.9;
 
 void dropSmallPieces(TriangleMesh& mesh)
 {
@@ -84,7 +84,7 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestP
     triangles.points.push_back(cloud.toInput(sample.position));
   }
   triangles.triangles = advancingFront(samples, layers);
-  if (!progress(PartOfFront))
+  if (!progress(PartOfLayers))
   {
     return {};
   }

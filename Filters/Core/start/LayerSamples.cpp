@@ -50,7 +50,7 @@ constexpr float SlopeOfDisk = 0.25f;
 constexpr float NoiseOfDisk = 3.f;
 
 constexpr std::uint32_t NoSample = ~0u;
-constexpr std::size_t SamplesPerCheck = 256;
+constexpr std::size_t LayersPerCheck = 256;
 
 /// How far points are from each other around one.
 struct Spacing
@@ -207,16 +207,16 @@ bool isOnDisk(const LayerSample& sample, Vector4 place)
 /// Without those that came too close to others when they were moved.
 std::vector<LayerSample> apart(std::vector<LayerSample> samples, Layers layers, std::uint64_t seed)
 {
-  std::vector<Vector4> positions;
-  for (const LayerSample& sample : samples)
-  {
-    positions.push_back(sample.position);
-  }
+  std::vector<Vector4> positions(samples.size());
+  std::transform(samples.begin(), samples.end(), positions.begin(),
+    [](const LayerSample& sample) { return sample.position; });
   Box box;
   std::for_each(
     positions.begin(), positions.end(), [&](Vector4 position) { box.extend(position); });
   std::vector<LayerSample> sorted;
   std::vector<Vector4> sortedPositions;
+  sorted.reserve(samples.size());
+  sortedPositions.reserve(samples.size());
   for (const std::uint32_t i : mortonOrder(positions, box.low, box.high))
   {
     sorted.push_back(samples[i]);
@@ -243,6 +243,7 @@ std::vector<LayerSample> apart(std::vector<LayerSample> samples, Layers layers, 
   }
   std::sort(kept.begin(), kept.end());
   std::vector<LayerSample> result;
+  result.reserve(kept.size());
   for (const std::uint32_t i : kept)
   {
     result.push_back(sorted[i]);
@@ -280,7 +281,7 @@ LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layer
     {
       continue;
     }
-    if (samples.size() % SamplesPerCheck == 0 &&
+    if (samples.size() % LayersPerCheck == 0 &&
       !progress(std::min(1., double(samples.size()) / double(count))))
     {
       return {};
