@@ -200,6 +200,8 @@ class Properties(unittest.TestCase):
             with self.subTest(name):
                 if choices:
                     self.assertEqual(sorted(choices.values()), list(range(low, high + 1)))
+                elif sm_property.FindDomain("vtkSMBooleanDomain"):
+                    self.assertEqual((low, high), (False, True))
                 else:
                     shown = high if high <= LARGEST_SLIDER else None
                     self.assertEqual(range_of(sm_property), (low, shown))

@@ -294,10 +294,15 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   OpenedGaps result;
   const std::vector<Triangle> gaps = findDataGaps(cloud, mesh, places, medianDistance);
   result.triangles = gaps.size();
+  std::vector<std::uint8_t> isAtCut(mesh.indexEnd());
+  for (const Triangle& gap : gaps)
+  {
+    std::for_each(gap.begin(), gap.end(), [&](VertexIndex v) { isAtCut[v] = 1; });
+  }
   mesh.removeTriangles(gaps);
   if (!gaps.empty())
   {
-    mesh.removeTriangles(findSmallPieces(mesh));
+    mesh.removeTriangles(findSmallPieces(mesh, isAtCut));
   }
   BoundaryManager boundaries(mesh);
   if (boundaries.loopCount() == 0)

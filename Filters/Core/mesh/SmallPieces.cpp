@@ -2,7 +2,6 @@
 #include "mesh/SmallPieces.h"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace neuralmesh
 {
@@ -11,10 +10,11 @@ namespace
 constexpr double LeastPart = 0.02;
 }
 
-std::vector<Triangle> findSmallPieces(const Mesh& mesh)
+std::vector<Triangle> findSmallPieces(const Mesh& mesh, std::span<const std::uint8_t> isAtCut)
 {
   std::vector<std::uint32_t> pieceOf(mesh.indexEnd(), 0);
   std::vector<std::size_t> sizes{ 0 };
+  std::vector<bool> isCutOff{ false };
   std::vector<VertexIndex> open;
   for (VertexIndex first = 0; first < mesh.indexEnd(); ++first)
   {
@@ -24,6 +24,7 @@ std::vector<Triangle> findSmallPieces(const Mesh& mesh)
     }
     const auto piece = std::uint32_t(sizes.size());
     sizes.push_back(0);
+    isCutOff.push_back(false);
     open.assign(1, first);
     pieceOf[first] = piece;
     while (!open.empty())
@@ -31,6 +32,7 @@ std::vector<Triangle> findSmallPieces(const Mesh& mesh)
       const VertexIndex v = open.back();
       open.pop_back();
       ++sizes[piece];
+      isCutOff[piece] = isCutOff[piece] || v >= isAtCut.size() || isAtCut[v] != 0;
       for (const VertexIndex neighbor : mesh.ring(v))
       {
         if (pieceOf[neighbor] == 0)
@@ -46,7 +48,7 @@ std::vector<Triangle> findSmallPieces(const Mesh& mesh)
   mesh.forEachTriangle(
     [&](VertexIndex a, VertexIndex b, VertexIndex c)
     {
-      if (double(sizes[pieceOf[a]]) < LeastPart * largest)
+      if (isCutOff[pieceOf[a]] && double(sizes[pieceOf[a]]) < LeastPart * largest)
       {
         result.push_back({ a, b, c });
       }

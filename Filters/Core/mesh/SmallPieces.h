@@ -3,11 +3,15 @@
 
 #include "mesh/Mesh.h"
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace neuralmesh
 {
 /// The triangles of all pieces of a mesh, connected by edges, that have less than 2 % of the
-/// vertices of the largest one: what is left over where a mesh was cut.
-std::vector<Triangle> findSmallPieces(const Mesh& mesh);
+/// vertices of the largest one: what is left over where a mesh was cut. With `isAtCut`, which marks
+/// vertices, only of pieces that have one of these, or one that came when it was cut: others were
+/// there before.
+std::vector<Triangle> findSmallPieces(const Mesh& mesh, std::span<const std::uint8_t> isAtCut = {});
 }

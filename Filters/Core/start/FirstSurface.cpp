@@ -420,6 +420,7 @@ std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const Neares
   result.mesh = std::move(best->mesh);
   result.isOpen = true;
   result.isCertain = best->disorder() < MostDisorder && best->scatter < MostScatter;
+  result.bridgeWidth = 2. * result.mesh.meanEdge();
   simplify(result.mesh, mostVertices);
   if (boundaries == Boundaries::Close)
   {

@@ -7,6 +7,7 @@
 #include "mesh/FanSplitting.h"
 #include "mesh/SelfIntersections.h"
 #include "start/AdvancingFront.h"
+#include "start/WideTriangles.h"
 
 #include <algorithm>
 #include <limits>
@@ -106,6 +107,9 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestP
     fillGaps(result.mesh);
     removeCrossings(result.mesh);
   }
+  result.mesh.removeTriangles(findWideTriangles(result.mesh, samples));
+  fillGaps(result.mesh);
+  removeCrossings(result.mesh);
   result.mesh.dropErased();
   return result;
 }

@@ -119,7 +119,7 @@ def small():
     """For a test: some thousand points, and goals that leave room."""
     yield Cloud("small_sphere", "small", lambda: made.open_sphere(45, 20000),
                 {"pieces": 1, "loops": 1, "seen": 0.05})
-    yield Cloud("small_islands", "small", lambda: made.islands(50000),
+    yield Cloud("small_islands", "small", lambda: made.islands(100000),
                 {"missed": 5, "invented": 2, "far": 0.1, "main": 75, "crossings": 0})
     yield Cloud("small_box", "small", lambda: made.sampled(made.shapes.box(4.8), 20000),
                 {"pieces": 1, "genus": 0, "loops": 0, "mean": 0.02, "hausdorff": 2, "crossings": 0})
