@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -36,6 +37,10 @@ constexpr double LeastSpacingsIfEmpty = 1.5;
 /// Of the distance between samples on average: where they are farther from each other, it is theirs
 /// that counts, and triangles may be too small there.
 constexpr double SparseGapSpacings = 2.;
+/// Holes in which there are points are filled with edges up to so many of the mesh on average.
+constexpr double WidestHole = 5.;
+/// ... if the surface around goes on there.
+constexpr float CosineOfHole = 0.3f;
 
 double areaOf(const Mesh& mesh, const Triangle& triangle)
 {
@@ -313,8 +318,11 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   const SomePoints points(cloud, places.size());
   const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
   const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
-  result.filled = fillBoundaries(mesh, boundaries, bridgeWidth,
-    [&](const Triangle& triangle) { return points.distance(centerOf(mesh, triangle)) <= reach; });
+  // A bridge may be wide; what goes on where points are is filled anyway.
+  result.filled = fillBoundaries(mesh, boundaries,
+    std::max(bridgeWidth, WidestHole * mesh.meanEdge()),
+    [&](const Triangle& triangle) { return points.distance(centerOf(mesh, triangle)) <= reach; },
+    std::numeric_limits<std::size_t>::max(), CosineOfHole);
   return result;
 }
 }

@@ -2,6 +2,7 @@
 #include "mesh/BoundaryFilling.h"
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 
 namespace neuralmesh
@@ -20,6 +21,21 @@ RimCorner cornerAt(const Mesh& mesh, VertexIndex v)
 {
   const Ring& ring = mesh.ring(v);
   return { squaredNorm(mesh.position(ring.front()) - mesh.position(ring.back())), v };
+}
+
+/// Of the angle between the normals along a loop and that of what would fill it.
+float cosineAround(const Mesh& mesh, const std::vector<VertexIndex>& loop)
+{
+  const Vector4 origin = mesh.position(loop.front());
+  Vector4 area, normals;
+  for (const VertexIndex v : loop)
+  {
+    const VertexIndex next = mesh.ring(v).back();
+    area += cross(mesh.position(v) - origin, mesh.position(next) - origin);
+    normals += mesh.normal(v);
+  }
+  const float lengths = std::sqrt(squaredNorm(area) * squaredNorm(normals));
+  return lengths > 0.f ? dot(area, normals) / lengths : 0.f;
 }
 
 /// Fills a loop corner by corner; leaves it as it was if it cannot be filled wholly.
@@ -79,14 +95,15 @@ bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLon
 }
 
 std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longestEdge,
-  const std::function<bool(const Triangle&)>& isAllowed, std::size_t mostEdges)
+  const std::function<bool(const Triangle&)>& isAllowed, std::size_t mostEdges, float leastCosine)
 {
   std::size_t filled = 0;
   for (BoundaryManager::LoopIndex index = 0; index < boundaries.loops().size(); ++index)
   {
     const std::vector<VertexIndex> loop = boundaries.vertices(mesh, index);
-    if (!loop.empty() && loop.size() <= mostEdges &&
-      fillLoop(mesh, loop, float(longestEdge * longestEdge), isAllowed))
+    const bool isWanted = !loop.empty() && loop.size() <= mostEdges &&
+      (leastCosine <= -1.f || cosineAround(mesh, loop) >= leastCosine);
+    if (isWanted && fillLoop(mesh, loop, float(longestEdge * longestEdge), isAllowed))
     {
       boundaries.retrace(mesh, loop);
       ++filled;

@@ -10,10 +10,14 @@
 namespace neuralmesh
 {
 /// Fills the loops that can be filled with triangles without edges of `longestEdge` or more, and
-/// that are all allowed, if that is asked: small holes, and slits. Loops of more than `mostEdges` stay.
-/// Corner by corner, each time the one with the shortest third edge. Returns the number of loops filled.
+/// that are all allowed, if that is asked: small holes, and slits. Loops of more than `mostEdges` stay, and
+/// those where the normals around are farther from that of what would fill them than by `leastCosine`:
+/// it is 1 for a hole in a plane, about 0 at the end of a pipe, -1 at the outline of a sheet, which would
+/// be closed by a second layer.
+/// /// Corner by corner, each time the one with the shortest third edge. Returns the number of loops filled.
 /// Not in the thesis.
 std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longestEdge,
   const std::function<bool(const Triangle&)>& isAllowed = nullptr,
-  std::size_t mostEdges = std::numeric_limits<std::size_t>::max());
+  std::size_t mostEdges = std::numeric_limits<std::size_t>::max(),
+  float leastCosine = -1.f);
 }

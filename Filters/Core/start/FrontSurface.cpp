@@ -23,6 +23,8 @@ constexpr double SmallestPiece = 0.0005;
 constexpr std::size_t LeastTriangles = 12;
 /// Longer loops are openings.
 constexpr std::size_t MostEdgesOfGap = 12;
+/// Those around which the normals turn by more than 110 degrees are outlines of pieces.
+constexpr float CosineOfOutline = -0.34f;
 constexpr int CutRounds = 3;
 // Of the time.
 constexpr double PartOfSamples = 0.7;
@@ -51,7 +53,7 @@ std::size_t fillGaps(Mesh& mesh)
 {
   BoundaryManager boundaries(mesh);
   return fillBoundaries(
-    mesh, boundaries, std::numeric_limits<float>::max(), nullptr, MostEdgesOfGap);
+    mesh, boundaries, std::numeric_limits<float>::max(), nullptr, MostEdgesOfGap, CosineOfOutline);
 }
 
 /// Takes away what intersects; what is left over there is filled if it is small.
