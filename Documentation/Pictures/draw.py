@@ -216,6 +216,13 @@ def openings():
         for boundaries in ("keep", "close")]
 
 
+def sides():
+    points = clouds.sample(*height_field(), 50000)
+    return [scene(cloud_data(points), "y", 30, 35)] + [
+        scene(neuralmesh.reconstruct(points, 4000, up=up), "y", 30, 35)
+        for up in ((0, -1, 0), (0, 1, 0))]
+
+
 def leap():
     models = [clouds.cgal_mesh("armadillo"), clouds.cgal_mesh("elephant")]
     scan, other = (clouds.sample(*model, 200000) for model in models)
