@@ -2,6 +2,7 @@
 #include "CommandLine.h"
 
 #include "CompareCommand.h"
+#include "ExplainCommand.h"
 #include "InfoCommand.h"
 #include "ReconstructCommand.h"
 #include "TuneCommand.h"
@@ -12,7 +13,7 @@ CommandLine::CommandLine()
   this->Application.set_version_flag("--version", NEURALMESH_VERSION);
   this->Application.require_subcommand(1);
   for (const auto& add :
-    { AddReconstructCommand, AddTuneCommand, AddCompareCommand, AddInfoCommand })
+    { AddReconstructCommand, AddTuneCommand, AddCompareCommand, AddExplainCommand, AddInfoCommand })
   {
     // The newest subcommand is the last one.
     const auto run = add(this->Application);

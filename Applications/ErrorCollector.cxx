@@ -41,6 +41,7 @@ void ErrorCollector::Execute(vtkObject* caller, unsigned long event, void* callD
   const std::string text = PlainText(static_cast<const char*>(callData));
   if (event == vtkCommand::WarningEvent && !vtkOutputWindow::SafeDownCast(caller))
   {
+    this->Warning = true;
     if (this->Deferring)
     {
       this->DeferredWarnings.push_back(text);

@@ -28,12 +28,15 @@ public:
   /** Empty if all that is known is that there was an error. */
   const std::string& GetMessage() const { return this->Message; }
 
+  bool HasWarning() const { return this->Warning; }
+
   /** Keeps warnings back from now on, until they are asked for. */
   void DeferWarnings() { this->Deferring = true; }
   void ShowDeferredWarnings();
 
 private:
   bool Error = false;
+  bool Warning = false;
   std::string Message;
   bool Deferring = false;
   std::vector<std::string> DeferredWarnings;

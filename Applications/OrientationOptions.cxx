@@ -121,16 +121,3 @@ void PrintSides(vtkPolyData* mesh)
   }
   std::printf("\n");
 }
-
-void WarnOfUnknownSides(vtkPolyData* mesh)
-{
-  const auto pieces = static_cast<long long>(FieldNumber(mesh, "UnorientedPieces"));
-  if (pieces > 0)
-  {
-    std::fprintf(stderr,
-      "neuralmesh: warning: which side of the surface is the outer one is unknown for %lld %s with "
-      "%.3g %% of the area: give --viewpoint (where the scanner stood), --up, or points with "
-      "normals.\n",
-      pieces, pieces == 1 ? "piece" : "pieces", 100.0 * FieldNumber(mesh, "UnorientedShare"));
-  }
-}

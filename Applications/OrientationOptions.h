@@ -36,7 +36,4 @@ private:
 /** The line of the report on the sides of the mesh. */
 void PrintSides(vtkPolyData* mesh);
 
-/** A warning if sides are unknown: what to do. */
-void WarnOfUnknownSides(vtkPolyData* mesh);
-
 #endif

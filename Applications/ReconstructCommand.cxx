@@ -4,6 +4,7 @@
 #include "base/AtomicFile.h"
 #include "DistinctFiles.h"
 #include "ErrorCollector.h"
+#include "ExplainedPoints.h"
 #include "FileExtension.h"
 #include "Interruption.h"
 #include "LearningParameters.h"
@@ -41,6 +42,8 @@ namespace
 {
 /// What shells give for a process that Ctrl-C has ended.
 constexpr int InterruptedStatus = 128 + SIGINT;
+/// With --strict, if there was a warning.
+constexpr int WarnedStatus = 3;
 
 /// That of the filter: with an ensemble it is another one.
 constexpr int DefaultTopology = -1;
@@ -72,6 +75,8 @@ struct ReconstructOptions
   double TimeLimit = 0.0;
   int Threads = 0;
   std::string Statistics;
+  std::string Explanation;
+  bool Strict = false;
   std::string Checkpoint;
   double CheckpointInterval = 0.0;
   bool DryRun = false;
@@ -147,6 +152,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
   filter->SetComputeFeatureStrength(options.Features);
   filter->SetPreset(options.Preset);
   filter->SetAutomatic(options.Automatic);
+  filter->SetExplainPoints(!options.Explanation.empty());
   filter->SetTimeLimit(options.TimeLimit);
   filter->SetNumberOfThreads(options.Threads);
   filter->SetWeightArrayName(options.Weights.c_str());
@@ -193,7 +199,8 @@ int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructO
   return 0;
 }
 
-void Learn(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions& options)
+/** Returns whether there was a warning. */
+bool Learn(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions& options)
 {
   vtkNew<ErrorCollector> errors;
   errors->Observe(filter);
@@ -209,6 +216,7 @@ void Learn(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions&
   filter->Update();
   bar->Clear();
   RequireResult(filter, *errors, options);
+  return errors->HasWarning();
 }
 
 /** A sampler of the file in which it lies, if that is wanted. */
@@ -252,7 +260,8 @@ int Reconstruct(const ReconstructOptions& options)
   PrepareFilter(filter, options);
   RequireDistinctFiles({ { "INPUT", options.Input }, { "--initial", options.Initial },
     { "--views", options.Orientation.GetViewFile() }, { "OUTPUT", options.Output, true },
-    { "--statistics", options.Statistics, true }, { "--checkpoint", options.Checkpoint, true } });
+    { "--statistics", options.Statistics, true }, { "--explain", options.Explanation, true },
+    { "--checkpoint", options.Checkpoint, true } });
   RequireWritableExtension(options.Output);
   const MeshShift shift = ParseShift(options.Shift);
   if (options.Features && FileExtension(options.Output) != ".vtp")
@@ -264,6 +273,10 @@ int Reconstruct(const ReconstructOptions& options)
   {
     RequireTableExtension(options.Statistics);
     neuralmesh::requireWritablePlace(options.Statistics);
+  }
+  if (!options.Explanation.empty())
+  {
+    RequireExplanationPlace("--explain", options.Explanation);
   }
   if (!options.Checkpoint.empty())
   {
@@ -290,7 +303,7 @@ int Reconstruct(const ReconstructOptions& options)
   filter->KeepCheckpointOn(); // until the mesh is written
   vtkNew<Interruption> interruption;
   filter->AddObserver(vtkCommand::ProgressEvent, interruption);
-  Learn(filter, points, options);
+  const bool isWarned = Learn(filter, points, options);
   seconds.Learning = stopwatch.Lap();
 
   vtkPolyData* mesh = filter->GetOutput();
@@ -298,6 +311,11 @@ int Reconstruct(const ReconstructOptions& options)
   if (!options.Statistics.empty())
   {
     WriteTable(filter->GetLearningCurve(), options.Statistics);
+  }
+  // A run that was ended early has explained nothing.
+  if (filter->GetExplainedPoints()->GetNumberOfPoints() > 0)
+  {
+    WriteExplanation(filter->GetExplainedPoints(), options.Explanation);
   }
   seconds.Writing = stopwatch.Lap();
   const std::string_view reason = filter->GetStopReason();
@@ -307,7 +325,6 @@ int Reconstruct(const ReconstructOptions& options)
     filter->RemoveCheckpoint();
   }
 
-  WarnOfUnknownSides(mesh);
   if (!options.Quiet)
   {
     PrintRun(filter, points, sampler, seconds);
@@ -316,7 +333,11 @@ int Reconstruct(const ReconstructOptions& options)
       PrintShift(stored, options.Output);
     }
   }
-  return isCancelled ? InterruptedStatus : 0;
+  if (isCancelled)
+  {
+    return InterruptedStatus;
+  }
+  return options.Strict && isWarned ? WarnedStatus : 0;
 }
 }
 
@@ -438,6 +459,14 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     ->add_option("--statistics", options->Statistics,
       "Write how the run went, step by step, to this .csv file")
     ->type_name("FILE");
+  command
+    ->add_option("--explain", options->Explanation,
+      "Write the points of INPUT to this .vtp file, each with its Distance to the mesh and the "
+      "Reason "
+      "why it lies there; takes some seconds for millions of points")
+    ->type_name("FILE");
+  command->add_flag("--strict", options->Strict,
+    "Exit with status 3 if there was a warning; the mesh is written all the same");
   CLI::Option* const checkpoint =
     command
       ->add_option("--checkpoint", options->Checkpoint,
@@ -454,6 +483,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   command->footer("Parameters of learning, for --set:\n" + DescribeLearningParameters() +
     "\nFor example: neuralmesh reconstruct scan.ply mesh.vtp --vertices 20000\n"
     "Ctrl-C ends the learning, and the mesh learnt so far is written.\n"
-    "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 130 after Ctrl-C.");
+    "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 3 done with a "
+    "warning\nand --strict, 130 after Ctrl-C.");
   return [options] { return Reconstruct(*options); };
 }

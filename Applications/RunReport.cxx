@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RunReport.h"
 
+#include "ExplainedPoints.h"
 #include "OrientationOptions.h"
 
 #include "vtkNeuralMesh.h"
@@ -85,6 +86,7 @@ void PrintReport(vtkPolyData* mesh)
     std::printf(", noise about %.3g", noise);
   }
   std::printf(", %.2g %% outliers\n", 100.0 * FieldNumber(mesh, "OutlierShare"));
+  PrintReasons(mesh);
   if (const long long rounds = FieldValue(mesh, "FitRoundsTakenBack"); rounds > 0)
   {
     std::printf("fit        %s taken back: with more of it the mesh was worse than before\n",

@@ -6,6 +6,7 @@
 #include "cloud/MeshBuilder.h"
 #include "run/Reconstruction.h"
 #include "run/Tuning.h"
+#include "vtkExplainedPoints.h"
 #include "vtkFilePoints.h"
 #include "vtkMeshArrays.h"
 #include "vtkNeuralMeshGrowth.h"
@@ -57,7 +58,7 @@ vtkNeuralMesh::vtkNeuralMesh()
   , Times(std::make_unique<neuralmesh::PhaseTimes>())
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(this->ExplanationPort + 1);
 }
 
 vtkNeuralMesh::~vtkNeuralMesh() = default;
@@ -106,6 +107,11 @@ vtkPolyData* vtkNeuralMesh::GetFirstMesh()
 vtkTable* vtkNeuralMesh::GetLearningCurve()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+vtkPolyData* vtkNeuralMesh::GetExplainedPoints()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(this->ExplanationPort));
 }
 
 #define FOR_EACH_PHASE(F) F(Drawing) F(Cloud) F(Choice) F(Start) F(Learning) F(Finish)
@@ -364,8 +370,8 @@ int vtkNeuralMesh::RequestData(
   const neuralmesh::OrientationHints hints = orientation.GetHints();
   const neuralmesh::ThreadPool executor(vtkNeuralMeshThreads(this->NumberOfThreads));
   this->Times->enter(neuralmesh::Phase::Cloud);
-  const neuralmesh::PointCloud cloud(
-    collector.GetPoints(), weights, carries || hints.needOrigins(), executor);
+  const neuralmesh::PointCloud cloud(collector.GetPoints(), weights,
+    carries || this->ExplainPoints || hints.needOrigins(), executor);
   this->Times->leave();
   collector.ReleasePoints();
   std::vector<double>().swap(weights);
@@ -387,6 +393,11 @@ int vtkNeuralMesh::RequestData(
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
   this->FillOutput(run, result, output, vtkTable::GetData(outputVector, 1));
+  if (this->ExplainPoints && result.explanation)
+  {
+    vtkExplainedPoints::Fill(collector, cloud, *result.explanation,
+      vtkPolyData::GetData(outputVector, this->ExplanationPort));
+  }
   bool isComplete = result.isComplete();
   if (carries && result.stopReason != neuralmesh::StopReason::Cancelled)
   {
@@ -457,10 +468,7 @@ bool vtkNeuralMesh::BeginRun(
 #undef SET_PARAMETER
   if (!this->IsHelper())
   {
-    for (const std::string& warning : run.Parameters.warnings(run.Cloud.points().size()))
-    {
-      vtkWarningMacro(<< warning);
-    }
+    run.Warnings = run.Parameters.warnings(run.Cloud.points().size());
   }
   try
   {
@@ -474,10 +482,15 @@ bool vtkNeuralMesh::BeginRun(
   if (!this->IsHelper() && run.FirstMesh &&
     run.FirstMesh->vertexCount() > run.Parameters.numberOfVertices)
   {
-    vtkWarningMacro(<< "The mesh to start from has " << run.FirstMesh->vertexCount()
-                    << " vertices, more than " << this->NumberOfVertices
-                    << (run.Parameters.fitRounds > 0 ? ": it is fitted, but grows no further."
-                                                     : ": it comes out as it is."));
+    run.Warnings.push_back("The mesh to start from has " +
+      std::to_string(run.FirstMesh->vertexCount()) + " vertices, more than " +
+      std::to_string(this->NumberOfVertices) +
+      (run.Parameters.fitRounds > 0 ? ": it is fitted, but grows no further."
+                                    : ": it comes out as it is."));
+  }
+  for (const std::string& warning : run.Warnings)
+  {
+    vtkWarningMacro(<< warning);
   }
   return true;
 }
@@ -507,7 +520,7 @@ bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& res
     result = neuralmesh::reconstruct(run.Cloud, run.Parameters,
       neuralmesh::partOf(progress, this->Automatic ? EndOfChoice : 0.0, run.EndOfMesh),
       run.FirstMesh, this->WatchGrowth(run.PointsPrecision), this->PlanCheckpoint(run),
-      run.Executor, run.Hints);
+      run.Executor, run.Hints, this->ExplainPoints);
   }
   catch (const std::runtime_error& error)
   {
@@ -515,16 +528,21 @@ bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& res
     return false;
   }
   this->AbortExecute = 0;
-  vtkNeuralMeshOrientation::Warn(result.orientation, this);
+  if (result.stopReason == neuralmesh::StopReason::Stalled)
+  {
+    result.warnings.push_back("The mesh has stopped growing, at " +
+      std::to_string(result.mesh.points.size()) +
+      " vertices: as many are removed as are added. More RemovalPatience or less "
+      "SamplesPerAddition may help.");
+  }
+  for (const std::string& warning : result.warnings)
+  {
+    vtkWarningMacro(<< warning);
+    run.Warnings.push_back(warning);
+  }
   this->Times->add(result.times);
   this->ResumedIterations = static_cast<vtkIdType>(result.resumedIterations);
   this->StopReason = neuralmesh::name(result.stopReason).data();
-  if (result.stopReason == neuralmesh::StopReason::Stalled)
-  {
-    vtkWarningMacro(<< "The mesh has stopped growing, at " << result.mesh.points.size()
-                    << " vertices: as many are removed as are added. More RemovalPatience or less "
-                       "SamplesPerAddition may help.");
-  }
   return true;
 }
 
@@ -551,6 +569,11 @@ void vtkNeuralMesh::FillOutput(const vtkNeuralMeshRun& run,
   {
     vtkNeuralMeshReport::AddQuality(result, run.Cloud.unit(), output);
   }
+  if (result.explanation)
+  {
+    vtkExplainedPoints::AddCounts(*result.explanation, output);
+  }
+  vtkNeuralMeshReport::AddWarnings(run.Warnings, output);
 }
 
 /// Point data of the input goes over to the mesh. False if that was aborted.

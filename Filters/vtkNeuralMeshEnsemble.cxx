@@ -204,7 +204,8 @@ neuralmesh::TriangleMesh Contour(
 vtkNeuralMeshEnsemble::vtkNeuralMeshEnsemble()
 {
   this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(4);
+  this->ExplanationPort = 4;
+  this->SetNumberOfOutputPorts(this->ExplanationPort + 1);
   this->TopologyLearningOn();
 }
 
@@ -287,11 +288,11 @@ void vtkNeuralMeshEnsemble::PrepareRun(
     neuralmesh::averageOf(*votes, run.Cloud, run.Parameters.numberOfVertices, Contour);
   if (average.agreement < neuralmesh::EnsembleAverage::GoodAgreement)
   {
-    vtkWarningMacro(<< "The members agree on " << std::lround(100.0 * average.agreement)
-                    << " % of what they hold only, for the cloud is open, "
-                    << (average.mesh
-                           ? "thin or of too few points: the topology is left to chance."
-                           : "flat or of too few points: learning starts as Start says."));
+    run.Warnings.push_back("The members agree on " +
+      std::to_string(std::lround(100.0 * average.agreement)) +
+      " % of what they hold only, for the cloud is open, " +
+      (average.mesh ? "thin or of too few points: the topology is left to chance."
+                    : "flat or of too few points: learning starts as Start says."));
   }
   if (average.mesh)
   {

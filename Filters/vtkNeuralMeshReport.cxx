@@ -37,6 +37,17 @@ void AddColumn(vtkTable* table, const char* name,
   table->AddColumn(column);
 }
 
+vtkNew<vtkStringArray> MakeStrings(const char* name, const std::vector<std::string>& texts)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  for (const std::string& text : texts)
+  {
+    array->InsertNextValue(text);
+  }
+  return array;
+}
+
 std::string Assignment(const neuralmesh::TuningChoice& choice)
 {
   std::ostringstream text;
@@ -85,11 +96,19 @@ void vtkNeuralMeshReport::AddQuality(
   addCount("FitRoundsTakenBack", result.finish ? result.finish->roundsTakenBack : 0);
 }
 
+void vtkNeuralMeshReport::AddWarnings(
+  const std::vector<std::string>& warnings, vtkPolyData* output)
+{
+  output->GetFieldData()->AddArray(MakeStrings("Warnings", warnings));
+}
+
 void vtkNeuralMeshReport::RemoveFrom(vtkPolyData* output)
 {
   for (const char* name : { "Residual", "Noise", "OutlierShare", "RegularRatio", "TriangleQuality",
          "Components", "Genus", "BoundaryLoops", "FoldedEdges", "IntersectingTriangles",
-         "FitRoundsTakenBack", "ChosenParameters", "ReasonsOfChoice" })
+         "FitRoundsTakenBack", "ChosenParameters", "ReasonsOfChoice", "OutlierPoints",
+         "SmallPiecePoints", "UnreachablePoints", "UnexplainedPoints", "UnexplainedShare",
+         "Warnings" })
   {
     output->GetFieldData()->RemoveArray(name);
   }
@@ -129,13 +148,7 @@ void vtkNeuralMeshReport::AddTuning(const neuralmesh::Tuning& tuning, vtkPolyDat
     chosen->InsertNextValue(Assignment(choice));
   }
   output->GetFieldData()->AddArray(chosen);
-  vtkNew<vtkStringArray> reasons;
-  reasons->SetName("ReasonsOfChoice");
-  for (const std::string& reason : tuning.reasons())
-  {
-    reasons->InsertNextValue(reason);
-  }
-  output->GetFieldData()->AddArray(reasons);
+  output->GetFieldData()->AddArray(MakeStrings("ReasonsOfChoice", tuning.reasons()));
 }
 
 void vtkNeuralMeshReport::Log(const neuralmesh::Tuning& tuning, vtkObject* filter)

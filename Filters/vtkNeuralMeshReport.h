@@ -11,6 +11,7 @@
 
 #include "learn/LearningCurve.h"
 
+#include <string>
 #include <vector>
 
 class vtkObject;
@@ -33,6 +34,8 @@ public:
     const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output);
   /** Which parameters were chosen, and why. */
   static void AddTuning(const neuralmesh::Tuning& tuning, vtkPolyData* output);
+  /** What was warned of, a sentence each; an empty array if there was nothing. */
+  static void AddWarnings(const std::vector<std::string>& warnings, vtkPolyData* output);
   /** Removes all that these add: the input may bring the report on an earlier mesh along. */
   static void RemoveFrom(vtkPolyData* output);
 

@@ -18,6 +18,8 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
+#include <vector>
 
 class vtkAlgorithm;
 
@@ -65,6 +67,7 @@ struct vtkNeuralMeshRun
   std::optional<neuralmesh::Tuning> Tuning; ///< if parameters were chosen
   double EndOfMesh; ///< as a fraction of the run; then arrays are carried over
   neuralmesh::OrientationHints Hints;
+  std::vector<std::string> Warnings{}; ///< that the filter has given
   bool IsStartWhole = true;        ///< not if making the first mesh was cut short
   bool AreParametersChosen = true; ///< not if that was, though they were to be
 };

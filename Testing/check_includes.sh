@@ -41,7 +41,8 @@ forbid 'vtkPV|vtkSM([^P]|P[^T])|vtkSI|pq|CLI/|ErrorCollector|LearningParameters|
   Filters/*.h Filters/*.h.in Filters/*.cxx
 # The header of a public class is installed; the core is not.
 for header in Filters/vtkNeuralMesh.h.in Filters/vtkNeuralMeshAlgorithm.h.in \
-  Filters/vtkNeuralMeshEnsemble.h.in Filters/vtkNeuralMeshComparison.h Filters/vtkNeuralMeshScan.h \
+  Filters/vtkNeuralMeshEnsemble.h.in Filters/vtkNeuralMeshComparison.h Filters/vtkNeuralMeshExplanation.h \
+  Filters/vtkNeuralMeshScan.h \
   Filters/vtkNeuralMeshFileSampler.h Filters/vtkNeuralMeshStream.h.in \
   Filters/vtkNeuralMeshPLYReader.h Filters/vtkNeuralMeshWriter.h \
   Filters/vtkPNeuralMesh.h Filters/vtkPNeuralMeshEnsemble.h; do

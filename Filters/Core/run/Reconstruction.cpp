@@ -2,6 +2,7 @@
 #include "run/Reconstruction.h"
 
 #include "run/Stages.h"
+#include "run/Warnings.h"
 #include "start/OutlierClusters.h"
 
 #include <algorithm>
@@ -17,6 +18,37 @@ constexpr std::uint64_t SamplesPerCheck = 4096;
 /// With less the mesh would follow single points, not the surface.
 constexpr std::size_t PointsPerVertex = 2;
 constexpr std::size_t LeastLearnt = 100;
+
+/// Points that are explained where only their numbers are wanted.
+constexpr std::size_t PointsExplained = 10000;
+
+/// Which points of a cloud are not in what is left of it, which has the same order.
+std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& left)
+{
+  std::vector<std::uint8_t> result(cloud.points().size(), 1);
+  for (std::size_t i = 0, kept = 0; i < cloud.points().size() && kept < left.points().size(); ++i)
+  {
+    if (!(squaredNorm(cloud.points()[i] - left.points()[kept]) > 0.f))
+    {
+      result[i] = 0;
+      ++kept;
+    }
+  }
+  return result;
+}
+
+/// What becomes of the points of a cloud; `left` are those without clusters of outliers, if it has some.
+Explanation explanationOf(const Mesh& mesh, const PointCloud& cloud, const PointCloud* left,
+  bool explainsAll, const Executor& executor)
+{
+  ExplanationRules rules;
+  if (left)
+  {
+    rules.isLeftOut = leftOutOf(cloud, *left);
+  }
+  const std::size_t most = explainsAll ? cloud.points().size() : PointsExplained;
+  return explain(cloud, distancesTo(mesh, cloud, most, executor), rules, executor);
+}
 
 /// Learns until a stopping rule is met; returns which.
 StopReason learnAll(LearningState state, Checkpoint& checkpoint, const PointCloud& cloud,
@@ -62,7 +94,8 @@ std::size_t firstVertices(std::uint64_t vertices)
 
 Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
   const Progress& report, const std::optional<Mesh>& first, const GrowthWatch& watch,
-  const CheckpointPlan& plan, const Executor& executor, const OrientationHints& hints)
+  const CheckpointPlan& plan, const Executor& executor, const OrientationHints& hints,
+  bool explainsAll)
 {
   Reconstruction result;
   // Once the caller has ended the run, it is asked no more.
@@ -119,6 +152,12 @@ Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
   }
   describe(std::move(learnt), cloud, result.stopReason == StopReason::Cancelled ? nullptr : &input,
     hints, result, executor);
+  if (result.stopReason != StopReason::Cancelled)
+  {
+    result.explanation =
+      explanationOf(result.surface, input, cleaned ? &*cleaned : nullptr, explainsAll, executor);
+  }
+  result.warnings = warningsOf(result, input);
   result.times.leave();
   return result;
 }

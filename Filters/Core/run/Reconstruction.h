@@ -13,8 +13,10 @@
 #include "mesh/Orientation.h"
 #include "mesh/TriangleMesh.h"
 #include "run/Checkpoint.h"
+#include "run/Explanation.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace neuralmesh
@@ -42,7 +44,10 @@ struct Reconstruction
   /// Nothing if the run was cancelled.
   std::optional<MeshQuality> quality;
   OrientationReport orientation;
-  PhaseTimes times; ///< of start, learning and finish
+  /// Of some points, or of all if that was asked for. Nothing if the run was cancelled.
+  std::optional<Explanation> explanation;
+  std::vector<std::string> warnings; ///< see Warnings.h
+  PhaseTimes times;                  ///< of start, learning and finish
 };
 
 /// A mesh that is finished learns no more vertices than there is something to learn for.
@@ -59,9 +64,10 @@ inline constexpr double EndOfLearning = 0.65;
 /// left, or there is neither a first mesh nor anything learnt; and turns it to its outer side, by
 /// `hints` if they tell. Snapshots of the growth go to `watch`. The run goes on from the checkpoint
 /// that `plan` names, if there is one, and leaves one there: in the end, too, for what becomes of the
-/// result is not known here. Throws as Checkpoint does.
+/// result is not known here. With `explainsAll` all points are explained, else some. Throws as Checkpoint
+/// does.
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
   const Progress& progress, const std::optional<Mesh>& first = {}, const GrowthWatch& watch = {},
   const CheckpointPlan& plan = {}, const Executor& executor = Executor::sequential(),
-  const OrientationHints& hints = {});
+  const OrientationHints& hints = {}, bool explainsAll = false);
 }

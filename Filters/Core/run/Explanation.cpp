@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/Explanation.h"
+
+#include "base/DisjointSets.h"
+#include "base/Median.h"
+#include "cloud/CloudDistance.h"
+#include "cloud/NearestPoints.h"
+#include "cloud/PlaceOnMesh.h"
+#include "start/LayerSamples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace neuralmesh
+{
+namespace
+{
+/// A point is away from the mesh beyond so many of its own distances to its neighbours ...
+constexpr float SpacingsAway = 3.f;
+/// ... and of the median distance of all: no noise is there.
+constexpr float MediansAway = 8.f;
+/// If the mesh misses most points, their median tells no noise: then it is more than so many distances
+/// between points, and it is the layers of so many points that tell it.
+constexpr float SpacingsOfNoise = 3.f;
+constexpr std::size_t LayersOfNoise = 200;
+/// An outlier is so much farther from its neighbours than they are from theirs.
+constexpr float LoneSpacings = 3.f;
+/// Where points are sparse, three of ten that lie anywhere seem to be in a layer: less than this part of a
+/// piece is none.
+constexpr double LeastInLayer = 0.6;
+/// Points are of one piece if they are closer than so many distances to their neighbours ...
+constexpr float SpacingsOfPiece = 2.5f;
+constexpr std::size_t NeighborsInPiece = 16;
+/// ... or than so many edges: the mesh could not tell them apart.
+constexpr double EdgesOfPiece = 2.;
+/// Of the points asked: fewer are a piece by chance.
+constexpr double LeastAskedInPiece = 4.;
+
+constexpr std::size_t SpacingsAsked = 500;
+constexpr std::size_t PointsPerRange = 256;
+
+class Explainer
+{
+public:
+  Explainer(const PointCloud& cloud, PointDistances distances, const ExplanationRules& rules,
+    const Executor& executor)
+    : cloud_(cloud)
+    , rules_(rules)
+    , executor_(executor)
+    , nearest_(cloud.points())
+  {
+    result_.asked = std::move(distances);
+    result_.reasons.assign(result_.asked.points.size(), Reason::Explained);
+  }
+
+  Explanation run() &&
+  {
+    if (!result_.reasons.empty())
+    {
+      survey();
+      tellApart();
+      // What is sparse surrounds what is dense, and is none of it.
+      findPieces(false);
+      findPieces(true);
+      std::stable_sort(result_.pieces.begin(), result_.pieces.end(),
+        [](const MissedPiece& a, const MissedPiece& b) { return a.points > b.points; });
+    }
+    count();
+    return std::move(result_);
+  }
+
+private:
+  float spacingOf(std::size_t i) const
+  {
+    return pointSpacing(nearest_, std::uint32_t(result_.asked.points[i]));
+  }
+
+  /// The usual distance between points, and the noise.
+  void survey()
+  {
+    const std::vector<float>& distances = result_.asked.distances;
+    const std::size_t all = distances.size(), asked = std::min(all, SpacingsAsked);
+    std::vector<float> spacings(asked);
+    for (std::size_t i = 0; i < asked; ++i)
+    {
+      spacings[i] = spacingOf(i * all / asked);
+    }
+    usualSpacing_ = medianOf(std::move(spacings));
+    float median = medianOf(distances);
+    if (median > SpacingsOfNoise * usualSpacing_)
+    {
+      std::vector<float> moves;
+      const std::size_t layers = std::min(all, LayersOfNoise);
+      for (std::size_t i = 0; i < layers; ++i)
+      {
+        const auto point = std::uint32_t(result_.asked.points[i * all / layers]);
+        if (const auto place = placeInLayer(nearest_, point))
+        {
+          moves.push_back(std::sqrt(squaredNorm(*place - cloud_.points()[point])));
+        }
+      }
+      median = moves.empty() ? median : std::min(median, medianOf(std::move(moves)));
+    }
+    noise_ = MediansAway * median;
+  }
+
+  bool isSparse(std::size_t i) const { return spacings_[i] > LoneSpacings * usualSpacing_; }
+
+  /// Whether a point is much farther from others than these are from theirs.
+  bool isLone(std::uint32_t point, float spacing) const
+  {
+    std::array<NearPoint, Neighbors + 1> near;
+    const std::size_t found = nearest_.find(cloud_.points()[point], near);
+    std::vector<float> around;
+    for (std::size_t i = 0; i < found; ++i)
+    {
+      if (near[i].index != point)
+      {
+        around.push_back(pointSpacing(nearest_, near[i].index));
+      }
+    }
+    return around.empty() || spacing > LoneSpacings * medianOf(std::move(around));
+  }
+
+  /// What is explained, an outlier, or neither, which is unreachable for now.
+  void tellApart()
+  {
+    const std::size_t all = result_.asked.points.size();
+    spacings_.assign(all, 0.f);
+    isInLayer_.assign(all, 1);
+    executor_.forEachRange(all, PointsPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          result_.reasons[i] = reasonOf(i);
+        }
+      });
+  }
+
+  Reason reasonOf(std::size_t i)
+  {
+    const auto point = std::uint32_t(result_.asked.points[i]);
+    const float distance = result_.asked.distances[i];
+    if (!(distance > noise_))
+    {
+      return Reason::Explained;
+    }
+    if (!rules_.isLeftOut.empty() && rules_.isLeftOut[point] != 0)
+    {
+      return Reason::Outlier;
+    }
+    spacings_[i] = pointSpacing(nearest_, point);
+    if (distance > spacings_[i] && isLone(point, spacings_[i]))
+    {
+      return Reason::Outlier;
+    }
+    if (isSparse(i))
+    {
+      isInLayer_[i] = placeInLayer(nearest_, point) ? 1 : 0;
+    }
+    if (distance > SpacingsAway * spacings_[i])
+    {
+      return Reason::Unreachable;
+    }
+    return isInLayer_[i] != 0 ? Reason::Explained : Reason::Outlier;
+  }
+
+  /// Joins those that are unreachable and belong together, either sparse or not. Where they are in no
+  /// layer they are outliers, and where they are few a small piece.
+  void findPieces(bool areSparse)
+  {
+    std::vector<std::size_t> missed;
+    std::vector<Vector4> places;
+    for (std::size_t i = 0; i < result_.reasons.size(); ++i)
+    {
+      if (result_.reasons[i] == Reason::Unreachable && isSparse(i) == areSparse)
+      {
+        missed.push_back(i);
+        places.push_back(cloud_.points()[result_.asked.points[i]]);
+      }
+    }
+    DisjointSets sets(missed.size());
+    joinNeighbors(sets, missed, places, float(std::sqrt(pointsPerAsked())));
+    joinCells(sets, places);
+    std::map<std::size_t, std::vector<std::size_t>> members;
+    for (std::size_t m = 0; m < missed.size(); ++m)
+    {
+      members[sets.root(m)].push_back(missed[m]);
+    }
+    for (const auto& [root, piece] : members)
+    {
+      judge(piece);
+    }
+  }
+
+  double pointsPerAsked() const
+  {
+    return double(cloud_.points().size()) / double(result_.asked.points.size());
+  }
+
+  void judge(const std::vector<std::size_t>& piece)
+  {
+    const auto inLayer = std::count_if(
+      piece.begin(), piece.end(), [this](std::size_t i) { return isInLayer_[i] != 0; });
+    if (double(inLayer) < LeastInLayer * double(piece.size()))
+    {
+      give(piece, Reason::Outlier);
+      return;
+    }
+    const double asked = double(result_.asked.points.size());
+    if (double(piece.size()) < std::max(rules_.leastPiece * asked, LeastAskedInPiece))
+    {
+      give(piece, Reason::SmallPiece);
+      return;
+    }
+    MissedPiece missed;
+    missed.points = pointsPerAsked() * double(piece.size());
+    std::size_t beyond = 0;
+    for (const std::size_t i : piece)
+    {
+      missed.center +=
+        cloud_.toInput(cloud_.points()[result_.asked.points[i]]) / double(piece.size());
+      missed.farthest =
+        std::max(missed.farthest, cloud_.unit() * double(result_.asked.distances[i]));
+      beyond += result_.asked.isBeyondBoundary[i];
+    }
+    missed.isBeyondBoundary = 2 * beyond > piece.size();
+    result_.pieces.push_back(missed);
+  }
+
+  void give(const std::vector<std::size_t>& piece, Reason reason)
+  {
+    for (const std::size_t i : piece)
+    {
+      result_.reasons[i] = reason;
+    }
+  }
+
+  void joinNeighbors(DisjointSets& sets, const std::vector<std::size_t>& missed,
+    const std::vector<Vector4>& places, float thinning) const
+  {
+    const NearestPoints nearest(places);
+    std::array<NearPoint, NeighborsInPiece> near;
+    for (std::size_t m = 0; m < missed.size(); ++m)
+    {
+      const float reach = SpacingsOfPiece * thinning * spacings_[missed[m]];
+      const std::size_t found = nearest.find(places[m], near);
+      for (std::size_t i = 0; i < found && near[i].squaredDistance <= reach * reach; ++i)
+      {
+        sets.join(m, near[i].index);
+      }
+    }
+  }
+
+  /// Joins those in the same cell, or in cells that touch.
+  void joinCells(DisjointSets& sets, const std::vector<Vector4>& places) const
+  {
+    // Of all, the corners of cells may be as far apart as sixteen million of them.
+    const double width = std::max(EdgesOfPiece * result_.asked.meanEdge, 1e-6 * cloud_.diagonal());
+    using Cell = std::array<long, 3>;
+    std::map<Cell, std::size_t> firstIn;
+    const auto cellOf = [&](Vector4 place)
+    {
+      const Eigen::Vector3d scaled = place.toDouble() / width;
+      return Cell{ long(std::floor(scaled[0])), long(std::floor(scaled[1])),
+        long(std::floor(scaled[2])) };
+    };
+    for (std::size_t m = 0; m < places.size(); ++m)
+    {
+      sets.join(m, firstIn.try_emplace(cellOf(places[m]), m).first->second);
+    }
+    constexpr int Around = 27;
+    for (const auto& [cell, first] : firstIn)
+    {
+      for (int i = 0; i < Around; ++i)
+      {
+        const auto other =
+          firstIn.find({ cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1 });
+        if (other != firstIn.end())
+        {
+          sets.join(first, other->second);
+        }
+      }
+    }
+  }
+
+  void count()
+  {
+    for (const Reason reason : result_.reasons)
+    {
+      result_.counts[std::size_t(reason)] += pointsPerAsked();
+    }
+    result_.counts[std::size_t(Reason::Dropped)] = double(cloud_.droppedCount());
+  }
+
+  static constexpr std::size_t Neighbors = 6;
+
+  const PointCloud& cloud_;
+  const ExplanationRules& rules_;
+  const Executor& executor_;
+  NearestPoints nearest_;
+  Explanation result_;
+  float usualSpacing_ = 0.f;
+  float noise_ = 0.f;
+  // Where they were needed:
+  std::vector<float> spacings_;
+  std::vector<std::uint8_t> isInLayer_;
+};
+}
+
+std::string_view name(Reason reason)
+{
+  constexpr std::array<std::string_view, Reasons> Names{ "explained", "outlier", "small piece",
+    "unreachable", "dropped" };
+  return Names[std::size_t(reason)];
+}
+
+double Explanation::unexplainedShare() const
+{
+  const double all = std::accumulate(counts.begin(), counts.end(), 0.) - count(Reason::Dropped);
+  return all > 0. ? unexplained() / all : 0.;
+}
+
+PointDistances distancesTo(
+  const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
+{
+  const std::size_t all = cloud.points().size(), count = std::min(all, most);
+  const VertexGrid grid = gridOf(mesh, cloud);
+  PointDistances result;
+  result.points.resize(count);
+  result.distances.resize(count);
+  result.isBeyondBoundary.resize(count);
+  result.meanEdge = mesh.meanEdge();
+  const float near = 0.1f * float(result.meanEdge);
+  executor.forEachRange(count, PointsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        result.points[i] = i * all / count;
+        const Vector4 point = cloud.points()[result.points[i]];
+        const PlaceOnMesh place = closestPlace(point, mesh, grid);
+        result.distances[i] = std::sqrt(place.squaredDistance);
+        result.isBeyondBoundary[i] = isOnBoundary(place, mesh) ? 1 : 0;
+        // The triangles of the closest vertex need not have the closest place of the mesh.
+        if (result.distances[i] > near)
+        {
+          result.distances[i] =
+            std::min(result.distances[i], float(distanceToSurface(point, mesh, grid)));
+        }
+      }
+    });
+  return result;
+}
+
+Explanation explain(const PointCloud& cloud, PointDistances distances,
+  const ExplanationRules& rules, const Executor& executor)
+{
+  return Explainer(cloud, std::move(distances), rules, executor).run();
+}
+}

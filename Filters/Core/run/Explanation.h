@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Executor.h"
+#include "cloud/PointCloud.h"
+#include "mesh/Mesh.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace neuralmesh
+{
+/// Why a point of the input lies where it lies against the mesh.
+enum class Reason : std::uint8_t
+{
+  Explained, ///< the mesh is there
+  Outlier,   ///< away from the mesh, and apart from other points, or in a cluster that was left out
+  SmallPiece,  ///< away from the mesh, with so few others that they are no piece of the surface
+  Unreachable, ///< away from the mesh, though there are others: the surface is missing there
+  Dropped      ///< no coordinates, no weight, or too far off to be taken in
+};
+constexpr std::size_t Reasons = 5;
+
+/// "explained", "outlier", "small piece", "unreachable", "dropped".
+std::string_view name(Reason reason);
+
+/// Points that belong together and that the mesh does not reach.
+struct MissedPiece
+{
+  Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< in the coordinates of the input
+  double points = 0.;                               ///< of the cloud, about
+  double farthest = 0.;                             ///< from the mesh, in units of the input
+  bool isBeyondBoundary = false; ///< whether most of them lie nearest to a boundary of the mesh
+};
+
+/// How far points are from the mesh, as is told from outside.
+struct PointDistances
+{
+  std::vector<std::size_t> points;            ///< which of the cloud, in rising order
+  std::vector<float> distances;               ///< of each, in units of the cloud
+  std::vector<std::uint8_t> isBeyondBoundary; ///< of each, whether its place is on a boundary
+  double meanEdge = 0.;                       ///< of the mesh, in units of the cloud
+};
+
+/// What a mesh leaves of a cloud. A point is away from the mesh if it is farther than three of its own
+/// distances to its six nearest neighbours, and than any noise: than eight median distances. It is an
+/// outlier if its own distances are three times those of its neighbours; or three times those that are
+/// usual, and most of those that are away with it lie in no layer.
+struct Explanation
+{
+  PointDistances asked;
+  std::vector<Reason> reasons; ///< of the points asked
+  std::array<double, Reasons>
+    counts{};                      ///< of the points of the input, about; exact if all are asked
+  std::vector<MissedPiece> pieces; ///< that are unreachable, the largest first
+
+  double count(Reason reason) const { return counts[std::size_t(reason)]; }
+  /// Points that are no outliers, and that the mesh does not reach.
+  double unexplained() const { return count(Reason::SmallPiece) + count(Reason::Unreachable); }
+  /// Of all that were not dropped.
+  double unexplainedShare() const;
+};
+
+/// What decides.
+struct ExplanationRules
+{
+  /// Fewer points than this part of all are a small piece.
+  double leastPiece = 0.001;
+  /// Points that the run took for clusters of outliers; empty if it has none.
+  std::vector<std::uint8_t> isLeftOut;
+};
+
+/// At most `most` points of the cloud, evenly picked, and how far they are from a mesh of which no
+/// vertex may be erased.
+PointDistances distancesTo(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
+  const Executor& executor = Executor::sequential());
+
+/// Takes about as long as the distances do.
+Explanation explain(const PointCloud& cloud, PointDistances distances,
+  const ExplanationRules& rules, const Executor& executor = Executor::sequential());
+}

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/Warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+#include <string_view>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr double MostUnexplained = 0.03;
+/// Of the area: less is not worth a word.
+constexpr double LeastUnknownSide = 0.001;
+constexpr double WholeArea = 0.999;
+/// Named in one sentence; the others are counted.
+constexpr std::size_t MostPiecesNamed = 3;
+/// With less points a vertex, the mesh follows single points.
+constexpr std::size_t LeastPointsPerVertex = 2;
+constexpr std::string_view HowToSee = "ExplainPoints (--explain) shows which.";
+
+std::string counted(std::size_t count, std::string_view one, std::string_view several)
+{
+  return std::to_string(count) + " " + std::string(count == 1 ? one : several);
+}
+
+std::string percent(double share)
+{
+  std::ostringstream text;
+  text.precision(share > 0.1 ? 3 : 2);
+  text << 100. * share << " %";
+  return text.str();
+}
+
+std::string about(double points) { return std::to_string(std::llround(points)); }
+
+/// A place as a user would type it, in digits that tell it apart from others of the cloud.
+std::string placeText(const Eigen::Vector3d& place, const PointCloud& cloud)
+{
+  const double step = std::max(1e-3 * cloud.diagonal() * cloud.unit(), 1e-300);
+  const double largest = std::max(place.cwiseAbs().maxCoeff(), step);
+  std::ostringstream text;
+  text.precision(1 + int(std::ceil(std::log10(largest / step))));
+  text << "(" << place[0] << ", " << place[1] << ", " << place[2] << ")";
+  return text.str();
+}
+
+void warnOfPieces(const Explanation& explanation, const PointCloud& cloud, bool areBeyondBoundary,
+  std::vector<std::string>& warnings)
+{
+  std::vector<MissedPiece> pieces;
+  std::copy_if(explanation.pieces.begin(), explanation.pieces.end(), std::back_inserter(pieces),
+    [&](const MissedPiece& piece) { return piece.isBeyondBoundary == areBeyondBoundary; });
+  if (pieces.empty())
+  {
+    return;
+  }
+  std::string where;
+  for (std::size_t i = 0; i < std::min(pieces.size(), MostPiecesNamed); ++i)
+  {
+    where += (i == 0 ? "" : ", ") + about(pieces[i].points) + " points around " +
+      placeText(pieces[i].center, cloud);
+  }
+  if (pieces.size() > MostPiecesNamed)
+  {
+    where += " and " + counted(pieces.size() - MostPiecesNamed, "other place", "other places");
+  }
+  warnings.push_back(areBeyondBoundary
+      ? "The mesh ends, or has an opening, where there are points: about " + where +
+        ". A smaller KeepPieces keeps small pieces, more vertices reach what is narrow, and "
+        "Boundaries close (--boundaries close) fills openings. " +
+        std::string(HowToSee)
+      : "A part of the cloud is missing in the mesh: about " + where +
+        ". More vertices reach what is thin; a first mesh (--initial) can hold what is not found; "
+        "or "
+        "reconstruct that part by itself. " +
+        std::string(HowToSee));
+}
+
+void warnOfPoints(
+  const Explanation& explanation, const PointCloud& cloud, std::vector<std::string>& warnings)
+{
+  if (explanation.unexplainedShare() > MostUnexplained)
+  {
+    warnings.push_back(percent(explanation.unexplainedShare()) + " of the points (about " +
+      about(explanation.unexplained()) +
+      ") are unexplained: farther from the mesh than points are from each other there, and yet no "
+      "outliers. Do not trust the mesh before you have looked at them. " +
+      std::string(HowToSee));
+  }
+  warnOfPieces(explanation, cloud, false, warnings);
+  warnOfPieces(explanation, cloud, true, warnings);
+}
+
+void warnOfDefects(const Reconstruction& result, std::vector<std::string>& warnings)
+{
+  const std::size_t cuts = result.finish ? result.finish->left.intersectingTriangles : 0;
+  const std::size_t folds = result.quality->surface.foldedEdges;
+  if (cuts > 0)
+  {
+    warnings.push_back(counted(cuts, "triangle intersects", "triangles intersect") +
+      " others and could not be repaired: the surface is thinner there than triangles are large, "
+      "or "
+      "two layers are taken for one. More vertices make triangles smaller; another seed may do.");
+  }
+  if (folds > 0)
+  {
+    warnings.push_back("The mesh is folded at " + counted(folds, "edge", "edges") +
+      ", whose triangles turn by more than 150 degrees. More FitRounds, another number of vertices "
+      "or another seed may unfold it.");
+  }
+}
+
+void warnOfVertices(
+  const Reconstruction& result, const PointCloud& cloud, std::vector<std::string>& warnings)
+{
+  const std::size_t vertices = result.mesh.points.size(), points = cloud.differentCount();
+  if (vertices > points / LeastPointsPerVertex && vertices <= cloud.points().size())
+  {
+    warnings.push_back("The mesh is finer than its data: " + std::to_string(vertices) +
+      " vertices for " + std::to_string(points) +
+      " different points. What is beyond one vertex for two points shows no more of the surface: "
+      "ask for " +
+      std::to_string(std::max<std::size_t>(points / LeastPointsPerVertex, 4)) +
+      " vertices or less.");
+  }
+  if (result.finish && result.finish->roundsTakenBack > 0)
+  {
+    warnings.push_back(counted(std::size_t(result.finish->roundsTakenBack), "round", "rounds") +
+      " of the fit made the mesh worse and were taken back: its vertices do not fit the points "
+      "better than fewer would. Fewer vertices, or a start that lies closer, may help.");
+  }
+}
+
+void warnOfSides(const OrientationReport& sides, std::vector<std::string>& warnings)
+{
+  if (sides.hasToldNothing(SideEvidence::Viewpoints))
+  {
+    warnings.push_back("The viewpoints tell nothing of the sides of the surface: they are not "
+                       "finite, see as much of either side, or are those of no point.");
+  }
+  if (sides.hasToldNothing(SideEvidence::Normals))
+  {
+    warnings.push_back(
+      "The normals of the input tell nothing of the sides of the surface: they are "
+      "zero, not finite, or point to either side.");
+  }
+  // One piece agrees with itself, and with those that follow it: as a whole it has two sides that are
+  // as right.
+  const bool isOne = sides.unknownPieces == 1 &&
+    sides.unknownShare() + sides.share(SideEvidence::Neighbors) > WholeArea;
+  if (sides.unknownShare() > LeastUnknownSide && !isOne)
+  {
+    warnings.push_back("Which side of the surface is the outer one is unknown for " +
+      counted(sides.unknownPieces, "piece", "pieces") + " with " + percent(sides.unknownShare()) +
+      " of the area: give viewpoints (--viewpoint, where the scanner stood), an up direction "
+      "(--up), "
+      "or points with normals.");
+  }
+}
+}
+
+std::vector<std::string> warningsOf(const Reconstruction& result, const PointCloud& cloud)
+{
+  std::vector<std::string> warnings;
+  if (result.explanation)
+  {
+    warnOfPoints(*result.explanation, cloud, warnings);
+  }
+  if (result.quality)
+  {
+    warnOfDefects(result, warnings);
+    warnOfVertices(result, cloud, warnings);
+  }
+  warnOfSides(result.orientation, warnings);
+  return warnings;
+}
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cloud/PointCloud.h"
+#include "run/Reconstruction.h"
+
+#include <string>
+#include <vector>
+
+namespace neuralmesh
+{
+/// What a user must know of a mesh before using it: one sentence each, with what can be done. Empty
+/// where the mesh is what the cloud is; of a run that was cancelled, only what is known of the sides.
+/// - more than 3 % of the points are farther from the mesh than points are from each other, and no
+///   outliers; or a piece or limb of them is missing: where, and how many;
+/// - the mesh has an opening where there are points;
+/// - triangles intersect others, or are folded;
+/// - the mesh is finer than its data: it has more vertices than every second point;
+/// - the fit was taken back: with all its vertices the mesh had a larger residual;
+/// - nothing tells the outer side of pieces with more than a thousandth of the area, unless they are one
+///   piece of all: that agrees with itself, and can be turned as a whole;
+/// - viewpoints or normals were given, and tell nothing.
+std::vector<std::string> warningsOf(const Reconstruction& result, const PointCloud& cloud);
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkNeuralMeshExplanation
+ * @brief   tells of each point of a cloud how far it is from a mesh, and why
+ *
+ * vtkNeuralMeshExplanation shows what a triangle mesh leaves out of the cloud that it was made of,
+ * whatever made it. A point is *away* from the mesh if it is farther from it than three of its own mean
+ * distances to its six nearest neighbours, and than eight times the median distance of all points: than
+ * any noise.
+ *
+ * @par Input
+ * Port 0: the cloud, as that of vtkNeuralMesh. Port 1: a vtkPolyData with polygons or strips, of which
+ * polygons become fans of triangles, in the coordinates of the cloud. It need be no manifold. It is an
+ * error if it has no triangle with an area, or if the cloud has points of which none is finite, or that
+ * all coincide.
+ *
+ * @par Output
+ * vtkPolyData with the points of the cloud, one after the other as its blocks have them, less ghost and
+ * blanked ones, as one cell, and the point data
+ * - `Distance` (double): to the mesh, in units of the input; NaN where Reason is 4;
+ * - `Reason` (unsigned char), the scalars: 0, explained: not away; 1, outlier: away, and three times as
+ *   far from its neighbours as these are from theirs, or as is usual and in no layer with them; 2, small
+ *   piece: away, with less than the part SmallestPiece of all points; 3, unreachable: away, with as many
+ *   or more; 4, dropped: NaN, infinite, or farther from the bulk of the cloud than 10^6 times its size.
+ *
+ * Points that are away belong together if they are closer than two mean edges of the mesh, or two and a
+ * half of their distances to their neighbours.
+ *
+ * Field data: `ReasonNames` (strings, by the number of the reason); the counts `OutlierPoints`,
+ * `SmallPiecePoints`, `UnreachablePoints`, and `UnexplainedPoints`, which is the sum of both before it;
+ * `UnexplainedShare` (double, 0 to 1: of all points that were not dropped); and of the pieces that are
+ * unreachable, the largest first, `MissedPieceCenters` (double, 3 components) and `MissedPiecePoints`.
+ *
+ * An abort leaves the output empty.
+ *
+ * @sa vtkNeuralMesh vtkNeuralMeshComparison
+ */
+
+#ifndef vtkNeuralMeshExplanation_h
+#define vtkNeuralMeshExplanation_h
+
+#include "vtkFiltersNeuralMeshModule.h" // For export macro
+#include "vtkNeuralMeshSetClampMacro.h"
+#include "vtkPolyDataAlgorithm.h"
+
+class VTKFILTERSNEURALMESH_EXPORT vtkNeuralMeshExplanation : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkNeuralMeshExplanation* New();
+  vtkTypeMacro(vtkNeuralMeshExplanation, vtkPolyDataAlgorithm)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Input port 1. */
+  void SetMeshConnection(vtkAlgorithmOutput* port);
+  void SetMeshData(vtkPolyData* mesh);
+  vtkPolyData* GetMesh();
+  ///@}
+
+  ///@{
+  /**
+   * Points that are away, and fewer than this part of all, are a small piece. Default 0.001; 0 to 1,
+   * clamped with a warning.
+   */
+  vtkNeuralMeshSetClampMacro(SmallestPiece, double, 0.0, 1.0);
+  vtkGetMacro(SmallestPiece, double);
+  ///@}
+
+protected:
+  vtkNeuralMeshExplanation();
+  ~vtkNeuralMeshExplanation() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkNeuralMeshExplanation(const vtkNeuralMeshExplanation&) = delete;
+  void operator=(const vtkNeuralMeshExplanation&) = delete;
+
+  double SmallestPiece = 0.001;
+};
+
+#endif
