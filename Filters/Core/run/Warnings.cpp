@@ -16,7 +16,7 @@ constexpr double MostUnexplained = 0.03;
 constexpr double LeastUnknownSide = 0.001;
 constexpr double WholeArea = 0.999;
 /// Named in one sentence; the others are counted.
-constexpr std::size_t MostPiecesNamed = 3;
+constexpr std::size_t MostPiecesNamed = 2;
 /// With less points a vertex, the mesh follows single points.
 constexpr std::size_t LeastPointsPerVertex = 2;
 constexpr std::string_view HowToSee = "ExplainPoints (--explain) shows which.";
@@ -67,16 +67,13 @@ void warnOfPieces(const Explanation& explanation, const PointCloud& cloud, bool 
   {
     where += " and " + counted(pieces.size() - MostPiecesNamed, "other place", "other places");
   }
-  warnings.push_back(areBeyondBoundary
-      ? "The mesh ends, or has an opening, where there are points: about " + where +
-        ". A smaller KeepPieces keeps small pieces, more vertices reach what is narrow, and "
-        "Boundaries close (--boundaries close) fills openings. " +
-        std::string(HowToSee)
-      : "A part of the cloud is missing in the mesh: about " + where +
-        ". More vertices reach what is thin; a first mesh (--initial) can hold what is not found; "
-        "or "
-        "reconstruct that part by itself. " +
-        std::string(HowToSee));
+  warnings.push_back(
+    (areBeyondBoundary ? "The mesh ends, or is open, where there are points: about "
+                       : "A part of the cloud is missing in the mesh: about ") +
+    where + ". More vertices reach what is thin or narrow" +
+    (areBeyondBoundary ? ", Boundaries close fills openings. "
+                       : ", a first mesh holds what is lost. ") +
+    std::string(HowToSee));
 }
 
 void warnOfPoints(
@@ -86,8 +83,9 @@ void warnOfPoints(
   {
     warnings.push_back(percent(explanation.unexplainedShare()) + " of the points (about " +
       about(explanation.unexplained()) +
-      ") are unexplained: farther from the mesh than points are from each other there, and yet no "
-      "outliers. Do not trust the mesh before you have looked at them. " +
+      ") are unexplained: farther from the mesh than from each other, and no outliers. Look at "
+      "them "
+      "before you use the mesh. " +
       std::string(HowToSee));
   }
   warnOfPieces(explanation, cloud, false, warnings);
@@ -121,16 +119,15 @@ void warnOfVertices(
   {
     warnings.push_back("The mesh is finer than its data: " + std::to_string(vertices) +
       " vertices for " + std::to_string(points) +
-      " different points. What is beyond one vertex for two points shows no more of the surface: "
-      "ask for " +
-      std::to_string(std::max<std::size_t>(points / LeastPointsPerVertex, 4)) +
-      " vertices or less.");
+      " different points. It shows no more of the surface than with " +
+      std::to_string(std::max<std::size_t>(points / LeastPointsPerVertex, 4)) + ".");
   }
   if (result.finish && result.finish->roundsTakenBack > 0)
   {
     warnings.push_back(counted(std::size_t(result.finish->roundsTakenBack), "round", "rounds") +
-      " of the fit made the mesh worse and were taken back: its vertices do not fit the points "
-      "better than fewer would. Fewer vertices, or a start that lies closer, may help.");
+      " of the fit made the residual larger, lost points or made triangles intersect, and were "
+      "taken "
+      "back. Fewer vertices, or a first mesh that lies closer, may help.");
   }
 }
 

@@ -16,7 +16,7 @@ namespace neuralmesh
 /// - the mesh has an opening where there are points;
 /// - triangles intersect others, or are folded;
 /// - the mesh is finer than its data: it has more vertices than every second point;
-/// - the fit was taken back: with all its vertices the mesh had a larger residual;
+/// - the fit was taken back: with it the mesh had a larger residual, lost points, or intersected;
 /// - nothing tells the outer side of pieces with more than a thousandth of the area, unless they are one
 ///   piece of all: that agrees with itself, and can be turned as a whole;
 /// - viewpoints or normals were given, and tell nothing.
