@@ -15,8 +15,8 @@ from .vtkFiltersNeuralMesh import vtkNeuralMesh, vtkNeuralMeshAlgorithm, vtkNeur
 
 # Those that have names or places of their own in the signature.
 _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
-# Time steps are for pipelines: a function gives the finished mesh.
-_OF_PIPELINES = ("growth_as_time", "number_of_snapshots")
+# Time steps are for pipelines: a function gives the finished mesh. What explains the points is a flag.
+_OF_PIPELINES = ("growth_as_time", "number_of_snapshots", "explain_points")
 PARAMETERS = {
     name: parameter
     for name, parameter in parameters_of(vtkNeuralMesh).items()
@@ -46,9 +46,10 @@ def reconstruct(
     normals: ArrayLike | None = None,
     up: ArrayLike | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
+    explain: bool = False,
     progress: Progress | None = None,
     **parameters: float | bool | str,
-) -> vtkPolyData:
+) -> vtkPolyData | tuple[vtkPolyData, vtkPolyData]:
     """Make a triangle mesh from a point cloud.
 
     Args:
@@ -87,6 +88,9 @@ def reconstruct(
             seconds and when it is ended early. If the file exists, the run goes on from there: the
             same call ends with the same bytes, however often it was killed. Once the mesh is done,
             the file is removed, unless keep_checkpoint is True.
+        explain: Whether the points are explained: then the result is the mesh and, as a second
+            vtkPolyData, the points with `Distance` and `Reason` as the run decided them, see
+            neuralmesh.explain(). It has no points if progress ended the run.
         progress: A function that is called now and then with the fraction that is done, from 0 to
             1. If it returns False, the mesh learnt so far is the result. An exception that it
             raises ends the run and comes out of this function.
@@ -105,7 +109,10 @@ def reconstruct(
         the quality: `Residual`, `Noise`, `OutlierShare`, `RegularRatio`, `TriangleQuality`,
         `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`,
         `IntersectingTriangles`, `FitRoundsTakenBack`. How the surface came to its outer side is told
-        by `OrientedBy`, `UnorientedPieces` and `UnorientedShare`. No pipeline is behind it.
+        by `OrientedBy`, `UnorientedPieces` and `UnorientedShare`; what was left out by
+        `OutlierPoints`, `SmallPiecePoints`, `UnreachablePoints`, `UnexplainedPoints` and
+        `UnexplainedShare`. `Warnings` has a string for each thing that was warned of. No pipeline is
+        behind it.
 
     Raises:
         ValueError: A parameter is out of its range, which the message names; parameters do not go
@@ -120,7 +127,9 @@ def reconstruct(
             or set time_limit.
 
     Warns:
-        RuntimeWarning: What VTK warns of, as more vertices than points.
+        RuntimeWarning: What must be known of the mesh, each with what can be done: parts of the cloud
+            that it misses, triangles that intersect, more vertices than points, and so on. The strings
+            of `Warnings`.
 
     Example:
         >>> points = numpy.loadtxt("scan.xyz")[:, :3]
@@ -148,8 +157,13 @@ def reconstruct(
             raise ValueError(f"first_mesh must be a vtkPolyData, not {type(first_mesh).__name__}")
         mesh.SetFirstMeshData(first_mesh)
 
+    mesh.SetExplainPoints(bool(explain))
     execute(mesh, progress)
-    return result_of(mesh)
+    if not explain:
+        return result_of(mesh)
+    explained = vtkPolyData()
+    explained.ShallowCopy(mesh.GetExplainedPoints())
+    return result_of(mesh), explained
 
 
 if reconstruct.__doc__:

@@ -11,7 +11,7 @@ from .. import __version__
 from .._command import add_processes_option, run_command
 from .gallery import write_gallery
 from .recipe import Job, Recipe, RecipeError, read_recipe
-from .report import is_done, require_distinct, summary_path, write_summary
+from .report import has_warnings, is_done, require_distinct, summary_path, write_summary
 from .running import run_jobs
 from .atomic_file import alone_in
 
@@ -38,6 +38,8 @@ time_limit
          seconds after which a job is ended, and has failed (default: none); in the matrix it is
          another one, which ends learning and keeps the mesh
 gallery  whether there is one (default: true)
+strict   whether warnings count: then the command ends with status 3 if a mesh has any (default: false);
+         meshes are written all the same
 view     of the pictures: which axis points upwards, and from where one looks, in degrees
 
 The folder gets for each job a mesh and a report (.json), for all of them summary.csv and the
@@ -45,8 +47,9 @@ gallery, index.html. A job is not run again while its result is there, and its s
 time of modification), its parameters, the format and the version of NeuralMesh are the same. What
 was left by jobs that are no longer in the recipe stays where it is.
 
-Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 130 after Ctrl-C. What
-is done by then stays, and the same command does the rest."""
+Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 3 all are done, some
+with warnings, and the recipe is strict, 130 after Ctrl-C. What is done by then stays, and the same
+command does the rest."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -95,8 +98,12 @@ def _batch(recipe_path: Path, output: Path | None, processes: int) -> int:
             for problem in write_gallery(folder, recipe, recipe_path.stem):
                 print(f"neuralmesh: {problem}", file=sys.stderr)
             print(f"gallery    {folder / 'index.html'}")
-    print(f"jobs       {len(recipe.jobs) - failed} done, {failed} failed")
-    return 1 if failed else 0
+    warned = sum(has_warnings(folder, job) for job in recipe.jobs)
+    with_warnings = f", {warned} with warnings" if warned else ""
+    print(f"jobs       {len(recipe.jobs) - failed} done, {failed} failed{with_warnings}")
+    if failed:
+        return 1
+    return 3 if recipe.is_strict and warned else 0
 
 
 def _run(recipe: Recipe, folder: Path, processes: int) -> int:

@@ -136,12 +136,12 @@ def _figures(report: dict[str, Any]) -> Iterator[tuple[str, str]]:
     yield "triangles", f"{result['triangles']:,}"
     yield "time", f"{sum(report['seconds'].values()):.2f} s"
     yield from _chosen(report["quality"], _FIGURES)
+    for warning in report["warnings"]:
+        yield "warning", warning
 
 
 def _more_figures(report: dict[str, Any]) -> Iterator[tuple[str, str]]:
     yield from _chosen(report["quality"], _MORE_FIGURES)
-    for warning in report["warnings"]:
-        yield "warning", warning
 
 
 def _chosen(quality: dict[str, Any], labels: dict[str, str]) -> Iterator[tuple[str, str]]:

@@ -19,7 +19,7 @@ from .._parameters import hint
 from .._reconstruct import ENSEMBLE_PARAMETERS, PARAMETERS, make_filter, require_one_start
 from .meshes import FORMATS
 
-KEYS = ("scans", "matrix", "format", "shift", "time_limit", "gallery", "view")
+KEYS = ("scans", "matrix", "format", "shift", "time_limit", "gallery", "view", "strict")
 VIEW = {"up": "y", "azimuth": 30.0, "elevation": 15.0}
 
 _SIGNATURE = inspect.signature(make_filter).parameters.values()
@@ -58,6 +58,7 @@ class Recipe:
     time_limit: float | None
     gallery: bool
     view: dict[str, Any]
+    is_strict: bool
 
 
 def read_recipe(path: Path) -> Recipe:
@@ -90,12 +91,13 @@ def _recipe(content: Any, folder: Path) -> Recipe:
     time_limit = content.get("time_limit")
     if time_limit is not None and not (_is_number(time_limit) and 0 < time_limit < math.inf):
         raise RecipeError(f"time_limit: must be seconds, above 0, not {_shown(time_limit)}")
-    gallery = content.get("gallery", True)
-    if not isinstance(gallery, bool):
-        raise RecipeError(f"gallery: must be true or false, not {_shown(gallery)}")
+    gallery, strict = content.get("gallery", True), content.get("strict", False)
+    for name, value in (("gallery", gallery), ("strict", strict)):
+        if not isinstance(value, bool):
+            raise RecipeError(f"{name}: must be true or false, not {_shown(value)}")
     jobs = _jobs(scans, matrix, content.get("matrix", {}), folder, shift)
     view = _view(content.get("view", {}))
-    return Recipe(jobs, list(matrix), mesh_format, time_limit, gallery, view)
+    return Recipe(jobs, list(matrix), mesh_format, time_limit, gallery, view, strict)
 
 
 def _scans(patterns: Any, folder: Path) -> list[Path]:

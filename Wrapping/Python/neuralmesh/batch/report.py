@@ -95,10 +95,17 @@ def is_done(folder: Path, job: Job, mesh_format: str) -> bool:
     return result.is_file() and result.stat().st_size == report["result"]["size"]
 
 
+def has_warnings(folder: Path, job: Job) -> bool:
+    """Whether there was anything to warn of, when the job was done."""
+    return bool(read_report(folder, job.name).get("warnings"))
+
+
 def quality_of(mesh) -> dict[str, Any]:
     """The field data of the mesh: how the run went, and how good the mesh is."""
     fields = mesh.GetFieldData()
     arrays = [fields.GetAbstractArray(i) for i in range(fields.GetNumberOfArrays())]
+    # The report has the warnings by themselves.
+    arrays = [array for array in arrays if array.GetName() != "Warnings"]
     return {snake_case(array.GetName()): _plain(array.GetValue(0)) for array in arrays}
 
 

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The function explain()."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkPolyData
+
+from ._execution import Progress, execute
+from ._parameters import assign
+from ._points import as_dataset
+from .vtkFiltersNeuralMesh import vtkNeuralMeshExplanation
+
+
+def explain(
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet,
+    mesh: vtkPolyData,
+    smallest_piece: float = 0.001,
+    *,
+    progress: Progress | None = None,
+) -> vtkPolyData:
+    """Tell of each point of a cloud how far it is from a mesh, whatever made that, and why.
+
+    A point is away from the mesh if it is farther from it than three of its own mean distances to its
+    six nearest neighbours, and than eight times the median distance of all points.
+
+    Args:
+        points: The cloud, as that of reconstruct(), but no path.
+        mesh: Triangles, polygons or strips in the coordinates of the points.
+        smallest_piece: Points that are away, and fewer than this part of all, are a small piece; from 0
+            to 1.
+        progress: As that of reconstruct(). If it returns False, the result has no points.
+
+    Returns:
+        vtkPolyData with the points in their order, and the point data `Distance`, in the unit of the
+        input, NaN for points that are not finite; and `Reason`: 0 explained, 1 outlier, 2 small piece,
+        3 unreachable, 4 dropped, of which the field data `ReasonNames` has the names. Further field
+        data: `OutlierPoints`, `SmallPiecePoints`, `UnreachablePoints`, `UnexplainedPoints`,
+        `UnexplainedShare`, `MissedPieceCenters` and `MissedPiecePoints`.
+
+    Raises:
+        ValueError: smallest_piece is out of its range; or there are no points, none that is finite, or
+            none that differs from the others; or the mesh is no vtkPolyData, or has no triangle with an
+            area.
+        RuntimeError: Anything else that VTK finds wrong.
+        KeyboardInterrupt: Ctrl-C was pressed.
+
+    Example:
+        >>> explained = neuralmesh.explain(points, mesh)
+        >>> explained.GetFieldData().GetArray("UnexplainedPoints").GetValue(0)
+        0
+    """
+    explanation = vtkNeuralMeshExplanation()
+    assign(explanation, "smallest_piece", smallest_piece)
+    if not isinstance(mesh, vtkPolyData):
+        raise ValueError(f"mesh must be a vtkPolyData, not {type(mesh).__name__}")
+    dataset = as_dataset(points)
+    explanation.SetInputData(dataset)
+    explanation.SetMeshData(mesh)
+    is_ended = False
+
+    def watch(fraction: float) -> bool | None:
+        nonlocal is_ended
+        goes_on = progress(fraction) if progress else None
+        is_ended = is_ended or goes_on is False
+        return goes_on
+
+    execute(explanation, watch)
+    result = vtkPolyData()
+    result.ShallowCopy(explanation.GetOutput())
+    if result.GetNumberOfPoints() == 0 and not is_ended:
+        raise ValueError("points: there are none")
+    return result
