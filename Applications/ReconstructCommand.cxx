@@ -63,6 +63,8 @@ struct ReconstructOptions
   int Order = 0;
   int Topology = DefaultTopology;
   int Boundaries = 0;
+  double CloseHolesBelow = 0.0;
+  double KeepPieces = 0.0;
   int Members = 0; ///< of an ensemble; 0 for none
   std::string Jump;
   std::string Weights;
@@ -149,6 +151,8 @@ void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
     filter->SetTopologyLearning(options.Topology);
   }
   filter->SetBoundaries(options.Boundaries);
+  filter->SetCloseHolesBelow(options.CloseHolesBelow);
+  filter->SetKeepPieces(options.KeepPieces);
   filter->SetComputeFeatureStrength(options.Features);
   filter->SetPreset(options.Preset);
   filter->SetAutomatic(options.Automatic);
@@ -357,6 +361,8 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   const auto members = NEURAL_MESH_NUMBERS(ensemble, NumberOfMembers);
   const auto seconds = NEURAL_MESH_NUMBERS(defaults, TimeLimit);
   const auto threads = NEURAL_MESH_NUMBERS(defaults, NumberOfThreads);
+  const auto holes = NEURAL_MESH_NUMBERS(defaults, CloseHolesBelow);
+  const auto pieces = NEURAL_MESH_NUMBERS(defaults, KeepPieces);
   const auto interval = NEURAL_MESH_NUMBERS(defaults, CheckpointInterval);
   const std::vector<PropertyWord> methods{ { "basic", vtkNeuralMesh::BASIC,
                                              "every sample pulls alike" },
@@ -425,6 +431,14 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   AddShiftOption(command, options->Shift);
   AddChoice(command, "--boundaries", options->Boundaries, boundaries,
     "Gaps in the scan; " + Described(boundaries, options->Boundaries));
+  AddNumber(command, "--close-holes-below", options->CloseHolesBelow, holes,
+    "Fill holes whose outline, the sum of its edges, is shorter than LENGTH, in units of INPUT; " +
+      Described(holes),
+    "LENGTH");
+  AddNumber(command, "--keep-pieces", options->KeepPieces, pieces,
+    "Drop pieces of the surface with less than this part of its area, " + Described(pieces) +
+      "; 0 keeps all",
+    "PART");
   command
     ->add_option("--set", options->Assignments,
       "Set a parameter of learning, see below; as often as there are some to set")

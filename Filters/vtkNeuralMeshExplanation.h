@@ -59,7 +59,7 @@ public:
 
   ///@{
   /**
-   * Points that are away, and fewer than this part of all, are a small piece. Default 0.001; 0 to 1,
+   * Points that are away, and fewer than this part of all, are a small piece. Default 0.0005; 0 to 1,
    * clamped with a warning.
    */
   vtkNeuralMeshSetClampMacro(SmallestPiece, double, 0.0, 1.0);
@@ -78,7 +78,7 @@ private:
   vtkNeuralMeshExplanation(const vtkNeuralMeshExplanation&) = delete;
   void operator=(const vtkNeuralMeshExplanation&) = delete;
 
-  double SmallestPiece = 0.001;
+  double SmallestPiece = 0.0005;
 };
 
 #endif

@@ -2,6 +2,7 @@
 #include "fit/Finish.h"
 
 #include "fit/DataGaps.h"
+#include "mesh/BoundaryFilling.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/Refinement.h"
 #include "mesh/SelfIntersections.h"
@@ -123,7 +124,8 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
     if (round == 0)
     {
       smoothness = report_.smoothness;
-      if (plan_.bridgeWidth && openGaps(*surfaceFit))
+      const bool isOpened = plan_.bridgeWidth && openGaps(*surfaceFit);
+      if (closeHoles() || isOpened)
       {
         beginAnew();
       }
@@ -210,6 +212,16 @@ bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& prog
   report_.outlierShare = surfaceFit.outlierShare();
   report_.heldVertices += surfaceFit.heldCount();
   return true;
+}
+
+bool Finish::closeHoles()
+{
+  if (!(plan_.closedOutline > 0.))
+  {
+    return false;
+  }
+  BoundaryManager boundaries(mesh_);
+  return fillShortBoundaries(mesh_, boundaries, plan_.closedOutline) > 0;
 }
 
 bool Finish::openGaps(const SurfaceFit& surfaceFit)

@@ -37,11 +37,13 @@ struct FinishPlan
   double smoothness = 0.;            ///< lambda of the fit; 0 = by the noise and the shape
   double samplesPerVertex = 10.;     ///< in the fit
   std::optional<double> bridgeWidth; ///< of the gaps to open, see openDataGaps(); nothing = none
-  std::size_t vertexCount = 0;       ///< of the finished mesh
+  double closedOutline =
+    0.; ///< holes with shorter ones are filled, in units of the cloud; 0 = none
+  std::size_t vertexCount = 0; ///< of the finished mesh
 };
 
-/// Finishes a mesh that is learnt: fits it to the cloud, opens it where the scan has no data, and makes
-/// it more regular. In the end it has as many vertices as planned: if that is more than were learnt,
+/// Finishes a mesh that is learnt: fits it to the cloud, opens it where the scan has no data, fills
+/// holes that are small enough, and makes it more regular. In the end it has as many vertices as planned: if that is more than were learnt,
 /// long edges are halved. No vertex may be erased, and none is in the end; properties follow.
 class Finish
 {
@@ -59,6 +61,7 @@ private:
   bool isWorseThan(const Mesh& before, FitGuard& guard) const;
   bool fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   bool openGaps(const SurfaceFit& surfaceFit);
+  bool closeHoles();
   void repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress);
   void collapseDefects();
 

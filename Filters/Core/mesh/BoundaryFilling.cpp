@@ -111,4 +111,26 @@ std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longe
   }
   return filled;
 }
+
+std::size_t fillShortBoundaries(Mesh& mesh, BoundaryManager& boundaries, double outline)
+{
+  std::size_t filled = 0;
+  for (BoundaryManager::LoopIndex index = 0; index < boundaries.loops().size(); ++index)
+  {
+    const std::vector<VertexIndex> loop = boundaries.vertices(mesh, index);
+    double length = 0.;
+    for (const VertexIndex v : loop)
+    {
+      length +=
+        std::sqrt(double(squaredNorm(mesh.position(mesh.ring(v).back()) - mesh.position(v))));
+    }
+    if (!loop.empty() && length < outline &&
+      fillLoop(mesh, loop, std::numeric_limits<float>::max(), nullptr))
+    {
+      boundaries.retrace(mesh, loop);
+      ++filled;
+    }
+  }
+  return filled;
+}
 }

@@ -20,4 +20,8 @@ std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longe
   const std::function<bool(const Triangle&)>& isAllowed = nullptr,
   std::size_t mostEdges = std::numeric_limits<std::size_t>::max(),
   float leastCosine = -1.f);
+
+/// Fills the loops that can be filled and whose edges are shorter than `outline` all together. Returns their
+/// number.
+std::size_t fillShortBoundaries(Mesh& mesh, BoundaryManager& boundaries, double outline);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SmallPieces.h"
 
+#include "mesh/Pieces.h"
+
 #include <algorithm>
 
 namespace neuralmesh
@@ -54,5 +56,44 @@ std::vector<Triangle> findSmallPieces(const Mesh& mesh, std::span<const std::uin
       }
     });
   return result;
+}
+
+std::size_t dropPieces(Mesh& mesh, double leastPart)
+{
+  const std::vector<Piece> pieces = findPieces(mesh);
+  double all = 0., largest = 0.;
+  for (const Piece& piece : pieces)
+  {
+    all += piece.area;
+    largest = std::max(largest, piece.area);
+  }
+  std::vector<std::uint8_t> isDropped(mesh.indexEnd(), 0);
+  std::size_t dropped = 0;
+  for (const Piece& piece : pieces)
+  {
+    if (piece.area < leastPart * all && piece.area < largest)
+    {
+      ++dropped;
+      for (const VertexIndex v : piece.vertices)
+      {
+        isDropped[v] = 1;
+      }
+    }
+  }
+  if (dropped > 0)
+  {
+    std::vector<Triangle> triangles;
+    mesh.forEachTriangle(
+      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+      {
+        if (isDropped[a] != 0)
+        {
+          triangles.push_back({ a, b, c });
+        }
+      });
+    mesh.removeTriangles(triangles);
+    mesh.dropErased();
+  }
+  return dropped;
 }
 }

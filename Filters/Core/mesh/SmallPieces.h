@@ -14,4 +14,8 @@ namespace neuralmesh
 /// vertices, only of pieces that have one of these, or one that came when it was cut: others were
 /// there before.
 std::vector<Triangle> findSmallPieces(const Mesh& mesh, std::span<const std::uint8_t> isAtCut = {});
+
+/// Drops all pieces with less than this part of the area of all, but the largest. No vertex may be erased,
+/// and none is in the end; properties follow. Returns how many were dropped.
+std::size_t dropPieces(Mesh& mesh, double leastPart);
 }

@@ -70,7 +70,7 @@ struct Explanation
 struct ExplanationRules
 {
   /// Fewer points than this part of all are a small piece.
-  double leastPiece = 0.001;
+  double leastPiece = 0.0005;
   /// Points that the run took for clusters of outliers; empty if it has none.
   std::vector<std::uint8_t> isLeftOut;
 };

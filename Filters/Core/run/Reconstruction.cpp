@@ -39,9 +39,10 @@ std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& l
 
 /// What becomes of the points of a cloud; `left` are those without clusters of outliers, if it has some.
 Explanation explanationOf(const Mesh& mesh, const PointCloud& cloud, const PointCloud* left,
-  bool explainsAll, const Executor& executor)
+  double leastPiece, bool explainsAll, const Executor& executor)
 {
   ExplanationRules rules;
+  rules.leastPiece = leastPiece;
   if (left)
   {
     rules.isLeftOut = leftOutOf(cloud, *left);
@@ -154,8 +155,8 @@ Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
     hints, result, executor);
   if (result.stopReason != StopReason::Cancelled)
   {
-    result.explanation =
-      explanationOf(result.surface, input, cleaned ? &*cleaned : nullptr, explainsAll, executor);
+    result.explanation = explanationOf(result.surface, input, cleaned ? &*cleaned : nullptr,
+      requested.keepPieces, explainsAll, executor);
   }
   result.warnings = warningsOf(result, input);
   result.times.leave();

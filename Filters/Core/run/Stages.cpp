@@ -2,6 +2,7 @@
 #include "run/Stages.h"
 
 #include "cloud/MeshBuilder.h"
+#include "mesh/SmallPieces.h"
 #include "run/MeshOrientation.h"
 #include "start/CurvatureDensity.h"
 #include "start/FirstSurface.h"
@@ -26,7 +27,7 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
   }
   auto surface = firstSurface(cloud, firstVertices(parameters.numberOfVertices),
     std::size_t(PartOfFront * double(parameters.numberOfVertices)), parameters.boundaries, progress,
-    executor);
+    executor, parameters.keepPieces);
   if (!surface)
   {
     return result;
@@ -78,7 +79,9 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
     .smoothness = parameters.fitSmoothness,
     .samplesPerVertex = parameters.fitSamples,
     .bridgeWidth = bridgeWidth,
+    .closedOutline = parameters.closeHolesBelow / cloud.unit(),
     .vertexCount = vertexCount };
+  dropPieces(learnt.mesh, parameters.keepPieces);
   Finish finish(cloud, learnt.mesh, plan, executor);
   return finish.run(progress) ? std::optional(finish.report()) : std::nullopt;
 }

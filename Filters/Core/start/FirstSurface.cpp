@@ -389,15 +389,15 @@ std::optional<FirstSurface> thinSolid(const PointCloud& cloud, FirstSurface skin
 
 /// The front of the candidates that agrees best with itself, if any does.
 std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const NearestPoints& nearest,
-  std::size_t mostVertices, Boundaries boundaries, const Progress& progress)
+  std::size_t mostVertices, Boundaries boundaries, const Progress& progress, double leastPiece)
 {
   const std::size_t samples = std::clamp(mostVertices, LeastSamples, MostSamples);
   std::optional<FrontSurface> best;
   double at = 0.;
   for (const Layers layers : { Layers::Joined, Layers::Apart })
   {
-    auto front =
-      frontSurface(cloud, nearest, samples, layers, SeedOfFront, partOf(progress, at, at + 0.5));
+    auto front = frontSurface(
+      cloud, nearest, samples, layers, SeedOfFront, partOf(progress, at, at + 0.5), leastPiece);
     if (front && (!best || front->disorder() < best->disorder()))
     {
       best = std::move(front);
@@ -432,7 +432,7 @@ std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const Neares
 
 std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
   std::size_t mostOfFront, Boundaries boundaries, const Progress& progress,
-  const Executor& executor)
+  const Executor& executor, double leastPiece)
 {
   if (cloud.differentCount() < LeastPointsForGrid)
   {
@@ -458,7 +458,7 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
   {
     return std::move(grid->surface);
   }
-  if (auto front = surfaceOfFront(cloud, nearest, mostOfFront, boundaries, ofFront))
+  if (auto front = surfaceOfFront(cloud, nearest, mostOfFront, boundaries, ofFront, leastPiece))
   {
     const bool isClosed = grid && !skin && grid->surface.isCertain;
     const double left = grid ? grid->evidence.unexplained : 1.;

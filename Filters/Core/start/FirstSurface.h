@@ -6,6 +6,7 @@
 #include "base/Progress.h"
 #include "cloud/PointCloud.h"
 #include "mesh/Mesh.h"
+#include "start/FrontSurface.h"
 
 #include <cstddef>
 #include <optional>
@@ -33,9 +34,10 @@ struct FirstSurface
 /// Where that does not explain the points, as what they lie on is thin, uneven, or open, a front is grown
 /// over samples of the layers; what explains more is taken.
 ///
-/// From a grid it has at most `mostVertices`, from a front at most `mostOfFront`. Nothing if that is too few for the topology, or the cloud has too
-/// few points to tell.
+/// Of a front, pieces of less than `leastPiece` of the triangles are dropped. From a grid it has at most
+/// `mostVertices`, from a front at most `mostOfFront`. Nothing if that is too few for the topology, or the
+/// cloud has too few points to tell.
 std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
   std::size_t mostOfFront, Boundaries boundaries, const Progress& progress,
-  const Executor& executor = Executor::sequential());
+  const Executor& executor = Executor::sequential(), double leastPiece = LeastPiece);
 }

@@ -18,8 +18,7 @@ namespace neuralmesh
 {
 namespace
 {
-/// Of all triangles; smaller pieces are left over from points that lie on no surface.
-constexpr double SmallestPiece = 0.0005;
+/// A piece with less is none, however few there are; unless all are to be kept.
 constexpr std::size_t LeastTriangles = 12;
 /// Longer loops are openings.
 constexpr std::size_t MostEdgesOfGap = 12;
@@ -30,7 +29,7 @@ constexpr int CutRounds = 3;
 constexpr double PartOfSamples = 0.7;
 constexpr double PartOfLayers = 0.9;
 
-void dropSmallPieces(TriangleMesh& mesh)
+void dropSmallPieces(TriangleMesh& mesh, double leastPiece)
 {
   DisjointSets sets(mesh.points.size());
   for (const auto& [a, b, c] : mesh.triangles)
@@ -43,8 +42,9 @@ void dropSmallPieces(TriangleMesh& mesh)
   {
     ++sizes[sets.root(triangle[0])];
   }
-  const std::size_t least =
-    std::max(LeastTriangles, std::size_t(SmallestPiece * double(mesh.triangles.size())));
+  const std::size_t least = leastPiece > 0.
+    ? std::max(LeastTriangles, std::size_t(leastPiece * double(mesh.triangles.size())))
+    : 0;
   std::erase_if(
     mesh.triangles, [&](const auto& triangle) { return sizes[sets.root(triangle[0])] < least; });
 }
@@ -72,7 +72,7 @@ void removeCrossings(Mesh& mesh)
 }
 
 std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestPoints& nearest,
-  std::size_t count, Layers layers, std::uint64_t seed, const Progress& progress)
+  std::size_t count, Layers layers, std::uint64_t seed, const Progress& progress, double leastPiece)
 {
   const auto [samples, inNoLayer] =
     layerSamples(nearest, count, layers, seed, partOf(progress, 0., PartOfSamples));
@@ -92,7 +92,7 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestP
     return {};
   }
   splitFans(triangles);
-  dropSmallPieces(triangles);
+  dropSmallPieces(triangles, leastPiece);
   if (triangles.triangles.empty())
   {
     return {};

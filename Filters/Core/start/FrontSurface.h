@@ -30,9 +30,13 @@ struct FrontSurface
   }
 };
 
+/// Of all triangles; smaller pieces are left over from points that lie on no surface.
+inline constexpr double LeastPiece = 0.0005;
+
 /// The surface of about `count` samples on the layers of the cloud: with boundaries where the cloud ends,
-/// and as many pieces as that has. Without pieces of less than 1/2000 of the triangles. Nothing if there
-/// are too few points, or it was ended before.
+/// and as many pieces as that has. Without pieces of less than `leastPiece` of the triangles. Nothing if
+/// there are too few points, or it was ended before.
 std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestPoints& nearest,
-  std::size_t count, Layers layers, std::uint64_t seed, const Progress& progress);
+  std::size_t count, Layers layers, std::uint64_t seed, const Progress& progress,
+  double leastPiece = LeastPiece);
 }

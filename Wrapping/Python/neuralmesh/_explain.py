@@ -15,7 +15,7 @@ from .vtkFiltersNeuralMesh import vtkNeuralMeshExplanation
 def explain(
     points: ArrayLike | vtkPointSet | vtkCompositeDataSet,
     mesh: vtkPolyData,
-    smallest_piece: float = 0.001,
+    smallest_piece: float = 0.0005,
     *,
     progress: Progress | None = None,
 ) -> vtkPolyData:
