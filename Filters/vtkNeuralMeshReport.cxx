@@ -16,6 +16,7 @@
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <limits>
 #include <sstream>
@@ -64,6 +65,19 @@ void vtkNeuralMeshReport::FillMesh(
   output->SetPolys(vtkTriangleMeshCollector::MakeCells(result.mesh));
   output->GetPointData()->SetNormals(vtkMeshArrays::MakeNormals(result.normals));
   output->GetPointData()->AddArray(vtkMeshArrays::MakeNumbers("Activity", result.activities));
+  vtkNew<vtkUnsignedCharArray> boundary;
+  boundary->SetName("Boundary");
+  for (neuralmesh::VertexIndex v = 0; v < result.surface.indexEnd(); ++v)
+  {
+    boundary->InsertNextValue(result.surface.isBoundary(v) ? 1 : 0);
+  }
+  output->GetPointData()->AddArray(boundary);
+  if (!result.support.weights.empty())
+  {
+    output->GetPointData()->AddArray(
+      vtkMeshArrays::MakeNumbers("Residual", result.support.residuals));
+    output->GetPointData()->AddArray(vtkMeshArrays::MakeNumbers("Support", result.support.weights));
+  }
   if (!result.featureStrengths.empty())
   {
     output->GetPointData()->AddArray(
@@ -96,19 +110,18 @@ void vtkNeuralMeshReport::AddQuality(
   addCount("FitRoundsTakenBack", result.finish ? result.finish->roundsTakenBack : 0);
 }
 
-void vtkNeuralMeshReport::AddWarnings(
-  const std::vector<std::string>& warnings, vtkPolyData* output)
+void vtkNeuralMeshReport::AddWarnings(const std::vector<std::string>& warnings, vtkPolyData* output)
 {
   output->GetFieldData()->AddArray(MakeStrings("Warnings", warnings));
 }
 
 void vtkNeuralMeshReport::RemoveFrom(vtkPolyData* output)
 {
-  for (const char* name : { "Residual", "Noise", "OutlierShare", "RegularRatio", "TriangleQuality",
-         "Components", "Genus", "BoundaryLoops", "FoldedEdges", "IntersectingTriangles",
-         "FitRoundsTakenBack", "ChosenParameters", "ReasonsOfChoice", "OutlierPoints",
-         "SmallPiecePoints", "UnreachablePoints", "UnexplainedPoints", "UnexplainedShare",
-         "Warnings" })
+  for (const char* name :
+    { "Residual", "Noise", "OutlierShare", "RegularRatio", "TriangleQuality", "Components", "Genus",
+      "BoundaryLoops", "FoldedEdges", "IntersectingTriangles", "FitRoundsTakenBack",
+      "ChosenParameters", "ReasonsOfChoice", "OutlierPoints", "SmallPiecePoints",
+      "UnreachablePoints", "UnexplainedPoints", "UnexplainedShare", "Warnings" })
   {
     output->GetFieldData()->RemoveArray(name);
   }

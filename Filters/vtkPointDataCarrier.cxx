@@ -13,10 +13,12 @@
 #include "vtkVariant.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 namespace
@@ -62,8 +64,10 @@ vtkAbstractArray* Counterpart(vtkPointData* first, vtkAbstractArray* array, vtkP
 /** One that neither an array of the output has nor any that it may have in other runs. */
 std::string FreeName(std::string name, vtkPointData* output)
 {
-  while (name == "Normals" || name == "Activity" || name == "FeatureStrength" ||
-    output->HasArray(name.c_str()))
+  constexpr std::array<std::string_view, 6> Taken{ "Normals", "Activity", "FeatureStrength",
+    "Boundary", "Residual", "Support" };
+  while (
+    std::find(Taken.begin(), Taken.end(), name) != Taken.end() || output->HasArray(name.c_str()))
   {
     name += "_Input";
   }

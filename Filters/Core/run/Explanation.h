@@ -47,6 +47,17 @@ struct PointDistances
   double meanEdge = 0.;                       ///< of the mesh, in units of the cloud
 };
 
+/// What vertices rest on, by their index: points count at the corners of the triangle that they lie on, by
+/// their barycentric weights. Outliers do not count: points farther from the mesh than five times the median
+/// distance and than half a mean edge.
+struct VertexSupport
+{
+  std::vector<double>
+    weights; ///< of the points of the cloud, about: 1 for each where all weigh alike
+  /// Root of the mean squared distance of these points, in units of the input; NaN where there are none.
+  std::vector<double> residuals;
+};
+
 /// What a mesh leaves of a cloud. A point is away from the mesh if it is farther than three of its own
 /// distances to its six nearest neighbours, and than any noise: than eight median distances. It is an
 /// outlier if its own distances are three times those of its neighbours; or three times those that are
@@ -78,6 +89,10 @@ struct ExplanationRules
 /// At most `most` points of the cloud, evenly picked, and how far they are from a mesh of which no
 /// vertex may be erased.
 PointDistances distancesTo(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
+  const Executor& executor = Executor::sequential());
+
+/// What the vertices of such a mesh rest on, by at most so many points.
+VertexSupport supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
   const Executor& executor = Executor::sequential());
 
 /// Takes about as long as the distances do.

@@ -21,6 +21,8 @@ constexpr std::size_t LeastLearnt = 100;
 
 /// Points that are explained where only their numbers are wanted.
 constexpr std::size_t PointsExplained = 10000;
+/// Those that vertices rest on: hardly a vertex is without any.
+constexpr std::size_t PointsPerVertexOfSupport = 4;
 
 /// Which points of a cloud are not in what is left of it, which has the same order.
 std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& left)
@@ -38,8 +40,8 @@ std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& l
 }
 
 /// What becomes of the points of a cloud; `left` are those without clusters of outliers, if it has some.
-Explanation explanationOf(const Mesh& mesh, const PointCloud& cloud, const PointCloud* left,
-  double leastPiece, bool explainsAll, const Executor& executor)
+void explainPoints(const PointCloud& cloud, const PointCloud* left, double leastPiece,
+  bool explainsAll, Reconstruction& result, const Executor& executor)
 {
   ExplanationRules rules;
   rules.leastPiece = leastPiece;
@@ -47,8 +49,11 @@ Explanation explanationOf(const Mesh& mesh, const PointCloud& cloud, const Point
   {
     rules.isLeftOut = leftOutOf(cloud, *left);
   }
-  const std::size_t most = explainsAll ? cloud.points().size() : PointsExplained;
-  return explain(cloud, distancesTo(mesh, cloud, most, executor), rules, executor);
+  const auto mostOf = [&](std::size_t some) { return explainsAll ? cloud.points().size() : some; };
+  result.explanation = explain(
+    cloud, distancesTo(result.surface, cloud, mostOf(PointsExplained), executor), rules, executor);
+  result.support = supportOf(result.surface, cloud,
+    mostOf(PointsPerVertexOfSupport * result.surface.vertexCount()), executor);
 }
 
 /// Learns until a stopping rule is met; returns which.
@@ -155,8 +160,8 @@ Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
     hints, result, executor);
   if (result.stopReason != StopReason::Cancelled)
   {
-    result.explanation = explanationOf(result.surface, input, cleaned ? &*cleaned : nullptr,
-      requested.keepPieces, explainsAll, executor);
+    explainPoints(
+      input, cleaned ? &*cleaned : nullptr, requested.keepPieces, explainsAll, result, executor);
   }
   result.warnings = warningsOf(result, input);
   result.times.leave();

@@ -34,6 +34,7 @@ struct Reconstruction
   Mesh surface; ///< the same mesh, in the coordinates of the cloud
   std::vector<Eigen::Vector3d> normals;
   std::vector<double> activities;
+  VertexSupport support; ///< what the vertices rest on; empty if the run was cancelled
   std::vector<double> featureStrengths; ///< empty unless they were asked for
   RunCounts counts;
   LearningCurve curve;
