@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Promise: each point that a mesh does not explain has the reason that is its own, pieces are told by where
+// they are and how many points they have, and what explains a cloud is not warned of.
+#include "run/Explanation.h"
+
+#include "cloud/CloudGenerator.h"
+#include "cloud/MeshBuilder.h"
+#include "run/Reconstruction.h"
+#include "run/Warnings.h"
+#include "Shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+constexpr std::size_t All = std::size_t(-1);
+const Eigen::Vector3d FarSphere(4., 1., -2.);
+
+std::vector<Eigen::Vector3d> sphere(std::size_t count, const Eigen::Vector3d& center = {0., 0., 0.},
+  double noise = 0.)
+{
+  CloudOptions options;
+  options.count = count;
+  options.noise = noise;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
+  for (Eigen::Vector3d& point : points)
+  {
+    point += center;
+  }
+  return points;
+}
+
+void append(std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3d>& more)
+{
+  points.insert(points.end(), more.begin(), more.end());
+}
+
+/// Points anywhere in a cube.
+std::vector<Eigen::Vector3d> clutter(std::size_t count, double halfWidth)
+{
+  std::mt19937 engine(7);
+  std::vector<Eigen::Vector3d> points(count);
+  for (Eigen::Vector3d& point : points)
+  {
+    for (double& coordinate : point)
+    {
+      coordinate = halfWidth * (2. * double(engine()) / 4294967295. - 1.);
+    }
+  }
+  return points;
+}
+
+/// By a mesh of the unit sphere.
+Explanation explained(const PointCloud& cloud, std::size_t most = All)
+{
+  const Mesh mesh = buildMesh(makeSphere(40), cloud);
+  return explain(cloud, distancesTo(mesh, cloud, most), {});
+}
+
+double reached(const Explanation& explanation)
+{
+  return explanation.count(Reason::Explained);
+}
+}
+
+// Promise: where the mesh is right nothing is left out, with and without noise.
+TEST(Explanation, WhatIsExplained)
+{
+  for (const double noise : { 0., 0.005 })
+  {
+    const Explanation explanation = explained(PointCloud(sphere(20000, { 0., 0., 0. }, noise)));
+    EXPECT_EQ(reached(explanation), 20000.);
+    EXPECT_EQ(explanation.unexplained(), 0.);
+    EXPECT_TRUE(explanation.pieces.empty());
+  }
+}
+
+// Promise: a part of the scan that the mesh lacks is unreachable, and told by its center and size; a few
+// points of it are a small piece.
+TEST(Explanation, MissedPieces)
+{
+  std::vector<Eigen::Vector3d> points = sphere(20000);
+  append(points, sphere(5000, FarSphere));
+  const Explanation explanation = explained(PointCloud(points));
+  EXPECT_EQ(reached(explanation), 20000.);
+  EXPECT_EQ(explanation.count(Reason::Unreachable), 5000.);
+  EXPECT_NEAR(explanation.unexplainedShare(), 0.2, 1e-9);
+  ASSERT_EQ(explanation.pieces.size(), 1u);
+  EXPECT_EQ(explanation.pieces[0].points, 5000.);
+  EXPECT_LT((explanation.pieces[0].center - FarSphere).norm(), 0.05);
+  EXPECT_FALSE(explanation.pieces[0].isBeyondBoundary);
+
+  ExplanationRules rules;
+  rules.leastPiece = 0.3;
+  const PointCloud cloud(points);
+  const Mesh mesh = buildMesh(makeSphere(40), cloud);
+  const Explanation small = explain(cloud, distancesTo(mesh, cloud, All), rules);
+  EXPECT_EQ(small.count(Reason::SmallPiece), 5000.);
+  EXPECT_TRUE(small.pieces.empty());
+}
+
+// Promise: points far from each other are outliers; so are those that the run took for a cluster of them.
+TEST(Explanation, Outliers)
+{
+  std::vector<Eigen::Vector3d> points = sphere(20000);
+  append(points, clutter(400, 1.5));
+  const Explanation explanation = explained(PointCloud(points));
+  // Some lie near the sphere by chance.
+  EXPECT_GT(explanation.count(Reason::Outlier), 300.);
+  EXPECT_LT(explanation.unexplained(), 20.);
+  EXPECT_TRUE(explanation.pieces.empty());
+
+  std::vector<Eigen::Vector3d> two = sphere(20000);
+  append(two, sphere(5000, FarSphere));
+  const PointCloud cloud(two);
+  ExplanationRules rules;
+  for (const Vector4 point : cloud.points())
+  {
+    rules.isLeftOut.push_back(cloud.toInput(point).x() > 2. ? 1 : 0);
+  }
+  const Mesh mesh = buildMesh(makeSphere(40), cloud);
+  EXPECT_EQ(explain(cloud, distancesTo(mesh, cloud, All), rules).count(Reason::Outlier), 5000.);
+}
+
+// Promise: a mesh of which most is missing does not take what it lacks for noise.
+TEST(Explanation, MostIsMissing)
+{
+  std::vector<Eigen::Vector3d> points = sphere(5000);
+  append(points, sphere(20000, FarSphere));
+  EXPECT_NEAR(explained(PointCloud(points)).unexplainedShare(), 0.8, 1e-3);
+}
+
+// Promise: where the mesh has a hole and the points have none, that is told.
+TEST(Explanation, OpeningsWhereThereArePoints)
+{
+  const PointCloud cloud(sphere(20000));
+  TriangleMesh open = makeSphere(40);
+  std::erase_if(open.triangles, [&](const auto& triangle)
+    { return open.points[triangle[0]].z() > 0.8 && open.points[triangle[1]].z() > 0.8; });
+  const Mesh mesh = buildMesh(open, cloud);
+  const Explanation explanation = explain(cloud, distancesTo(mesh, cloud, All), {});
+  ASSERT_EQ(explanation.pieces.size(), 1u);
+  EXPECT_TRUE(explanation.pieces[0].isBeyondBoundary);
+  EXPECT_GT(explanation.pieces[0].center.z(), 0.85);
+}
+
+// Promise: some points tell what all tell, about.
+TEST(Explanation, SomeTellAll)
+{
+  std::vector<Eigen::Vector3d> points = sphere(40000);
+  append(points, sphere(2000, FarSphere));
+  const PointCloud cloud(points);
+  const Explanation all = explained(cloud), some = explained(cloud, 5000);
+  EXPECT_NEAR(some.unexplained(), all.unexplained(), 300.);
+  ASSERT_EQ(some.pieces.size(), 1u);
+  EXPECT_NEAR(some.pieces[0].points, 2000., 300.);
+  EXPECT_LT((some.pieces[0].center - FarSphere).norm(), 0.3);
+}
+
+// Promise: vertices rest on all points that are no outliers, and the distance of these is their residual.
+TEST(Explanation, Support)
+{
+  std::vector<Eigen::Vector3d> points = sphere(20000);
+  for (Eigen::Vector3d& point : points)
+  {
+    point *= 1.01;
+  }
+  points.emplace_back(3., 0., 0.);
+  const PointCloud cloud(points);
+  const Mesh mesh = buildMesh(makeSphere(40), cloud);
+  const VertexSupport support = supportOf(mesh, cloud, All);
+  double sum = 0.;
+  for (std::size_t v = 0; v < support.weights.size(); ++v)
+  {
+    sum += support.weights[v];
+    if (support.weights[v] > 1.)
+    {
+      EXPECT_NEAR(support.residuals[v], 0.01, 0.005);
+    }
+  }
+  EXPECT_NEAR(sum, 20000., 20.);
+}
+
+namespace
+{
+Reconstruction reconstructed(const PointCloud& cloud, std::uint64_t vertices)
+{
+  Parameters parameters;
+  parameters.numberOfVertices = vertices;
+  return reconstruct(cloud, parameters, [](double) { return true; });
+}
+
+bool hasWarning(const Reconstruction& result, const std::string& text)
+{
+  return std::any_of(result.warnings.begin(), result.warnings.end(),
+    [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+}
+}
+
+// Promise: nothing is warned of where the mesh is what the cloud is.
+TEST(Warnings, NoneOfASphere)
+{
+  CloudOptions options;
+  options.count = 20000;
+  options.noise = 0.005;
+  options.outliers = 0.02;
+  const Reconstruction result = reconstructed(PointCloud(generateCloud(makeSphere(), options)), 2000);
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
+}
+
+// Promise: nor of one open sheet, whose sides are as right, but of sheets that nothing turns alike.
+TEST(Warnings, Sides)
+{
+  std::vector<Eigen::Vector3d> sheet = clutter(8000, 1.);
+  for (Eigen::Vector3d& point : sheet)
+  {
+    point.z() = 0.;
+  }
+  EXPECT_FALSE(hasWarning(reconstructed(PointCloud(sheet), 500), "Which side"));
+  OrientationReport sides;
+  sides.pieces = sides.unknownPieces = 2;
+  sides.shares[0] = 1.;
+  Reconstruction result;
+  result.orientation = sides;
+  result.warnings = warningsOf(result, PointCloud(sheet));
+  EXPECT_TRUE(hasWarning(result, "Which side"));
+  EXPECT_TRUE(hasWarning(result, "--viewpoint"));
+}
+
+// Promise: a mesh that is finer than its data is told, with how many vertices bear it.
+TEST(Warnings, FinerThanData)
+{
+  const Reconstruction result = reconstructed(PointCloud(sphere(1000)), 700);
+  EXPECT_TRUE(hasWarning(result, "700 vertices for 1000 different points"));
+  EXPECT_FALSE(hasWarning(reconstructed(PointCloud(sphere(1000)), 400), "finer"));
+}
+
+// Promise: what a mesh lacks is told, with the place, and so are defects that are left.
+TEST(Warnings, MissingPartAndDefects)
+{
+  std::vector<Eigen::Vector3d> points = sphere(20000);
+  append(points, sphere(5000, FarSphere));
+  const PointCloud cloud(points);
+  Reconstruction result;
+  result.explanation = explained(cloud);
+  result.quality = MeshQuality{};
+  result.quality->surface.foldedEdges = 3;
+  result.finish = FinishReport{};
+  result.finish->left.intersectingTriangles = 2;
+  result.finish->roundsTakenBack = 1;
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_TRUE(hasWarning(result, "20 % of the points (about 5000) are unexplained"));
+  EXPECT_TRUE(hasWarning(result, "missing in the mesh: about 5000 points around (4"));
+  EXPECT_TRUE(hasWarning(result, "2 triangles intersect"));
+  EXPECT_TRUE(hasWarning(result, "folded at 3 edges"));
+  EXPECT_TRUE(hasWarning(result, "1 round of the fit"));
+  EXPECT_EQ(result.warnings.size(), 5u);
+}
+}
