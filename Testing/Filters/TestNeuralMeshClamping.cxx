@@ -9,6 +9,7 @@
 #include "vtkNeuralMesh.h"
 #include "vtkNeuralMeshComparison.h"
 #include "vtkNeuralMeshEnsemble.h"
+#include "vtkNeuralMeshExplanation.h"
 #include "vtkNeuralMeshFileSampler.h"
 #include "vtkNeuralMeshScan.h"
 #include "vtkNeuralMeshStream.h"

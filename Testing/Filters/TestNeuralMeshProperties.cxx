@@ -6,6 +6,7 @@
 #include "vtkNeuralMesh.h"
 #include "vtkNeuralMeshComparison.h"
 #include "vtkNeuralMeshEnsemble.h"
+#include "vtkNeuralMeshExplanation.h"
 #include "vtkNeuralMeshFileSampler.h"
 #include "vtkNeuralMeshPLYReader.h"
 #include "vtkNeuralMeshScan.h"

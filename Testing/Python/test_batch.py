@@ -253,5 +253,23 @@ class Files(BatchTest):
         self.assertEqual(report["error"], error)
 
 
+class Strict(BatchTest):
+    # Promise: warnings stand in the report; a strict recipe ends with status 3 if there are any, also when
+    # the jobs were done before, and the meshes are there.
+    def test_warnings(self):
+        write_scan(self.folder / "scans" / "few.xyz", 300)
+        for strict, status in ((False, 0), (True, 3)):
+            self.write_recipe(scans=["scans/few.xyz"], matrix={"vertices": 200}, strict=strict)
+            output, errors, found = self.run_batch()
+            self.assertEqual((errors, found), ("", status))
+            self.assertIn("jobs       1 done, 0 failed, 1 with warnings", output)
+        (warning,) = self.report("few")["warnings"]
+        self.assertIn("finer than its data", warning)
+        self.assertNotIn("warnings", self.report("few")["quality"])
+        self.write_recipe(scans=["scans/few.xyz"], matrix={"vertices": 100}, strict=True)
+        output, errors, found = self.run_batch()
+        self.assertEqual((errors, found), ("", 0))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -22,8 +22,8 @@ namespace
 constexpr std::size_t All = std::size_t(-1);
 const Eigen::Vector3d FarSphere(4., 1., -2.);
 
-std::vector<Eigen::Vector3d> sphere(std::size_t count, const Eigen::Vector3d& center = {0., 0., 0.},
-  double noise = 0.)
+std::vector<Eigen::Vector3d> sphere(
+  std::size_t count, const Eigen::Vector3d& center = { 0., 0., 0. }, double noise = 0.)
 {
   CloudOptions options;
   options.count = count;
@@ -63,10 +63,7 @@ Explanation explained(const PointCloud& cloud, std::size_t most = All)
   return explain(cloud, distancesTo(mesh, cloud, most), {});
 }
 
-double reached(const Explanation& explanation)
-{
-  return explanation.count(Reason::Explained);
-}
+double reached(const Explanation& explanation) { return explanation.count(Reason::Explained); }
 }
 
 // Promise: where the mesh is right nothing is left out, with and without noise.
@@ -141,7 +138,8 @@ TEST(Explanation, OpeningsWhereThereArePoints)
 {
   const PointCloud cloud(sphere(20000));
   TriangleMesh open = makeSphere(40);
-  std::erase_if(open.triangles, [&](const auto& triangle)
+  std::erase_if(open.triangles,
+    [&](const auto& triangle)
     { return open.points[triangle[0]].z() > 0.8 && open.points[triangle[1]].z() > 0.8; });
   const Mesh mesh = buildMesh(open, cloud);
   const Explanation explanation = explain(cloud, distancesTo(mesh, cloud, All), {});
@@ -210,7 +208,8 @@ TEST(Warnings, NoneOfASphere)
   options.count = 20000;
   options.noise = 0.005;
   options.outliers = 0.02;
-  const Reconstruction result = reconstructed(PointCloud(generateCloud(makeSphere(), options)), 2000);
+  const Reconstruction result =
+    reconstructed(PointCloud(generateCloud(makeSphere(), options)), 2000);
   EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
 }
 
