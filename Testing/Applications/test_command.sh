@@ -348,7 +348,7 @@ test_variants()
 test_report()
 {
   expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 500
-  tail -n 3 out > report
+  tail -n 4 out > report
   grep -Eq '^residual   [0-9.e-]+ from held-out points to the mesh, noise about [0-9.e-]+, 0 % out' \
     report || { cat out; fail "no residual"; }
   grep -Eq '^shape      1 piece, no handles, no boundaries, (no|[0-9]+) folded edges?, no intersecting triangles$' report ||

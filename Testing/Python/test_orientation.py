@@ -67,7 +67,7 @@ class Sides(unittest.TestCase):
                                       normals=np.ones((3000, 3)))
         data = mesh.GetPointData()
         names = {data.GetArrayName(i) for i in range(data.GetNumberOfArrays())}
-        self.assertEqual(names, {"Normals", "Activity", "View"})
+        self.assertEqual(names, {"Normals", "Activity", "Boundary", "Residual", "Support", "View"})
         self.assertEqual(dataset.GetPointData().GetNumberOfArrays(), 0)
 
     # Promise: what tells nothing is a warning.
