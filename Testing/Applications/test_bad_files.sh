@@ -132,7 +132,7 @@ test_cells_and_attributes()
   local extension
   for extension in "${writable[@]}"; do
     expect 0 reconstruct cloud.xyz "first.$extension"
-    expect 0 reconstruct "first.$extension" "second.$extension"
+    expect 0 "$neuralmesh" reconstruct "first.$extension" "second.$extension" --vertices 50
     [ ! -s err ] || { cat err; fail "there is something on stderr"; }
   done
 }
@@ -200,7 +200,7 @@ test_disk_full()
     (
       ulimit -f 16 # blocks of 1 KiB: too few for the mesh
       trap '' XFSZ
-      expect 1 "$neuralmesh" reconstruct cloud.xyz "mesh.$extension" --vertices 2000
+      expect 1 "$neuralmesh" reconstruct cloud.xyz "mesh.$extension" --vertices 1500
     ) || fail "a failed write of .$extension was not noticed"
     is_one_line_about "mesh.$extension"
     [ "$(cat "mesh.$extension")" = "what was there" ] || fail "the old .$extension is gone"
@@ -228,7 +228,7 @@ test_full_disk()
     echo "what was there" > old
     export output="small/mesh.$extension" neuralmesh
     expect 1 on_small_disk bash -c 'cp old "$output"
-      "$neuralmesh" reconstruct cloud.xyz "$output" --vertices 2000; status=$?
+      "$neuralmesh" reconstruct cloud.xyz "$output" --vertices 1500; status=$?
       cmp -s old "$output" || exit 3
       [ -z "$(find small -name ".*mesh*")" ] || exit 4
       exit $status'

@@ -209,7 +209,7 @@ int CheckNames()
   }
   const auto again = Run(cloud);
   output = again->GetOutput()->GetPointData();
-  CHECK(output->GetNumberOfArrays() == 5);
+  CHECK(output->GetNumberOfArrays() == 8);
   CHECK(output->GetArray("Activity")->GetTuple1(0) >= 0.0);
   CHECK(output->GetArray("Activity_Input")->GetTuple1(0) == -7.0);
   CHECK(output->GetArray("FeatureStrength_Input")->GetTuple1(0) == -7.0);
@@ -218,7 +218,7 @@ int CheckNames()
 
   again->CarryPointDataOff();
   again->Update();
-  CHECK(again->GetOutput()->GetPointData()->GetNumberOfArrays() == 2);
+  CHECK(again->GetOutput()->GetPointData()->GetNumberOfArrays() == 5);
   return EXIT_SUCCESS;
 }
 

@@ -17,7 +17,7 @@ def arrays(fields):
 
 class Filters(unittest.TestCase):
     # Promise: after LoadPlugin the filters are functions in the namespace of the script that loaded
-    # it, and no other than the five.
+    # it, and no other than the six.
     def test_names(self):
         namespace = {}
         exec(
@@ -29,8 +29,8 @@ class Filters(unittest.TestCase):
         )
         self.assertEqual(support.information_of(namespace["mesh"]).GetNumberOfPoints(), 100)
         ours = {name for name in namespace if name.startswith("NeuralMesh")}
-        names = {"NeuralMesh", "NeuralMeshComparison", "NeuralMeshEnsemble", "NeuralMeshFileSampler",
-                 "NeuralMeshScan"}
+        names = {"NeuralMesh", "NeuralMeshComparison", "NeuralMeshEnsemble", "NeuralMeshExplanation",
+                 "NeuralMeshFileSampler", "NeuralMeshScan"}
         self.assertEqual(ours, names)
 
     # Promise: a scan gives the points that are asked for, visible in any representation; the view

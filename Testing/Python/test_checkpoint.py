@@ -15,7 +15,7 @@ from neuralmesh import vtkNeuralMesh
 # Of `automatic` the values that are chosen are compared.
 FREE = {"automatic", "time_limit", "carry_point_data", "output_points_precision",
         "checkpoint_interval", "keep_checkpoint", "number_of_threads", "maximum_points"}
-REFUSED_BEFORE = {"growth_as_time", "number_of_snapshots", "preset", "jump"}
+REFUSED_BEFORE = {"explain_points", "growth_as_time", "number_of_snapshots", "preset", "jump"}
 
 
 def reconstruct(**parameters):

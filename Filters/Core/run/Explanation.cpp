@@ -346,7 +346,12 @@ private:
       beyond += result_.asked.isBeyondBoundary[i];
     }
     missed.isBeyondBoundary = 2 * beyond > piece.size();
-    result_.pieces.push_back(missed);
+    // A rim is as coarse as its edges are long.
+    if (!missed.isBeyondBoundary ||
+      missed.farthest > cloud_.unit() * double(result_.asked.meanEdge))
+    {
+      result_.pieces.push_back(missed);
+    }
   }
 
   /// Those of a piece that are meant have this reason, and are no part of it any more.

@@ -84,8 +84,7 @@ void warnOfPoints(
     warnings.push_back(percent(explanation.unexplainedShare()) + " of the points (about " +
       about(explanation.unexplained()) +
       ") are unexplained: farther from the mesh than from each other, and no outliers. Look at "
-      "them "
-      "before you use the mesh. " +
+      "them before you use the mesh. " +
       std::string(HowToSee));
   }
   warnOfPieces(explanation, cloud, false, warnings);
@@ -100,8 +99,8 @@ void warnOfDefects(const Reconstruction& result, std::vector<std::string>& warni
   {
     warnings.push_back(counted(cuts, "triangle intersects", "triangles intersect") +
       " others and could not be repaired: the surface is thinner there than triangles are large, "
-      "or "
-      "two layers are taken for one. More vertices make triangles smaller; another seed may do.");
+      "or two layers are taken for one. More vertices make triangles smaller; another seed may "
+      "do.");
   }
   if (folds > 0)
   {
@@ -126,8 +125,7 @@ void warnOfVertices(
   {
     warnings.push_back(counted(std::size_t(result.finish->roundsTakenBack), "round", "rounds") +
       " of the fit made the residual larger, lost points or made triangles intersect, and were "
-      "taken "
-      "back. Fewer vertices, or a first mesh that lies closer, may help.");
+      "taken back. Fewer vertices, or a first mesh that lies closer, may help.");
   }
 }
 
@@ -153,8 +151,7 @@ void warnOfSides(const OrientationReport& sides, std::vector<std::string>& warni
     warnings.push_back("Which side of the surface is the outer one is unknown for " +
       counted(sides.unknownPieces, "piece", "pieces") + " with " + percent(sides.unknownShare()) +
       " of the area: give viewpoints (--viewpoint, where the scanner stood), an up direction "
-      "(--up), "
-      "or points with normals.");
+      "(--up), or points with normals.");
   }
 }
 }
