@@ -68,8 +68,8 @@ struct vtkNeuralMeshRun
   double EndOfMesh; ///< as a fraction of the run; then arrays are carried over
   neuralmesh::OrientationHints Hints;
   std::vector<std::string> Warnings{}; ///< that the filter has given
-  bool IsStartWhole = true;        ///< not if making the first mesh was cut short
-  bool AreParametersChosen = true; ///< not if that was, though they were to be
+  bool IsStartWhole = true;            ///< not if making the first mesh was cut short
+  bool AreParametersChosen = true;     ///< not if that was, though they were to be
 };
 
 #endif

@@ -3,6 +3,12 @@
 
 namespace neuralmesh
 {
+namespace
+{
+/// Then points are spread so unevenly that the radius tells nothing.
+constexpr int TriesWithin = 4;
+}
+
 NearestPoints::NearestPoints(std::span<const Vector4> points)
   : points_(points)
 {
@@ -106,5 +112,29 @@ std::size_t NearestPoints::find(Vector4 point, std::span<NearPoint> nearest) con
     visit(search, levels_.size() - 1, 0, levels_.back().size());
   }
   return search.count;
+}
+
+std::size_t NearestPoints::findWithin(
+  Vector4 point, float radius, std::span<NearPoint> nearest, std::vector<NearPoint>& buffer) const
+{
+  const std::size_t wanted = std::min(nearest.size(), points_.size());
+  buffer.clear();
+  for (int tries = 0; tries < TriesWithin && buffer.size() < wanted; ++tries, radius *= 1.5f)
+  {
+    buffer.clear();
+    forEachWithin(point, radius,
+      [&buffer](std::uint32_t index, float squared) {
+        buffer.push_back({ squared, index });
+      });
+  }
+  if (buffer.size() < wanted || wanted == 0)
+  {
+    return find(point, nearest);
+  }
+  const auto end = buffer.begin() + std::ptrdiff_t(wanted);
+  std::nth_element(buffer.begin(), end - 1, buffer.end());
+  std::sort(buffer.begin(), end);
+  std::copy(buffer.begin(), end, nearest.begin());
+  return wanted;
 }
 }

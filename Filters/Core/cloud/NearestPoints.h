@@ -38,6 +38,10 @@ public:
   /// index. Returns how many there are: less only if there are not so many points.
   std::size_t find(Vector4 point, std::span<NearPoint> nearest) const;
 
+  /// The same for many, faster where they are expected within about `radius`.
+  std::size_t findWithin(Vector4 point, float radius, std::span<NearPoint> nearest,
+    std::vector<NearPoint>& buffer) const;
+
   /// Calls `use(index, squaredDistance)` for all points no farther than `radius`.
   template <typename Use>
   void forEachWithin(Vector4 point, float radius, Use use) const

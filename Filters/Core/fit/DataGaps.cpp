@@ -319,8 +319,8 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
   const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
   // A bridge may be wide; what goes on where points are is filled anyway.
-  result.filled = fillBoundaries(mesh, boundaries,
-    std::max(bridgeWidth, WidestHole * mesh.meanEdge()),
+  result.filled = fillBoundaries(
+    mesh, boundaries, std::max(bridgeWidth, WidestHole * mesh.meanEdge()),
     [&](const Triangle& triangle) { return points.distance(centerOf(mesh, triangle)) <= reach; },
     std::numeric_limits<std::size_t>::max(), CosineOfHole);
   return result;

@@ -18,8 +18,7 @@ namespace neuralmesh
 /// Not in the thesis.
 std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longestEdge,
   const std::function<bool(const Triangle&)>& isAllowed = nullptr,
-  std::size_t mostEdges = std::numeric_limits<std::size_t>::max(),
-  float leastCosine = -1.f);
+  std::size_t mostEdges = std::numeric_limits<std::size_t>::max(), float leastCosine = -1.f);
 
 /// Fills the loops that can be filled and whose edges are shorter than `outline` all together. Returns their
 /// number.

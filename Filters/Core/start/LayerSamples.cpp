@@ -35,6 +35,9 @@ struct LayerPoints
 constexpr std::array<LayerPoints, 3> LayerPointsTried{ { { 16, 0.44f }, { 32, 0.63f },
   { 64, 0.79f } } };
 constexpr float SmallError = 0.04f;
+/// About, of as many points of a surface, for the root of their number and the distance to the nearest
+/// seven.
+constexpr float RadiusOfPoints = 0.62f;
 /// With less, points lie along a line of the scanner, and the layer may turn about it.
 constexpr float LeastBreadth = 0.15f;
 /// A layer that is told anew from where the sample was moved to.
@@ -136,10 +139,33 @@ struct Told
   LayerPoints points{}; ///< that tell; 0 = none yet
 };
 
-Told tell(const NearestPoints& nearest, Vector4 place, LayerPoints points)
+/// What it takes to look for the layer of a sample.
+struct Search
+{
+  const NearestPoints& nearest;
+  float spacing = 0.f; ///< about, of the points around
+  std::vector<NearPoint> buffer = {};
+};
+
+std::size_t firstTried() const
+{
+  std::size_t first = 0, before = 0;
+  const std::size_t all = std::accumulate(enough.begin(), enough.end(), std::size_t(0));
+  while (all >= LeastToPredict && before + enough[first] < all / RarelyEnough)
+  {
+    before += enough[first++];
+  }
+  return first;
+}
+};
+
+Told tell(Search& search, Vector4 place, LayerPoints points)
 {
   std::array<NearPoint, MostPointsOfLayer> found;
-  const std::size_t there = nearest.find(place, std::span(found).first(points.count));
+  const NearestPoints& nearest = search.nearest;
+  const float radius = RadiusOfPoints * search.spacing * std::sqrt(float(points.count));
+  const std::size_t there =
+    nearest.findWithin(place, radius, std::span(found).first(points.count), search.buffer);
   if (there < 6)
   {
     return {};
@@ -152,13 +178,13 @@ Told tell(const NearestPoints& nearest, Vector4 place, LayerPoints points)
 }
 
 /// Moves a sample onto its layer. Returns whether it lies in one.
-bool moveOntoLayer(const NearestPoints& nearest, LayerSample& sample)
+bool moveOntoLayer(Search& search, LayerSample& sample)
 {
   const Vector4 place = sample.position;
   Told best;
   for (const LayerPoints points : LayerPointsTried)
   {
-    const Told told = tell(nearest, place, points);
+    const Told told = tell(search, place, points);
     if (told.points.count > 0 &&
       (best.points.count == 0 || best.layer.breadth < LeastBreadth || told.error < best.error))
     {
@@ -185,7 +211,7 @@ bool moveOntoLayer(const NearestPoints& nearest, LayerSample& sample)
   sample.error = best.error;
   if (best.error > NoticeableError * sample.radius)
   {
-    const Told again = tell(nearest, sample.position, best.points);
+    const Told again = tell(search, sample.position, best.points);
     if (again.layer.distance < FarthestMove * again.layer.radius)
     {
       sample.position = again.layer.position;
@@ -261,8 +287,10 @@ std::optional<Vector4> placeInLayer(const NearestPoints& nearest, std::uint32_t 
 {
   LayerSample sample;
   sample.position = nearest.points()[point];
-  sample.radius = spacingAt(nearest, point).farthest;
-  return moveOntoLayer(nearest, sample) ? std::optional(sample.position) : std::nullopt;
+  const Spacing spacing = spacingAt(nearest, point);
+  sample.radius = spacing.farthest;
+  Search search{ nearest, spacing.mean };
+  return moveOntoLayer(search, sample) ? std::optional(sample.position) : std::nullopt;
 }
 
 LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layers layers,
@@ -275,6 +303,7 @@ LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layer
   std::vector<std::uint32_t> reachedBy(points.size(), NoSample);
   std::vector<LayerSample> samples;
   std::size_t inNoLayer = 0;
+  Search search{ nearest };
   for (const std::uint32_t point : shuffled(points.size(), seed))
   {
     if (isCovered[point])
@@ -288,8 +317,10 @@ LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layer
     }
     LayerSample sample;
     sample.position = points[point];
-    sample.radius = diskRadius.of(spacingAt(nearest, point));
-    const bool isInLayer = moveOntoLayer(nearest, sample);
+    const Spacing spacing = spacingAt(nearest, point);
+    sample.radius = diskRadius.of(spacing);
+    search.spacing = spacing.mean;
+    const bool isInLayer = moveOntoLayer(search, sample);
     // Noise had it look as if it were in another layer than what is there.
     if (isInLayer && reachedBy[point] != NoSample &&
       isOnDisk(samples[reachedBy[point]], sample.position))
