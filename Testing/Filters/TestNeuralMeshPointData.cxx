@@ -259,7 +259,7 @@ int CheckComposite()
   vtkPointData* data = mesh->GetPointData();
   CHECK(data->HasArray("Position") && data->HasArray("Block"));
   CHECK(data->GetScalars() && data->GetScalars() == data->GetArray("RGB"));
-  CHECK(data->GetNumberOfArrays() == 5); // with Normals and Activity
+  CHECK(data->GetNumberOfArrays() == 8); // with Normals, Activity, Boundary, Residual and Support
   for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v)
   {
     double p[3];

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -30,7 +31,10 @@ constexpr double MedianOfSizes = 0.6745;
 /// Noise is not quite Gaussian in the scans of devices: deviations by their median count so much.
 constexpr double NoiseMargin = 1.2;
 
-double median(std::vector<float> squared) { return std::sqrt(double(medianOf(squared))); }
+double median(std::vector<float> squared)
+{
+  return std::sqrt(double(medianOf(std::move(squared))));
+}
 }
 
 FitGuard::FitGuard(const PointCloud& cloud, const Mesh& mesh, const Executor& executor)

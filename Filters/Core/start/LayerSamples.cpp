@@ -147,18 +147,6 @@ struct Search
   std::vector<NearPoint> buffer = {};
 };
 
-std::size_t firstTried() const
-{
-  std::size_t first = 0, before = 0;
-  const std::size_t all = std::accumulate(enough.begin(), enough.end(), std::size_t(0));
-  while (all >= LeastToPredict && before + enough[first] < all / RarelyEnough)
-  {
-    before += enough[first++];
-  }
-  return first;
-}
-};
-
 Told tell(Search& search, Vector4 place, LayerPoints points)
 {
   std::array<NearPoint, MostPointsOfLayer> found;
