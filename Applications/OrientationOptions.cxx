@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OrientationOptions.h"
 
+#include "FieldNumber.h"
 #include "LearningParameters.h"
 #include "PointReader.h"
 
@@ -42,11 +43,6 @@ std::array<double, 3> PlaceOf(const std::string& option, const std::string& text
     throw UsageError(option + ": " + text + " is not X,Y,Z: three numbers, as 0.5,0,12");
   }
   return place;
-}
-
-double FieldNumber(vtkPolyData* mesh, const char* name)
-{
-  return mesh->GetFieldData()->GetArray(name)->GetTuple1(0);
 }
 }
 

@@ -2,6 +2,7 @@
 #include "RunReport.h"
 
 #include "ExplainedPoints.h"
+#include "FieldNumber.h"
 #include "OrientationOptions.h"
 
 #include "vtkNeuralMesh.h"
@@ -21,11 +22,6 @@
 
 namespace
 {
-double FieldNumber(vtkPolyData* mesh, const char* name)
-{
-  return mesh->GetFieldData()->GetArray(name)->GetTuple1(0);
-}
-
 long long FieldValue(vtkPolyData* mesh, const char* name)
 {
   return static_cast<long long>(FieldNumber(mesh, name));

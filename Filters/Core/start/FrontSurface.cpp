@@ -76,7 +76,7 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestP
 {
   const auto [samples, inNoLayer] =
     layerSamples(nearest, count, layers, seed, partOf(progress, 0., PartOfSamples));
-  if (!progress(PartOfSamples))
+  if (samples.empty() || !progress(PartOfSamples))
   {
     return {};
   }

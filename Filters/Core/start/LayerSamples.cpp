@@ -54,6 +54,8 @@ constexpr float NoiseOfDisk = 3.f;
 
 constexpr std::uint32_t NoSample = ~0u;
 constexpr std::size_t LayersPerCheck = 256;
+/// Of those tried so far: where so many lie in no layer, the noise is wider than samples are apart.
+constexpr double MostInNoLayer = 0.25;
 
 /// How far points are from each other around one.
 struct Spacing
@@ -298,8 +300,10 @@ LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layer
     {
       continue;
     }
-    if (samples.size() % LayersPerCheck == 0 &&
-      !progress(std::min(1., double(samples.size()) / double(count))))
+    const std::size_t tried = samples.size() + inNoLayer;
+    if (tried > 0 && tried % LayersPerCheck == 0 &&
+      (double(inNoLayer) > MostInNoLayer * double(tried) ||
+        !progress(std::min(1., double(samples.size()) / double(count)))))
     {
       return {};
     }
