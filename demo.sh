@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and makes meshes of two real scans that come with Debian
+# Installs what is missing, builds, and makes meshes of three real scans that come with Debian
 # packages. Meshes and pictures go to demo/.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -10,9 +10,9 @@ install_packages "${build_packages[@]}" libcgal-demo glmark2-data "${screen_pack
 build build all
 
 mkdir -p demo
-if [ ! -e demo/kitten.xyz ]; then
+if [ ! -e demo/kitten.xyz ] || [ ! -e demo/building.ply ]; then
   tar -xzf /usr/share/doc/libcgal-dev/data.tar.gz -C demo --strip-components=2 \
-    data/points_3/kitten.xyz
+    data/points_3/kitten.xyz data/points_3/building.ply
 fi
 
 # show NAME POINTS VERTICES VIEW...: reconstructs, measures and draws.
@@ -22,10 +22,12 @@ show()
   shift 3
   echo
   echo "$name: $points"
-  build/bin/neuralmesh reconstruct "$points" "demo/$name.ply" --vertices "$vertices"
+  build/bin/neuralmesh reconstruct "$points" "demo/$name-mesh.ply" --vertices "$vertices"
   xvfb-run -a /usr/bin/python3 Applications/Demo/show.py \
-    "$points" "demo/$name.ply" "demo/$name.png" "$@"
+    "$points" "demo/$name-mesh.ply" "demo/$name.png" "$@"
 }
 
 show kitten demo/kitten.xyz 2000 --up y --azimuth 200
 show bunny /usr/share/glmark2/models/bunny.obj 5000 --up y --azimuth 30
+# A scene: open, in pieces, and much sparser here than there.
+show building demo/building.ply 20000 --up z --azimuth 30

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures a reconstruction against its points, and draws both side by side.
+"""Measures a reconstruction against its points, and draws both side by side, back sides of the
+mesh in orange.
 
     show.py POINTS MESH.ply PICTURE.png [--up x|y|z] [--azimuth DEGREES]
 
@@ -21,7 +22,8 @@ from vtkmodules.vtkFiltersModeling import vtkHausdorffDistancePointSetFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkRenderingCore import (
-    vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
+    vtkActor, vtkPolyDataMapper, vtkProperty, vtkRenderer, vtkRenderWindow,
+    vtkWindowToImageFilter)
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (the renderer behind the classes above)
 
 
@@ -89,6 +91,10 @@ def draw(cloud, mesh, picture, up, azimuth):
             appearance.SetColor(0.85, 0.80, 0.72)
             appearance.EdgeVisibilityOn()
             appearance.SetEdgeColor(0.25, 0.25, 0.3)
+            back = vtkProperty()
+            back.DeepCopy(appearance)
+            back.SetColor(0.95, 0.55, 0.3)
+            actor.SetBackfaceProperty(back)
         renderer = vtkRenderer()
         renderer.SetBackground(1, 1, 1)
         renderer.SetViewport(side / 2, 0, (side + 1) / 2, 1)
