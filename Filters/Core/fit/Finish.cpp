@@ -133,7 +133,8 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
       flipEdges(mesh_);
     }
   }
-  if (rounds == 0 && !surfaceFit->findPlaces(partOf(progress, 0., 1.)))
+  // None were found yet, or gaps were opened since.
+  if (!surfaceFit->hasPlaces() && !surfaceFit->findPlaces(partOf(progress, 1., 1.)))
   {
     return false;
   }

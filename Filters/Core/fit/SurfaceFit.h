@@ -39,6 +39,7 @@ public:
   SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount,
     const Executor& executor = Executor::sequential());
 
+  bool hasPlaces() const { return hasPlaces_; }
   /// Finds the places of the samples on the mesh as it is now. Returns false if it was ended before.
   bool findPlaces(const Progress& progress);
   /// Moves the vertices. With `lambda` 0 chooses it first. Vertices stay where they are if samples
