@@ -4,6 +4,7 @@
 #include "DistinctFiles.h"
 #include "ErrorCollector.h"
 #include "ExplainedPoints.h"
+#include "FileArguments.h"
 #include "MeshReader.h"
 #include "PointReader.h"
 #include "PropertyOptions.h"
@@ -92,19 +93,10 @@ std::function<int()> AddExplainCommand(CLI::App& application)
   const auto smallest = NEURAL_MESH_NUMBERS(defaults, SmallestPiece);
   CLI::App* command =
     application.add_subcommand("explain", "Tell of each point how far it is from a mesh, and why");
-  command
-    ->add_option("INPUT", options->Input,
-      "Points: .ply .vtp .vtk .vtu .obj .stl, or text: .xyz .pts .txt .csv")
-    ->required()
-    ->type_name("");
-  command
-    ->add_option(
-      "MESH", options->Mesh, "Any mesh of them, in the same coordinates: .ply .vtp .vtk .obj .stl")
-    ->required()
-    ->type_name("");
-  command->add_option("OUTPUT", options->Output, "The points with Distance and Reason: .vtp")
-    ->required()
-    ->type_name("");
+  AddPoints(command, options->Input);
+  AddFile(command, "MESH", options->Mesh,
+    "Any mesh of them, in the same coordinates: .ply .vtp .vtk .obj .stl");
+  AddFile(command, "OUTPUT", options->Output, "The points with Distance and Reason: .vtp");
   AddNumber(command, "--keep-pieces", options->SmallestPiece, smallest,
     "Missed points that are less than this part of all are a small piece, " + Described(smallest),
     "PART");

@@ -5,6 +5,7 @@
 #include "DistinctFiles.h"
 #include "ErrorCollector.h"
 #include "ExplainedPoints.h"
+#include "FileArguments.h"
 #include "FileExtension.h"
 #include "Interruption.h"
 #include "LearningParameters.h"
@@ -380,16 +381,9 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
 
   CLI::App* command =
     application.add_subcommand("reconstruct", "Make a triangle mesh from a point cloud");
-  command
-    ->add_option("INPUT", options->Input,
-      "Points: .ply .vtp .vtk .vtu .obj .stl, or text: .xyz .pts .txt .csv")
-    ->required()
-    ->type_name("");
-  command
-    ->add_option(
-      "OUTPUT", options->Output, "Mesh: .vtp .ply .obj .stl; another file than all others")
-    ->required()
-    ->type_name("");
+  AddPoints(command, options->Input);
+  AddFile(
+    command, "OUTPUT", options->Output, "Mesh: .vtp .ply .obj .stl; another file than all others");
   AddNumber(command, "--vertices", options->Vertices, vertices,
     "Vertices of the mesh, " + Described(vertices), "N");
   AddNumber(command, "--seed", options->Seed, seed,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TuneCommand.h"
 
+#include "FileArguments.h"
 #include "PointReader.h"
 #include "PropertyOptions.h"
 
@@ -121,9 +122,7 @@ std::function<int()> AddTuneCommand(CLI::App& application)
   options->Close = defaults->GetBoundaries() == vtkNeuralMesh::CLOSE;
   CLI::App* command =
     application.add_subcommand("tune", "Choose the parameters for a point cloud, and say why");
-  command->add_option("INPUT", options->Input, "Points, as for reconstruct")
-    ->required()
-    ->type_name("");
+  AddPoints(command, options->Input);
   AddNumber(command, "--vertices", options->Vertices, vertices,
     "Vertices that the mesh is to have, " + Described(vertices), "N");
   AddNumber(

@@ -26,10 +26,7 @@ void vtkExplainedPoints::Fill(const vtkPointCloudCollector& collector,
   points->SetDataType(collector.HasDoublePoints() ? VTK_DOUBLE : VTK_FLOAT);
   for (const auto& leaf : collector.GetLeaves())
   {
-    const std::size_t count = leaf.Kept.empty()
-      ? static_cast<std::size_t>(leaf.PointSet->GetNumberOfPoints())
-      : leaf.Kept.size();
-    for (std::size_t point = leaf.Begin; point < leaf.Begin + count; ++point)
+    for (std::size_t point = leaf.Begin; point < leaf.End(); ++point)
     {
       points->InsertNextPoint(leaf.PointSet->GetPoint(leaf.IdOf(point)));
     }

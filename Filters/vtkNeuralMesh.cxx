@@ -19,15 +19,11 @@
 #include "vtkTriangleMeshCollector.h"
 
 #include "vtkDemandDrivenPipeline.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <algorithm>
@@ -185,10 +181,7 @@ bool vtkNeuralMesh::CollectWeights(
                     << (*name ? "called " : "") << name << " for the weights.");
       return false;
     }
-    const std::size_t end = leaf.Begin +
-      (leaf.Kept.empty() ? static_cast<std::size_t>(leaf.PointSet->GetNumberOfPoints())
-                         : leaf.Kept.size());
-    for (std::size_t point = leaf.Begin; point < end; ++point)
+    for (std::size_t point = leaf.Begin; point < leaf.End(); ++point)
     {
       weights.push_back(array->GetComponent(leaf.IdOf(point), 0));
     }
@@ -528,13 +521,6 @@ bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& res
     return false;
   }
   this->AbortExecute = 0;
-  if (result.stopReason == neuralmesh::StopReason::Stalled)
-  {
-    result.warnings.push_back("The mesh has stopped growing, at " +
-      std::to_string(result.mesh.points.size()) +
-      " vertices: as many are removed as are added. More RemovalPatience or less "
-      "SamplesPerAddition may help.");
-  }
   for (const std::string& warning : result.warnings)
   {
     vtkWarningMacro(<< warning);
@@ -552,13 +538,7 @@ void vtkNeuralMesh::FillOutput(const vtkNeuralMeshRun& run,
 {
   vtkNeuralMeshReport::FillLearningCurve(result.curve.rows(), learningCurve);
   vtkNeuralMeshReport::FillMesh(result, run.PointsPrecision, output);
-  const auto addCount = [output](const char* name, auto count)
-  { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count)); };
-  addCount("NumberOfVertices", output->GetNumberOfPoints());
-  addCount("Iterations", result.counts.iterations);
-  addCount("Seed", this->Seed);
-  vtkMeshArrays::AddFieldValue<vtkStringArray>(output, "StopReason", this->StopReason);
-  addCount("DroppedPoints", run.Cloud.droppedCount());
+  vtkNeuralMeshReport::AddRun(result, run.Cloud, this->Seed, output);
   vtkNeuralMeshReport::RemoveFrom(output);
   if (run.Tuning)
   {

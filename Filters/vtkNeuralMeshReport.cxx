@@ -38,6 +38,12 @@ void AddColumn(vtkTable* table, const char* name,
   table->AddColumn(column);
 }
 
+template <typename Count>
+void AddCount(vtkPolyData* output, const char* name, Count count)
+{
+  vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count));
+}
+
 vtkNew<vtkStringArray> MakeStrings(const char* name, const std::vector<std::string>& texts)
 {
   vtkNew<vtkStringArray> array;
@@ -85,13 +91,22 @@ void vtkNeuralMeshReport::FillMesh(
   }
 }
 
+void vtkNeuralMeshReport::AddRun(const neuralmesh::Reconstruction& result,
+  const neuralmesh::PointCloud& cloud, vtkIdType seed, vtkPolyData* output)
+{
+  AddCount(output, "NumberOfVertices", output->GetNumberOfPoints());
+  AddCount(output, "Iterations", result.counts.iterations);
+  AddCount(output, "Seed", seed);
+  vtkMeshArrays::AddFieldValue<vtkStringArray>(
+    output, "StopReason", neuralmesh::name(result.stopReason).data());
+  AddCount(output, "DroppedPoints", cloud.droppedCount());
+}
+
 void vtkNeuralMeshReport::AddQuality(
   const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output)
 {
   const auto addNumber = [output](const char* name, double value)
   { vtkMeshArrays::AddFieldValue<vtkDoubleArray>(output, name, value); };
-  const auto addCount = [output](const char* name, auto count)
-  { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count)); };
   const neuralmesh::SurfaceReport& surface = result.quality->surface;
   addNumber("Residual", result.quality->residual);
   addNumber("Noise",
@@ -99,15 +114,15 @@ void vtkNeuralMeshReport::AddQuality(
   addNumber("OutlierShare", result.quality->outlierShare);
   addNumber("RegularRatio", surface.regularRatio);
   addNumber("TriangleQuality", surface.meanQuality);
-  addCount("Components", surface.components);
-  addCount("Genus", surface.genus.value_or(-1));
-  addCount("BoundaryLoops", surface.boundaryLoops);
-  addCount("FoldedEdges", surface.foldedEdges);
+  AddCount(output, "Components", surface.components);
+  AddCount(output, "Genus", surface.genus.value_or(-1));
+  AddCount(output, "BoundaryLoops", surface.boundaryLoops);
+  AddCount(output, "FoldedEdges", surface.foldedEdges);
   constexpr vtkIdType NotLookedFor = -1;
-  addCount("IntersectingTriangles",
+  AddCount(output, "IntersectingTriangles",
     result.finish ? static_cast<vtkIdType>(result.finish->left.intersectingTriangles)
                   : NotLookedFor);
-  addCount("FitRoundsTakenBack", result.finish ? result.finish->roundsTakenBack : 0);
+  AddCount(output, "FitRoundsTakenBack", result.finish ? result.finish->roundsTakenBack : 0);
 }
 
 void vtkNeuralMeshReport::AddWarnings(const std::vector<std::string>& warnings, vtkPolyData* output)

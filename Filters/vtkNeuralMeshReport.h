@@ -11,6 +11,8 @@
 
 #include "learn/LearningCurve.h"
 
+#include "vtkType.h"
+
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ class vtkPolyData;
 class vtkTable;
 namespace neuralmesh
 {
+class PointCloud;
 struct Reconstruction;
 struct Tuning;
 }
@@ -29,6 +32,9 @@ public:
   /** Triangles, points of a precision of vtkAlgorithm, and arrays of the vertices. */
   static void FillMesh(
     const neuralmesh::Reconstruction& result, int precision, vtkPolyData* output);
+  /** How large the mesh became, and of what. */
+  static void AddRun(const neuralmesh::Reconstruction& result, const neuralmesh::PointCloud& cloud,
+    vtkIdType seed, vtkPolyData* output);
   /** What the mesh is worth, in units of the input, where a unit of the cloud is so long. */
   static void AddQuality(
     const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output);

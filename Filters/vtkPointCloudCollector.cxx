@@ -88,6 +88,13 @@ void vtkPointCloudCollector::CollectPointSet(vtkPointSet* pointSet)
   }
 }
 
+std::size_t vtkPointCloudCollector::Leaf::End() const
+{
+  return this->Begin +
+    (this->Kept.empty() ? static_cast<std::size_t>(this->PointSet->GetNumberOfPoints())
+                        : this->Kept.size());
+}
+
 void vtkPointCloudCollector::ReleasePoints()
 {
   this->Points = {};

@@ -30,6 +30,7 @@ public:
     std::size_t Begin;           ///< among all points
     std::vector<vtkIdType> Kept; ///< ids in the point set; empty if all were taken
 
+    std::size_t End() const; ///< the first point behind it
     vtkIdType IdOf(std::size_t point) const
     {
       const std::size_t place = point - this->Begin;

@@ -14,9 +14,11 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -122,6 +124,33 @@ inline double FieldValue(vtkPolyData* mesh, const char* name)
 {
   vtkDataArray* array = mesh->GetFieldData()->GetArray(name);
   return array ? array->GetTuple1(0) : -1.0;
+}
+
+/** How often the phrases are in a text, all together. */
+inline int Count(const std::string& text, std::initializer_list<std::string> phrases)
+{
+  int count = 0;
+  for (const std::string& phrase : phrases)
+  {
+    for (std::size_t at = text.find(phrase); at != std::string::npos;
+         at = text.find(phrase, at + 1))
+    {
+      ++count;
+    }
+  }
+  return count;
+}
+
+/** The warnings that the report on a mesh calls for, one for each kind of defect, and one for more
+ * vertices than so many different points, of so many, are enough for. */
+inline int WarningsOfDefects(vtkPolyData* mesh, vtkIdType differentPoints, vtkIdType points)
+{
+  constexpr vtkIdType Fewest = 4;
+  const vtkIdType vertices = mesh->GetNumberOfPoints();
+  const bool isFiner = vertices > std::max(differentPoints / 2, Fewest) && vertices <= points;
+  return isFiner + (FieldValue(mesh, "FoldedEdges") > 0.) +
+    (FieldValue(mesh, "IntersectingTriangles") > 0.) +
+    (FieldValue(mesh, "FitRoundsTakenBack") > 0.);
 }
 
 /** Counts errors and warnings, which are then not printed. */

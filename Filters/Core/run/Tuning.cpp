@@ -132,7 +132,7 @@ public:
   std::optional<Tuning> run()
   {
     // With another density all that comes is to be measured against that.
-    if (begin() && (!chooseDensity() || begin()))
+    if (learn() && (!chooseDensity() || learn()))
     {
       chooseRounds();
       chooseSmoothness();
@@ -141,19 +141,22 @@ public:
   }
 
 private:
-  /// Runs with the parameters as they are. Returns whether there is enough to measure by.
-  bool begin()
+  /// Learns with the parameters as they are. Returns whether there is enough to measure by.
+  bool learn()
   {
-    const std::vector<Reconstruction> runs = runAll(result_.parameters, 1.);
+    onAll([&](std::size_t i, const Progress& progress)
+      { patches_[i].learn(forTrial(result_.parameters), progress); });
+    const PatchMeshes meshes = finishAll(result_.parameters, 1.);
     std::size_t probes = 0;
     double noise = 0.;
-    for (std::size_t i = 0; i < runs.size() && !isCancelled_; ++i)
+    for (std::size_t i = 0; i < meshes.size() && !isCancelled_; ++i)
     {
-      if (runs[i].finish)
+      if (meshes[i])
       {
-        smoothness_[i] = runs[i].finish->smoothness;
-        noise += runs[i].finish->noise / runs[i].surface.meanEdge() / double(runs.size());
-        patches_[i].aim(runs[i].surface);
+        const auto& [mesh, report] = *meshes[i];
+        smoothness_[i] = report.smoothness;
+        noise += report.noise / mesh.meanEdge() / double(meshes.size());
+        patches_[i].aim(mesh);
         probes += patches_[i].probeCount();
       }
     }
@@ -162,14 +165,14 @@ private:
       return false;
     }
     const bool areFinished =
-      std::all_of(runs.begin(), runs.end(), [](const auto& run) { return run.finish.has_value(); });
+      std::all_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh.has_value(); });
     if (!areFinished || probes < LeastProbes)
     {
       result_.remarks.emplace_back("there are too few points to tell by them what is better");
       return false;
     }
     noise_ = noise;
-    best_ = measure(runs);
+    best_ = measure(meshes);
     return true;
   }
 
@@ -293,21 +296,36 @@ private:
     return parameters;
   }
 
-  /// Runs on all patches, with the lambda of each by the data times a factor.
-  std::vector<Reconstruction> runAll(const Parameters& parameters, double factor)
+  /// Of each patch; nothing where it was not finished.
+  using PatchMeshes = std::vector<std::optional<PatchMesh>>;
+
+  /// Finishes what all patches have learnt, with the lambda of each by the data times a factor.
+  PatchMeshes finishAll(const Parameters& parameters, double factor)
   {
-    std::vector<Reconstruction> runs(patches_.size());
-    const std::thread::id asking = std::this_thread::get_id();
-    std::atomic<bool> isCancelled = isCancelled_;
-    executor_.forEachPart(runs.size(),
-      [&](std::size_t i)
+    PatchMeshes meshes(patches_.size());
+    onAll(
+      [&](std::size_t i, const Progress& progress)
       {
         Parameters own = forTrial(parameters);
-        own.numberOfVertices = patches_[i].vertices();
         if (factor != 1.)
         {
           own.fitSmoothness = factor * smoothness_[i];
         }
+        meshes[i] = patches_[i].finish(own, progress);
+      });
+    ++runCount_;
+    return meshes;
+  }
+
+  /// Calls work(patch, progress), with as many at once as the executor runs.
+  template <typename Work>
+  void onAll(const Work& work)
+  {
+    const std::thread::id asking = std::this_thread::get_id();
+    std::atomic<bool> isCancelled = isCancelled_;
+    executor_.forEachPart(patches_.size(),
+      [&](std::size_t i)
+      {
         // Only the thread of the caller may tell him.
         const Progress progress = [&](double)
         {
@@ -317,11 +335,9 @@ private:
           }
           return !isCancelled;
         };
-        runs[i] = reconstruct(patches_[i].cloud(), own, progress);
+        work(i, progress);
       });
     isCancelled_ = isCancelled;
-    ++runCount_;
-    return runs;
   }
 
   double done() const
@@ -330,12 +346,12 @@ private:
     return std::min(1., runCount_ / MostRuns);
   }
 
-  std::vector<double> measure(const std::vector<Reconstruction>& runs) const
+  std::vector<double> measure(const PatchMeshes& meshes) const
   {
     std::vector<double> squared;
-    for (std::size_t i = 0; i < runs.size(); ++i)
+    for (std::size_t i = 0; i < meshes.size(); ++i)
     {
-      const std::vector<double> own = patches_[i].squaredDistances(runs[i].surface);
+      const std::vector<double> own = patches_[i].squaredDistances(meshes[i]->mesh);
       squared.insert(squared.end(), own.begin(), own.end());
     }
     return squared;
@@ -347,12 +363,12 @@ private:
     {
       return false;
     }
-    const std::vector<Reconstruction> runs = runAll(parameters, factor);
+    const PatchMeshes meshes = finishAll(parameters, factor);
     if (isCancelled_)
     {
       return false;
     }
-    const std::vector<double> squared = measure(runs);
+    const std::vector<double> squared = measure(meshes);
     const auto [before, gain, doubt] = compare(best_, squared);
     trial.error = cloud_.unit() * std::sqrt(std::max(0., before - gain));
     trial.gain = before > 0. ? gain / before : 0.;

@@ -4,6 +4,8 @@
 #include "base/Median.h"
 #include "base/Random.h"
 #include "cloud/PlaceOnMesh.h"
+#include "learn/StoppingRules.h"
+#include "start/OutlierClusters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -132,6 +134,67 @@ std::vector<TuningPatch> TuningPatch::patchesOf(
     }
   }
   return patches;
+}
+
+Parameters TuningPatch::own(Parameters parameters) const
+{
+  parameters.numberOfVertices = vertices_;
+  return learnable(parameters, cloud_);
+}
+
+void TuningPatch::beginFor(const Parameters& parameters, const Progress& progress)
+{
+  const double density = parameters.curvatureDensity;
+  if (!beginning_)
+  {
+    cleaned_ = parameters.start == Start::OccupiedSpace ? withoutClusters(cloud_) : std::nullopt;
+  }
+  if (!beginning_ || (density > 0. && density != densityOfBeginning_))
+  {
+    beginning_ = begin(learntCloud(), parameters, progress);
+    densityOfBeginning_ = density;
+  }
+}
+
+void TuningPatch::learn(const Parameters& wanted, const Progress& progress)
+{
+  constexpr std::uint64_t SamplesPerCheck = 4096;
+  const Parameters parameters = own(wanted);
+  beginFor(parameters, progress);
+  Beginning beginning = *beginning_;
+  if (parameters.curvatureDensity == 0.)
+  {
+    beginning.weights.clear();
+  }
+  Learner learner = learnerFrom(std::move(beginning), learntCloud(), parameters);
+  StoppingRules rules(learntCloud(), parameters, learner.mesh().vertexCount());
+  StopReason reason = ruleMet(learner, rules, progress);
+  while (reason == StopReason::None)
+  {
+    reason = neuralmesh::learn(learner, rules, parameters, SamplesPerCheck, progress);
+  }
+  learnt_.reset();
+  if (reason != StopReason::Cancelled && learner.counts().iterations > 0)
+  {
+    learner.compact();
+    learnt_ = learner.learntMesh();
+    hasAllVertices_ = reason == StopReason::Vertices;
+  }
+}
+
+std::optional<PatchMesh> TuningPatch::finish(
+  const Parameters& wanted, const Progress& progress) const
+{
+  if (!learnt_)
+  {
+    return {};
+  }
+  LearntMesh learnt = *learnt_;
+  const std::size_t vertices = learnt.mesh.vertexCount();
+  const auto report =
+    neuralmesh::finish(learnt, learntCloud(), own(wanted), beginning_->bridgeWidth,
+      hasAllVertices_ ? std::max(std::size_t(vertices_), vertices) : vertices, progress);
+  return report ? std::optional(PatchMesh{ std::move(learnt.mesh), *report }) : std::nullopt;
 }
 
 void TuningPatch::aim(const Mesh& mesh)

@@ -19,6 +19,8 @@ constexpr double WholeArea = 0.999;
 constexpr std::size_t MostPiecesNamed = 2;
 /// With less points a vertex, the mesh follows single points.
 constexpr std::size_t LeastPointsPerVertex = 2;
+/// Of a closed mesh.
+constexpr std::size_t FewestVertices = 4;
 constexpr std::string_view HowToSee = "ExplainPoints (--explain) shows which.";
 
 std::string counted(std::size_t count, std::string_view one, std::string_view several)
@@ -114,12 +116,19 @@ void warnOfVertices(
   const Reconstruction& result, const PointCloud& cloud, std::vector<std::string>& warnings)
 {
   const std::size_t vertices = result.mesh.points.size(), points = cloud.differentCount();
-  if (vertices > points / LeastPointsPerVertex && vertices <= cloud.points().size())
+  if (result.stopReason == StopReason::Stalled)
+  {
+    warnings.push_back("The mesh has stopped growing, at " + std::to_string(vertices) +
+      " vertices: as many are removed as are added. More RemovalPatience or less "
+      "SamplesPerAddition may help.");
+  }
+  const std::size_t enough = std::max(points / LeastPointsPerVertex, FewestVertices);
+  if (vertices > enough && vertices <= cloud.points().size())
   {
     warnings.push_back("The mesh is finer than its data: " + std::to_string(vertices) +
       " vertices for " + std::to_string(points) +
-      " different points. It shows no more of the surface than with " +
-      std::to_string(std::max<std::size_t>(points / LeastPointsPerVertex, 4)) + ".");
+      " different points. It shows no more of the surface than with " + std::to_string(enough) +
+      ".");
   }
   if (result.finish && result.finish->roundsTakenBack > 0)
   {

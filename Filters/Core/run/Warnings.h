@@ -15,6 +15,7 @@ namespace neuralmesh
 ///   outliers; or a piece or limb of them is missing: where, and how many;
 /// - the mesh has an opening where there are points;
 /// - triangles intersect others, or are folded;
+/// - the mesh has stopped growing below the size that was asked for;
 /// - the mesh is finer than its data: it has more vertices than every second point;
 /// - the fit was taken back: with it the mesh had a larger residual, lost points, or intersected;
 /// - nothing tells the outer side of pieces with more than a thousandth of the area, unless they are one

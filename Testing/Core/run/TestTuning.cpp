@@ -269,6 +269,39 @@ TEST(TuningPatch, RoughnessIsNoAdvantage)
   }
 }
 
+// What a trial measures is what a whole run gives, with any parameters of the fit; with another
+// density, too, which needs the same first surface.
+TEST(TuningPatch, LearnsAsAWholeRunDoes)
+{
+  CloudOptions options;
+  options.count = 12000;
+  options.noise = 0.005;
+  Parameters parameters;
+  parameters.numberOfVertices = 2000;
+  std::vector<TuningPatch> patches =
+    TuningPatch::patchesOf(PointCloud(sphereCloud(options)), parameters);
+  ASSERT_EQ(patches.size(), 1u);
+  const Progress progress = [](double) { return true; };
+  for (const double density : { 0.5, 0. })
+  {
+    parameters.curvatureDensity = density;
+    patches[0].learn(parameters, progress);
+    for (const int rounds : { 3, 6 })
+    {
+      parameters.fitRounds = rounds;
+      const auto trial = patches[0].finish(parameters, progress);
+      const Reconstruction whole = reconstruct(patches[0].cloud(), parameters, progress);
+      ASSERT_TRUE(trial && whole.finish);
+      EXPECT_EQ(trial->report.smoothness, whole.finish->smoothness);
+      ASSERT_EQ(trial->mesh.vertexCount(), whole.surface.vertexCount());
+      for (VertexIndex v = 0; v < trial->mesh.indexEnd(); ++v)
+      {
+        EXPECT_EQ(squaredNorm(trial->mesh.position(v) - whole.surface.position(v)), 0.f);
+      }
+    }
+  }
+}
+
 // Patches have the density of points of the whole; a fifth of their points is held out.
 TEST(TuningPatch, HoldsAFifthOut)
 {
