@@ -81,7 +81,7 @@ test_time_limit()
 test_ctrl_c_before_learning()
 {
   # So noisy that there is something to choose; seconds pass before anything is learnt.
-  make_cloud 8000
+  make_cloud 20000
   awk 'function noise() { return 0.05 * (rand() + rand() + rand() - 1.5) }
     BEGIN { srand(1) } { print $1 + noise(), $2 + noise(), $3 + noise() }' cloud.xyz > noisy.xyz
   mv noisy.xyz cloud.xyz
@@ -89,7 +89,7 @@ test_ctrl_c_before_learning()
   for options in "--automatic" \
     "--ensemble 3 --set VerticesPerMember=1500 --set MemberSamplesPerAddition=500"; do
     # Some words.
-    read -ra learning <<< "$options --vertices 2500"
+    read -ra learning <<< "$options --vertices 4500"
     rm -f mesh.ply
     expect 0 run whole.ply "${learning[@]}"
     until kill_after_checkpoint 0; do
