@@ -11,10 +11,6 @@ namespace neuralmesh
 {
 namespace
 {
-/// Often enough to end within milliseconds, rarely enough to cost nothing; large batches are not
-/// cut for it.
-constexpr std::uint64_t SamplesPerCheck = 4096;
-
 /// With less the mesh would follow single points, not the surface.
 constexpr std::size_t PointsPerVertex = 2;
 constexpr std::size_t LeastLearnt = 100;

@@ -11,6 +11,7 @@
 #include "learn/StoppingRules.h"
 #include "run/Reconstruction.h"
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -36,6 +37,10 @@ Learner learnerFrom(Beginning beginning, const PointCloud& cloud, const Paramete
 
 /// The stopping rule that is met, or None; Cancelled if `progress` ends the run.
 StopReason ruleMet(const Learner& learner, StoppingRules& rules, const Progress& progress);
+
+/// Often enough to end within milliseconds, rarely enough to cost nothing; large batches are not
+/// cut for it.
+inline constexpr std::uint64_t SamplesPerCheck = 4096;
 
 /// Learns so many samples at least, and a whole batch, but no more than all that the parameters allow.
 /// Returns the rule that is met then. To be called again as long as that is None.

@@ -14,7 +14,6 @@ namespace
 {
 /// With fewer there is nothing to see yet.
 constexpr std::size_t LeastPointsToMesh = 100;
-constexpr std::uint64_t SamplesBetweenChecks = 4096;
 
 /// The mesh is begun anew if so much more of the occupied space is away from it than when it was
 /// begun ...
@@ -117,7 +116,7 @@ std::uint64_t StreamingReconstruction::learn(std::uint64_t samples, const Progre
        learnt = learner.counts().iterations - begin)
   {
     learner.learn(std::min<std::uint64_t>(
-      samples - learnt, std::max<std::uint64_t>(SamplesBetweenChecks, learner.batchSize())));
+      samples - learnt, std::max<std::uint64_t>(SamplesPerCheck, learner.batchSize())));
   }
   return learner.counts().iterations - begin;
 }

@@ -158,7 +158,6 @@ void TuningPatch::beginFor(const Parameters& parameters, const Progress& progres
 
 void TuningPatch::learn(const Parameters& wanted, const Progress& progress)
 {
-  constexpr std::uint64_t SamplesPerCheck = 4096;
   const Parameters parameters = own(wanted);
   beginFor(parameters, progress);
   Beginning beginning = *beginning_;
