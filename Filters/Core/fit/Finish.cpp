@@ -3,22 +3,47 @@
 
 #include "fit/DataGaps.h"
 #include "mesh/BoundaryFilling.h"
+#include "mesh/CrossingRemoval.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/Refinement.h"
 #include "mesh/SelfIntersections.h"
+#include "mesh/SliverRemoval.h"
 
 #include <limits>
+#include <utility>
 
 namespace neuralmesh
 {
 namespace
 {
-/// Defects, at most, whose vertices are taken away if nothing else helps.
-constexpr std::size_t MostCollapsed = 200;
+/// Defects, at most, that are taken away if nothing else helps.
+constexpr std::size_t MostTakenAway = 200;
+/// Of triangles, see removeSlivers().
+constexpr float LeastQuality = 0.1f;
+/// To take slivers away; each leaves more of them.
+constexpr int MostAttempts = 4;
 
 DefectCount countDefects(const Mesh& mesh)
 {
   return { intersectingTriangles(mesh).size(), foldedEdges(mesh).size() };
+}
+
+/// The corners of triangles that intersect and those around folds, of what has a corner v with
+/// `isAsked[v]`.
+std::vector<VertexIndex> brokenVertices(const Mesh& mesh, const std::vector<bool>& isAsked)
+{
+  std::vector<VertexIndex> broken;
+  for (const Triangle& triangle : intersectingTriangles(mesh, isAsked))
+  {
+    broken.insert(broken.end(), triangle.begin(), triangle.end());
+  }
+  for (const Edge& edge : foldedEdges(mesh, isAsked))
+  {
+    const Edge opposite = oppositeTo(mesh, edge);
+    broken.insert(broken.end(), edge.begin(), edge.end());
+    broken.insert(broken.end(), opposite.begin(), opposite.end());
+  }
+  return broken;
 }
 
 VertexIndex nearestToCollapseInto(const Mesh& mesh, VertexIndex v)
@@ -133,60 +158,108 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
       flipEdges(mesh_);
     }
   }
-  // None were found yet, or gaps were opened since.
-  if (!surfaceFit->hasPlaces() && !surfaceFit->findPlaces(partOf(progress, 1., 1.)))
+  if (!repair(*surfaceFit, guard, partOf(progress, 1., 1.)))
   {
     return false;
   }
-  repair(*surfaceFit, guard, partOf(progress, 1., 1.));
+  takeSliversAway(guard);
   return true;
 }
 
-/// Where the repair would lose samples, it stays as it was, broken or not.
-void Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress)
+/// Slivers stay where triangles would intersect, and all of them where points would be lost.
+void Finish::takeSliversAway(FitGuard& guard)
 {
-  const Mesh broken = mesh_;
+  const Mesh before = mesh_;
+  std::vector<bool> isKept(mesh_.indexEnd(), false), isTouched;
+  bool areDefects = true;
+  for (int attempt = 0; attempt < MostAttempts && areDefects; ++attempt)
+  {
+    mesh_ = before;
+    isTouched = removeSlivers(mesh_, LeastQuality, isKept);
+    if (isTouched.empty())
+    {
+      return;
+    }
+    const std::vector<VertexIndex> broken = brokenVertices(mesh_, isTouched);
+    areDefects = broken.size() > brokenVertices(before, isTouched).size();
+    for (const VertexIndex v : broken)
+    {
+      isKept[v] = true;
+    }
+  }
+  mesh_.dropErased();
+  refine(mesh_, before.vertexCount(), [](double) { return true; });
+  if (areDefects || mesh_.vertexCount() != before.vertexCount() ||
+    (guard.losesPoints(mesh_, false) && !guard.losesPoints(before, false)))
+  {
+    mesh_ = before;
+  }
+}
+
+/// Where the repair would lose samples, it stays as it was, broken or not. Returns false if it was ended
+/// before that was known.
+bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress)
+{
+  Mesh broken = mesh_;
   const IntersectionRepair repair = repairIntersections(mesh_, progress);
   report_.repaired = repair.before;
   report_.left = repair.after;
   if (repair.before.total() > 0 && guard.losesPoints(mesh_, true))
   {
+    if (!surfaceFit.hasPlaces())
+    {
+      std::swap(mesh_, broken);
+      const bool isDone = surfaceFit.findPlaces(progress);
+      std::swap(mesh_, broken);
+      if (!isDone)
+      {
+        return false;
+      }
+    }
     report_.heldVertices += surfaceFit.holdAgainst(broken);
     report_.left = countDefects(mesh_);
   }
-  while (report_.left.total() > 0 && report_.left.total() <= MostCollapsed)
+  while (mendsBy([this] { collapseDefects(); }, guard, progress))
   {
-    const Mesh before = mesh_;
-    const bool wasWorse = guard.losesPoints(before, true);
-    collapseDefects();
-    const IntersectionRepair again = repairIntersections(mesh_, progress);
-    if (again.after.total() >= report_.left.total() ||
-      mesh_.vertexCount() != before.vertexCount() || (!wasWorse && guard.losesPoints(mesh_, true)))
-    {
-      mesh_ = before;
-      break;
-    }
-    report_.left = again.after;
   }
+  // A mesh that is open anyway may have a small hole more.
+  if (mesh_.isOpen())
+  {
+    mendsBy([this] { replaceCrossings(mesh_); }, guard, progress);
+  }
+  return true;
 }
 
-/// What cannot be mended is taken away: each vertex of a defect goes into its nearest neighbour. As
-/// many come in again where edges are long.
+/// Takes away by `remove` some of what is broken. Where no less is broken then, or points are lost, the
+/// mesh stays as it was, and the answer is no.
+template <typename Remove>
+bool Finish::mendsBy(const Remove& remove, FitGuard& guard, const Progress& progress)
+{
+  if (report_.left.total() == 0 || report_.left.total() > MostTakenAway)
+  {
+    return false;
+  }
+  const Mesh before = mesh_;
+  const bool wasWorse = guard.losesPoints(before, true);
+  remove();
+  // As many vertices come in again where edges are long.
+  mesh_.dropErased();
+  refine(mesh_, before.vertexCount(), [](double) { return true; });
+  const IntersectionRepair again = repairIntersections(mesh_, progress);
+  if (again.after.total() >= report_.left.total() || mesh_.vertexCount() != before.vertexCount() ||
+    (!wasWorse && guard.losesPoints(mesh_, true)))
+  {
+    mesh_ = before;
+    return false;
+  }
+  report_.left = again.after;
+  return true;
+}
+
+/// Each vertex of a defect goes into its nearest neighbour.
 void Finish::collapseDefects()
 {
-  std::vector<VertexIndex> broken;
-  for (const Triangle& triangle : intersectingTriangles(mesh_))
-  {
-    broken.insert(broken.end(), triangle.begin(), triangle.end());
-  }
-  for (const Edge& edge : foldedEdges(mesh_))
-  {
-    const Edge opposite = oppositeTo(mesh_, edge);
-    broken.insert(broken.end(), edge.begin(), edge.end());
-    broken.insert(broken.end(), opposite.begin(), opposite.end());
-  }
-  const std::size_t count = mesh_.vertexCount();
-  for (const VertexIndex v : broken)
+  for (const VertexIndex v : brokenVertices(mesh_, std::vector<bool>(mesh_.indexEnd(), true)))
   {
     if (mesh_.isAlive(v))
     {
@@ -197,8 +270,6 @@ void Finish::collapseDefects()
       }
     }
   }
-  mesh_.dropErased();
-  refine(mesh_, count, [](double) { return true; });
 }
 
 bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress)

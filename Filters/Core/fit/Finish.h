@@ -62,7 +62,10 @@ private:
   bool fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   bool openGaps(const SurfaceFit& surfaceFit);
   bool closeHoles();
-  void repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress);
+  void takeSliversAway(FitGuard& guard);
+  bool repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress);
+  template <typename Remove>
+  bool mendsBy(const Remove& remove, FitGuard& guard, const Progress& progress);
   void collapseDefects();
 
   const PointCloud& cloud_;

@@ -63,16 +63,6 @@ Vector4 normalAt(const PlaceOnMesh& place, std::span<const Vector4> positions)
   const Vector4 a = positions[place.triangle[0]];
   return cross(positions[place.triangle[1]] - a, positions[place.triangle[2]] - a);
 }
-
-bool isOpen(const Mesh& mesh)
-{
-  VertexIndex v = 0;
-  while (v < mesh.indexEnd() && !mesh.isBoundary(v))
-  {
-    ++v;
-  }
-  return v < mesh.indexEnd();
-}
 }
 
 SurfaceFit::SurfaceFit(
@@ -162,7 +152,7 @@ void SurfaceFit::fillSystem()
   forEachRows([this](const FitSystem::Rows& rows) { fillRows(rows); });
   usedCount_ = std::size_t(executor_.sum(
     places_.size(), FitSamplesPerRange, [this](std::size_t i) { return isUsed(i) ? 1. : 0.; }));
-  if (isOpen(mesh_))
+  if (mesh_.isOpen())
   {
     pullBoundariesIn();
   }

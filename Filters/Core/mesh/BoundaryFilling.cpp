@@ -9,6 +9,11 @@ namespace neuralmesh
 {
 namespace
 {
+/// Longer loops are openings.
+constexpr std::size_t MostEdgesOfGap = 12;
+/// Those around which the normals turn by more than 110 degrees are outlines of pieces.
+constexpr float CosineOfOutline = -0.34f;
+
 /// A corner of a boundary, and the square of the edge with which a triangle would close it.
 struct RimCorner
 {
@@ -110,6 +115,13 @@ std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longe
     }
   }
   return filled;
+}
+
+std::size_t fillSmallGaps(Mesh& mesh)
+{
+  BoundaryManager boundaries(mesh);
+  return fillBoundaries(
+    mesh, boundaries, std::numeric_limits<float>::max(), nullptr, MostEdgesOfGap, CosineOfOutline);
 }
 
 std::size_t fillShortBoundaries(Mesh& mesh, BoundaryManager& boundaries, double outline)

@@ -14,11 +14,16 @@ namespace neuralmesh
 /// those where the normals around are farther from that of what would fill them than by `leastCosine`:
 /// it is 1 for a hole in a plane, about 0 at the end of a pipe, -1 at the outline of a sheet, which would
 /// be closed by a second layer.
-/// /// Corner by corner, each time the one with the shortest third edge. Returns the number of loops filled.
+///
+/// Corner by corner, each time the one with the shortest third edge. Returns the number of loops filled.
 /// Not in the thesis.
 std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longestEdge,
   const std::function<bool(const Triangle&)>& isAllowed = nullptr,
   std::size_t mostEdges = std::numeric_limits<std::size_t>::max(), float leastCosine = -1.f);
+
+/// The same for loops of at most a dozen edges, whatever their length, that are not the outlines of sheets.
+/// Longer ones are openings.
+std::size_t fillSmallGaps(Mesh& mesh);
 
 /// Fills the loops that can be filled and whose edges are shorter than `outline` all together. Returns their
 /// number.

@@ -3,6 +3,7 @@
 
 #include "mesh/Renumbering.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -66,6 +67,12 @@ double Mesh::meanEdge() const
     }
   }
   return sum / double(count);
+}
+
+bool Mesh::isOpen() const
+{
+  return std::any_of(rings_.begin(), rings_.end(),
+    [](const Ring& ring) { return !ring.isEmpty() && ring.isOpen(); });
 }
 
 std::size_t Mesh::triangleCount() const

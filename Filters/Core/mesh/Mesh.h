@@ -77,6 +77,8 @@ public:
   std::size_t triangleCount() const;
   /// Mean length of the edges.
   double meanEdge() const;
+  /// Whether there is any boundary.
+  bool isOpen() const;
   bool contains(const Triangle& triangle) const;
 
   /// Vertex split of `v` along the edges in the slots `first` and `first + steps` of its ring

@@ -4,13 +4,13 @@
 #include "base/DisjointSets.h"
 #include "cloud/MeshBuilder.h"
 #include "mesh/BoundaryFilling.h"
+#include "mesh/CrossingRemoval.h"
 #include "mesh/FanSplitting.h"
 #include "mesh/SelfIntersections.h"
 #include "start/AdvancingFront.h"
 #include "start/WideTriangles.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -20,11 +20,6 @@ namespace
 {
 /// A piece with less is none, however few there are; unless all are to be kept.
 constexpr std::size_t LeastTriangles = 12;
-/// Longer loops are openings.
-constexpr std::size_t MostEdgesOfGap = 12;
-/// Those around which the normals turn by more than 110 degrees are outlines of pieces.
-constexpr float CosineOfOutline = -0.34f;
-constexpr int CutRounds = 3;
 // Of the time.
 constexpr double PartOfSamples = 0.7;
 constexpr double PartOfLayers = 0.9;
@@ -47,27 +42,6 @@ void dropSmallPieces(TriangleMesh& mesh, double leastPiece)
     : 0;
   std::erase_if(
     mesh.triangles, [&](const auto& triangle) { return sizes[sets.root(triangle[0])] < least; });
-}
-
-std::size_t fillGaps(Mesh& mesh)
-{
-  BoundaryManager boundaries(mesh);
-  return fillBoundaries(
-    mesh, boundaries, std::numeric_limits<float>::max(), nullptr, MostEdgesOfGap, CosineOfOutline);
-}
-
-/// Takes away what intersects; what is left over there is filled if it is small.
-void removeCrossings(Mesh& mesh)
-{
-  for (int round = 0; round < CutRounds; ++round)
-  {
-    const std::vector<Triangle> crossing = intersectingTriangles(mesh);
-    if (crossing.empty())
-    {
-      break;
-    }
-    mesh.removeTriangles(crossing);
-  }
 }
 }
 
@@ -101,16 +75,14 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestP
   result.mesh = buildMesh(std::move(triangles), cloud);
   result.samples = samples.size();
   result.scatter = double(inNoLayer) / double(samples.size() + inNoLayer);
-  result.filledLoops = fillGaps(result.mesh);
+  result.filledLoops = fillSmallGaps(result.mesh);
   result.crossings = intersectingPairs(result.mesh).size();
   if (result.crossings > 0)
   {
-    removeCrossings(result.mesh);
-    fillGaps(result.mesh);
-    removeCrossings(result.mesh);
+    replaceCrossings(result.mesh);
   }
   result.mesh.removeTriangles(findWideTriangles(result.mesh, samples));
-  fillGaps(result.mesh);
+  fillSmallGaps(result.mesh);
   removeCrossings(result.mesh);
   result.mesh.dropErased();
   return result;

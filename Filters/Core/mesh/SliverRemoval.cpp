@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/SliverRemoval.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Of the angle by which a triangle may turn.
+constexpr float LeastCosineOfTurn = 0.5f;
+constexpr int MostPassesOverSlivers = 3;
+/// Where a sliver cannot go, the worst triangle must become better by that factor.
+constexpr float LeastGainOfQuality = 2.f;
+
+struct Corners
+{
+  Vector4 a, b, c;
+
+  Vector4 normal() const { return cross(b - a, c - a); }
+
+  float quality() const
+  {
+    const float ab = std::sqrt(squaredNorm(b - a)), bc = std::sqrt(squaredNorm(c - b)),
+                ca = std::sqrt(squaredNorm(a - c));
+    const float lengths = (ab + bc + ca) * ab * bc * ca;
+    return lengths > 0.f ? 4.f * squaredNorm(normal()) / lengths : 0.f;
+  }
+};
+
+bool keepsSide(Vector4 before, Vector4 after)
+{
+  return dot(before, after) >=
+    LeastCosineOfTurn * std::sqrt(squaredNorm(before) * squaredNorm(after));
+}
+
+class SliverRemover
+{
+public:
+  SliverRemover(Mesh& mesh, float least, const std::vector<bool>& isKept)
+    : mesh_(mesh)
+    , least_(least)
+    , isKept_(isKept)
+  {
+  }
+
+  std::vector<bool> run()
+  {
+    bool hasRemoved = true;
+    for (int pass = 0; pass < MostPassesOverSlivers && hasRemoved; ++pass)
+    {
+      hasRemoved = false;
+      for (const Triangle& triangle : slivers())
+      {
+        // A neighbour may have gone with it.
+        const bool isThere = mesh_.isAlive(triangle[0]) && mesh_.contains(triangle);
+        const bool mayGo = std::none_of(
+          triangle.begin(), triangle.end(), [this](VertexIndex v) { return isKept_[v]; });
+        hasRemoved = (isThere && mayGo && remove(triangle)) || hasRemoved;
+      }
+    }
+    return std::move(isTouched_);
+  }
+
+private:
+  Corners corners(VertexIndex a, VertexIndex b, VertexIndex c) const
+  {
+    return { mesh_.position(a), mesh_.position(b), mesh_.position(c) };
+  }
+
+  std::vector<Triangle> slivers() const
+  {
+    std::vector<Triangle> result;
+    mesh_.forEachTriangle(
+      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+      {
+        if (corners(a, b, c).quality() < least_)
+        {
+          result.push_back({ a, b, c });
+        }
+      });
+    return result;
+  }
+
+  /// Turned so that its longest edge, or its shortest one, is the first.
+  template <typename Compare>
+  Triangle from(Triangle triangle, const Compare& isBefore) const
+  {
+    std::array<float, 3> squared;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      squared[i] = squaredNorm(mesh_.position(triangle[(i + 1) % 3]) - mesh_.position(triangle[i]));
+    }
+    const auto first = std::min_element(squared.begin(), squared.end(), isBefore);
+    std::rotate(triangle.begin(), triangle.begin() + (first - squared.begin()), triangle.end());
+    return triangle;
+  }
+
+  bool remove(const Triangle& triangle)
+  {
+    const Triangle byLongest = from(triangle, std::greater<>());
+    const Triangle byShortest = from(triangle, std::less<>());
+    const float ofFlip = qualityByFlip(byLongest[0], byLongest[1]);
+    const float oneWay = qualityByCollapse(byShortest[0], byShortest[1]);
+    const float otherWay = qualityByCollapse(byShortest[1], byShortest[0]);
+    const float best = std::max({ ofFlip, oneWay, otherWay });
+    const float now = corners(triangle[0], triangle[1], triangle[2]).quality();
+    if (best < std::min(least_, LeastGainOfQuality * now) || best == 0.f)
+    {
+      return false;
+    }
+    isTouched_.resize(mesh_.indexEnd(), false);
+    touch(byShortest[0]);
+    touch(byShortest[1]);
+    touch(byShortest[2]);
+    if (best == ofFlip)
+    {
+      mesh_.flip(byLongest[0], byLongest[1]);
+    }
+    else if (best == oneWay)
+    {
+      mesh_.collapse(byShortest[0], byShortest[1]);
+    }
+    else
+    {
+      mesh_.collapse(byShortest[1], byShortest[0]);
+    }
+    return true;
+  }
+
+  void touch(VertexIndex v)
+  {
+    isTouched_[v] = true;
+    for (const VertexIndex neighbor : mesh_.ring(v))
+    {
+      isTouched_[neighbor] = true;
+    }
+  }
+
+  /// The least quality of what the flip leaves; 0 where it may not be.
+  float qualityByFlip(VertexIndex a, VertexIndex b) const
+  {
+    const Ring& ring = mesh_.ring(a);
+    const unsigned slot = ring.find(b);
+    const VertexIndex c = ring.next(slot), d = ring.previous(slot);
+    if (c == NoVertex || d == NoVertex || !mesh_.canFlip(a, b))
+    {
+      return 0.f;
+    }
+    const Vector4 before = corners(a, b, c).normal() + corners(b, a, d).normal();
+    const Corners one = corners(a, d, c), other = corners(b, c, d);
+    return keepsSide(before, one.normal()) && keepsSide(before, other.normal())
+      ? std::min(one.quality(), other.quality())
+      : 0.f;
+  }
+
+  float qualityByCollapse(VertexIndex removed, VertexIndex kept) const
+  {
+    if (!mesh_.canCollapse(removed, kept))
+    {
+      return 0.f;
+    }
+    float worst = 1.f;
+    const Ring& ring = mesh_.ring(removed);
+    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+    {
+      const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
+      if (b == kept || c == kept)
+      {
+        continue;
+      }
+      const Corners before = corners(removed, b, c), after = corners(kept, b, c);
+      const float quality = after.quality();
+      // What is a line itself has no side.
+      if (before.quality() >= least_ && !keepsSide(before.normal(), after.normal()))
+      {
+        return 0.f;
+      }
+      worst = std::min(worst, quality);
+    }
+    return worst;
+  }
+
+  Mesh& mesh_;
+  float least_;
+  const std::vector<bool>& isKept_;
+  std::vector<bool> isTouched_;
+};
+}
+
+std::vector<bool> removeSlivers(Mesh& mesh, float least, const std::vector<bool>& isKept)
+{
+  return SliverRemover(mesh, least, isKept).run();
+}
+}
