@@ -10,7 +10,7 @@ wrong = []
 for test in json.load(sys.stdin)["tests"]:
     properties = {item["name"]: item["value"] for item in test.get("properties", [])}
     labels = properties.get("LABELS", [])
-    if len(labels) != 1 or not re.fullmatch("(fast|full|nightly)(-threads)?", labels[0]):
+    if len(labels) != 1 or not re.fullmatch("(fast|full|sanitized|nightly)(-threads)?", labels[0]):
         wrong.append((test["name"], labels))
 wrong = [name for name in wrong if not name[0].endswith("_NOT_BUILT")]
 for name, labels in wrong:

@@ -3,9 +3,9 @@
 #
 #   Utilities/check_sanitizers.sh [address|thread] [--all] [CTEST-OPTION...]
 #
-# address: memory and undefined behaviour; the fast tests of the filters and of what in the core stands
-#   hostile data or any operation, and a short campaign of fuzzing.
-# thread: the fast tests of what has threads.
+# address: memory and undefined behaviour; the fast and the sanitized tests of the filters and of what in
+#   the core stands hostile data or any operation, and a short campaign of fuzzing.
+# thread: those of what has threads.
 #
 # With --all, which takes an hour: address has every test of the core and the filters, of damaged files
 # and of fuzzing, and thread every test of the core and the filters.
@@ -39,7 +39,7 @@ check()
 # one thread take long for nothing with that of threads.
 memory='^Filters\.TestNeuralMeshManyRuns$' million='^Core\.AnyOperation\.Million'
 programs='NeuralMeshCoreMemoryTests NeuralMeshCoreThreadTests NeuralMeshFilterTests
-  NeuralMeshFuzzEngineShortly'
+  NeuralMeshFilterThreadTests NeuralMeshFuzzEngineShortly'
 
 check_address()
 {
@@ -50,7 +50,8 @@ check_address()
       -E "$memory" "$@"
   else
     # What chooses parameters only calls what others test here.
-    check sanitize "$programs" -R '^(Core|Filters|Fuzzing.Engine)' -L fast -E 'Tuning|Automatic' "$@"
+    check sanitize "$programs" -R '^(Core|Filters|Fuzzing.Engine)' -L 'fast|sanitized' \
+      -E 'Tuning|Automatic' "$@"
   fi
 }
 
@@ -58,12 +59,12 @@ check_thread()
 {
   if "$all"; then
     check sanitize-threads 'NeuralMeshCoreTests NeuralMeshCoreMemoryTests NeuralMeshCoreThreadTests
-      NeuralMeshFilterTests' -R '^(Core|Filters)\.' -E "$memory|$million" "$@"
+      NeuralMeshFilterTests NeuralMeshFilterThreadTests' -R '^(Core|Filters)\.' -E "$memory|$million" "$@"
   else
     # This sanitizer takes twenty times as long.
     NEURALMESH_RANDOM_RUNS=12 \
-      check sanitize-threads 'NeuralMeshCoreThreadTests NeuralMeshFilterTests' \
-      -R '^(Core|Filters)\.' -L fast-threads "$@"
+      check sanitize-threads 'NeuralMeshCoreThreadTests NeuralMeshFilterThreadTests' \
+      -R '^(Core|Filters)\.' -L '(fast|sanitized)-threads' "$@"
   fi
 }
 

@@ -5,7 +5,7 @@
 #   Utilities/check_style.sh [--all | COMMIT]
 #
 # clang-tidy takes minutes, so it looks at the sources that have changed since COMMIT, by default since
-# half a day before the newest commit, and at those that include a changed header first; with --all at
+# six hours before the newest commit, and at those that include a changed header first; with --all at
 # every source.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -37,7 +37,7 @@ wanted_sources()
 {
   local commit=${1:-} header
   if [ -z "$commit" ]; then
-    commit=$(git rev-list -1 --before="$(($(git log -1 --format=%ct) - 43200))" HEAD)
+    commit=$(git rev-list -1 --before="$(($(git log -1 --format=%ct) - 21600))" HEAD)
   fi
   # A clone without history does not know what has changed.
   if [ "$commit" = --all ] || [ -z "$commit" ]; then

@@ -21,7 +21,7 @@ debian=$PWD/build-vtk91
 steps=(style tests random sweep address thread coverage fuzzing laboratory packages vtk91)
 declare -A what=(
   [style]="clang-format, cppcheck, and clang-tidy of every source"
-  [tests]="the tests that have the label nightly"
+  [tests]="the tests that have the label nightly or sanitized"
   [random]="$random_runs runs of each kind with any parameters, from number $random_first on"
   [sweep]="every method, order, jump and topology on real scans"
   [address]="tests of core, filters and readers with the address and undefined-behaviour sanitizers"
@@ -46,7 +46,7 @@ step_tests()
   build_for_tests
   # It is not there where npm could not fetch what galleries show meshes with.
   ctest --test-dir build -N -R '^Python\.python3\.viewer$' --no-tests=error
-  ctest --test-dir build -j "$(nproc)" -L nightly --output-on-failure --no-tests=error
+  ctest --test-dir build -j "$(nproc)" -L 'nightly|sanitized' --output-on-failure --no-tests=error
 }
 
 step_random()
@@ -105,7 +105,7 @@ step_packages()
 # Those of the night, too.
 step_vtk91()
 {
-  NEURALMESH_TEST_LABELS='fast|full|nightly' bash Utilities/test_with_vtk91.sh "$debian"
+  NEURALMESH_TEST_LABELS='fast|full|sanitized|nightly' bash Utilities/test_with_vtk91.sh "$debian"
 }
 
 if [ "${1:-}" = --list ]; then

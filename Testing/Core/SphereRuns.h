@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cloud/CloudGenerator.h"
+#include "cloud/MeshBuilder.h"
 #include "cloud/PointCloud.h"
 #include "learn/Parameters.h"
 #include "Shapes.h"
@@ -25,6 +26,9 @@ inline const PointCloud& cleanSphere()
   static const PointCloud cloud(sphereCloud());
   return cloud;
 }
+
+/// In the coordinates of that sphere.
+inline Mesh meshOf(const TriangleMesh& triangles) { return buildMesh(triangles, cleanSphere()); }
 
 /// For runs that nobody cancels.
 inline bool goOn(double) { return true; }

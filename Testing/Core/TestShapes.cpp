@@ -13,7 +13,7 @@ namespace neuralmesh::testing
 {
 namespace
 {
-double signedVolume(const TriangleMesh& mesh)
+double volumeInside(const TriangleMesh& mesh)
 {
   double volume = 0.;
   for (const auto& [a, b, c] : mesh.triangles)
@@ -42,7 +42,7 @@ TEST(Shapes, Cube)
     const TriangleMesh cube = makeCube(resolution);
     expectClosed(cube, 0);
     EXPECT_EQ(cube.triangles.size(), 12u * resolution * resolution);
-    EXPECT_NEAR(signedVolume(cube), 1., 1e-12);
+    EXPECT_NEAR(volumeInside(cube), 1., 1e-12);
     for (const Eigen::Vector3d& point : cube.points)
     {
       EXPECT_NEAR(point.cwiseAbs().maxCoeff(), 0.5, 1e-12);
@@ -60,8 +60,8 @@ TEST(Shapes, Sphere)
     EXPECT_NEAR(point.norm(), 1., 1e-12);
   }
   const double volume = 4. / 3. * std::numbers::pi;
-  EXPECT_NEAR(signedVolume(sphere), volume, 1e-3 * volume);
-  EXPECT_LT(signedVolume(sphere), volume);
+  EXPECT_NEAR(volumeInside(sphere), volume, 1e-3 * volume);
+  EXPECT_LT(volumeInside(sphere), volume);
 }
 
 // The torus is closed, outwards oriented, has one handle, and its points lie on the tube.
@@ -77,7 +77,7 @@ TEST(Shapes, Torus)
       EXPECT_NEAR(fromCircle, radius, 1e-12);
     }
     const double volume = 2. * std::numbers::pi * std::numbers::pi * radius * radius;
-    EXPECT_NEAR(signedVolume(torus), volume, 2e-3 * volume);
+    EXPECT_NEAR(volumeInside(torus), volume, 2e-3 * volume);
   }
 }
 }

@@ -26,11 +26,11 @@ struct CellBox
   Vector4 low, high;
 };
 
-using Cell = std::array<std::uint32_t, 3>;
+using GridCell = std::array<std::uint32_t, 3>;
 
-Cell cellOf(const CellBox& box, Vector4 point)
+GridCell cellOf(const CellBox& box, Vector4 point)
 {
-  Cell cell{};
+  GridCell cell{};
   for (int axis = 0; axis < 3; ++axis)
   {
     const float inside = std::clamp(point[axis], box.low[axis], box.high[axis]);
@@ -41,7 +41,7 @@ Cell cellOf(const CellBox& box, Vector4 point)
 
 /// Whether a comes before b: by the highest bit in which they differ, of equal ones by that of z, then
 /// of y, then of x.
-bool isBefore(const Cell& a, const Cell& b)
+bool isBefore(const GridCell& a, const GridCell& b)
 {
   std::size_t deciding = 2;
   for (const std::size_t axis : { 1u, 0u })
@@ -56,7 +56,7 @@ bool isBefore(const Cell& a, const Cell& b)
 /// Points of one cell keep their order.
 std::vector<std::uint32_t> expectedOrder(const CellBox& box, const std::vector<Vector4>& points)
 {
-  std::vector<Cell> cells;
+  std::vector<GridCell> cells;
   for (const Vector4 point : points)
   {
     cells.push_back(cellOf(box, point));

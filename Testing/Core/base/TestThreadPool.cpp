@@ -4,6 +4,7 @@
 #include "cloud/CloudPlaces.h"
 #include "run/Reconstruction.h"
 #include "Shapes.h"
+#include "SphereRuns.h"
 
 #include <gtest/gtest.h>
 
@@ -21,8 +22,6 @@ namespace neuralmesh
 namespace
 {
 constexpr std::array<unsigned, 4> ThreadCounts{ 1, 2, 3, 8 };
-
-bool goOn(double) { return true; }
 
 /// Whether two arrays hold the same bytes.
 template <typename Array>
@@ -182,8 +181,8 @@ TEST(ThreadPool, SameMeshOnAnyNumberOfThreads)
   const auto run = [&](const Executor& executor)
   {
     const PointCloud cloud(points, weights, true, executor);
-    Reconstruction result = reconstruct(cloud, parameters, goOn, {}, {}, {}, executor);
-    const CloudPlaces places(cloud, result.surface, goOn, executor);
+    Reconstruction result = reconstruct(cloud, parameters, testing::goOn, {}, {}, {}, executor);
+    const CloudPlaces places(cloud, result.surface, testing::goOn, executor);
     std::vector<double> numbers = result.activities;
     places.forEach(
       [&](std::size_t point, const CloudPlaces::Corners& corners)

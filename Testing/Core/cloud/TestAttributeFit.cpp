@@ -11,11 +11,11 @@ namespace neuralmesh::testing
 {
 namespace
 {
-using Values = AttributeFit::Values;
+using Fitted = AttributeFit::Values;
 
 /// The values that a fit gives to the vertices, for points that get theirs by place and index.
 template <typename ValuesAt>
-std::vector<Values> fitted(const PointCloud& cloud, const Mesh& mesh, ValuesAt valuesAt)
+std::vector<Fitted> fitted(const PointCloud& cloud, const Mesh& mesh, ValuesAt valuesAt)
 {
   const CloudPlaces places(cloud, mesh, goOn);
   AttributeFit fit(mesh);
@@ -35,8 +35,8 @@ TEST(AttributeFit, LinearField)
 {
   const Mesh mesh = sphere(cleanSphere());
   const auto linear = [](Vector4 p)
-  { return Values(double(p[0]), double(p[1]), double(p[2]), 3. * double(p[0]) - double(p[2])); };
-  const std::vector<Values> values =
+  { return Fitted(double(p[0]), double(p[1]), double(p[2]), 3. * double(p[0]) - double(p[2])); };
+  const std::vector<Fitted> values =
     fitted(cleanSphere(), mesh, [&](Vector4 p, std::size_t) { return linear(p); });
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
@@ -48,8 +48,8 @@ TEST(AttributeFit, LinearField)
 TEST(AttributeFit, Constant)
 {
   const Mesh mesh = sphere(cleanSphere());
-  for (const Values& value :
-    fitted(cleanSphere(), mesh, [](Vector4, std::size_t) { return Values(0., 1., -5., 1e-9); }))
+  for (const Fitted& value :
+    fitted(cleanSphere(), mesh, [](Vector4, std::size_t) { return Fitted(0., 1., -5., 1e-9); }))
   {
     EXPECT_EQ(value[0], 0.);
     EXPECT_NEAR(value[1], 1., 1e-5);
@@ -63,10 +63,10 @@ TEST(AttributeFit, AveragesNoise)
 {
   const Mesh mesh = sphere(cleanSphere());
   Random random(3);
-  const std::vector<Values> values = fitted(cleanSphere(), mesh,
-    [&](Vector4, std::size_t) { return Values::Constant(random.uniform() < 0.5 ? -1. : 1.); });
+  const std::vector<Fitted> values = fitted(cleanSphere(), mesh,
+    [&](Vector4, std::size_t) { return Fitted::Constant(random.uniform() < 0.5 ? -1. : 1.); });
   double squares = 0.;
-  for (const Values& value : values)
+  for (const Fitted& value : values)
   {
     squares += value[0] * value[0];
   }
@@ -80,8 +80,8 @@ TEST(AttributeFit, FillsGaps)
   std::erase_if(points, [](const Eigen::Vector3d& p) { return p.x() > 0.8; });
   const PointCloud cloud(points);
   const Mesh mesh = sphere(cloud);
-  const std::vector<Values> values =
-    fitted(cloud, mesh, [](Vector4 p, std::size_t) { return Values::Constant(double(p[1])); });
+  const std::vector<Fitted> values =
+    fitted(cloud, mesh, [](Vector4 p, std::size_t) { return Fitted::Constant(double(p[1])); });
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
     EXPECT_NEAR(values[v][0], double(mesh.position(v)[1]), 0.02) << "vertex " << v;
@@ -99,10 +99,10 @@ TEST(AttributeFit, PassesOutliersOver)
   }
   const PointCloud cloud(points, {}, true);
   const Mesh mesh = sphere(cloud);
-  const std::vector<Values> values = fitted(cloud, mesh,
+  const std::vector<Fitted> values = fitted(cloud, mesh,
     [&](Vector4, std::size_t i)
-    { return Values::Constant(cloud.origins()[i] < inliers ? 0. : 100.); });
-  for (const Values& value : values)
+    { return Fitted::Constant(cloud.origins()[i] < inliers ? 0. : 100.); });
+  for (const Fitted& value : values)
   {
     EXPECT_EQ(value[0], 0.);
   }
@@ -116,8 +116,8 @@ TEST(AttributeFit, Weights)
   const auto valueAtCenter = [&](double first, double second)
   {
     AttributeFit fit(mesh);
-    fit.add(atCenter, first, Values::Constant(1.));
-    fit.add(atCenter, second, Values::Constant(5.));
+    fit.add(atCenter, first, Fitted::Constant(1.));
+    fit.add(atCenter, second, Fitted::Constant(5.));
     return fit.solve()[0][0];
   };
   EXPECT_NEAR(valueAtCenter(1., 1.), 3., 1e-5);

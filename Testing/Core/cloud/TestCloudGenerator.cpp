@@ -2,6 +2,7 @@
 #include "cloud/CloudGenerator.h"
 
 #include "Shapes.h"
+#include "SphereRuns.h"
 
 #include <gtest/gtest.h>
 
@@ -35,8 +36,6 @@ Cloud missing(const Cloud& all, const Cloud& some)
     a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result), lexicographic);
   return result;
 }
-
-const double SphereDiagonal = 2. * std::sqrt(3.);
 }
 
 // As many points as asked for, all on the triangles.

@@ -11,7 +11,7 @@ namespace neuralmesh::testing
 {
 namespace
 {
-struct Start
+struct FirstMeshShape
 {
   std::string name;
   TriangleMesh mesh;
@@ -19,7 +19,7 @@ struct Start
   std::size_t boundaryLoops;
 };
 
-std::vector<Start> makeStarts()
+std::vector<FirstMeshShape> makeStarts()
 {
   return { { "Sphere", makeSphere(6), 0, 0 }, { "Torus", makeTorus(0.4, 12), 1, 0 },
     { "Fan", makeTriangleFan(200, true), 0, 1 }, { "HalfFan", makeTriangleFan(200, false), 0, 1 },
@@ -34,7 +34,7 @@ class FirstMesh : public LearnerSettings
 INSTANTIATE_TEST_SUITE_P(Learner, FirstMesh, allSettings(), settingName);
 
 /// Points of a surface, of which the mesh is the first approximation.
-PointCloud cloudOf(const TriangleMesh& surface)
+PointCloud surfaceCloud(const TriangleMesh& surface)
 {
   CloudOptions options;
   options.count = 20000;
@@ -46,10 +46,10 @@ PointCloud cloudOf(const TriangleMesh& surface)
 // the while, with the handles and boundaries of the first mesh.
 TEST_P(FirstMesh, GrowsToTheNumberOfVertices)
 {
-  for (const Start& start : makeStarts())
+  for (const FirstMeshShape& start : makeStarts())
   {
     SCOPED_TRACE(start.name);
-    const PointCloud cloud = cloudOf(start.mesh);
+    const PointCloud cloud = surfaceCloud(start.mesh);
     const Reconstruction result =
       reconstruct(cloud, parameters(900), goOn, buildMesh(start.mesh, cloud));
     EXPECT_EQ(result.stopReason, StopReason::Vertices);
@@ -69,7 +69,7 @@ TEST_P(FirstMesh, GrowsToTheNumberOfVertices)
 TEST_P(FirstMesh, KeepsVerticesThatCouldNotWinYet)
 {
   const TriangleMesh torus = makeTorus(0.4, 40);
-  const PointCloud cloud = cloudOf(torus);
+  const PointCloud cloud = surfaceCloud(torus);
   Parameters growing = parameters(1000000);
   growing.maximumIterations = 8 * torus.points.size();
   const Reconstruction result = reconstruct(cloud, growing, goOn, buildMesh(torus, cloud));
@@ -81,7 +81,7 @@ TEST_P(FirstMesh, KeepsVerticesThatCouldNotWinYet)
 TEST_P(FirstMesh, ComesOutUnlearntIfLargeEnough)
 {
   const TriangleMesh torus = makeTorus(0.4, 20);
-  const PointCloud cloud = cloudOf(makeTorus(0.3));
+  const PointCloud cloud = surfaceCloud(makeTorus(0.3));
   for (const std::size_t vertices : { torus.points.size(), torus.points.size() - 1 })
   {
     Parameters withoutFit = parameters(vertices);

@@ -2,7 +2,6 @@
 #include "cloud/PlaceOnMesh.h"
 
 #include "cloud/CloudDistance.h"
-#include "cloud/MeshBuilder.h"
 #include "MeshTools.h"
 #include "OpenShapes.h"
 #include "SphereRuns.h"
@@ -13,8 +12,6 @@ namespace neuralmesh::testing
 {
 namespace
 {
-Mesh meshOf(const TriangleMesh& triangles) { return buildMesh(triangles, cleanSphere()); }
-
 VertexGrid gridOf(const Mesh& mesh)
 {
   VertexGrid grid;

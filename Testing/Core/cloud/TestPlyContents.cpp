@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/PlyContents.h"
 
+#include "FileBytes.h"
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -15,17 +15,6 @@ namespace neuralmesh::testing
 {
 namespace
 {
-template <typename Number>
-std::string bytesOf(Number number, bool isBigEndian = false)
-{
-  auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
-  if (isBigEndian)
-  {
-    std::reverse(bytes.begin(), bytes.end());
-  }
-  return { bytes.begin(), bytes.end() };
-}
-
 std::string header(const std::string& format, const std::string& type, const std::string& more = "")
 {
   return "ply\nformat " + format + " 1.0\n" + more + "element vertex 2\nproperty " + type +

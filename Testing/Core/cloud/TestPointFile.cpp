@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/PointFile.h"
 
+#include "FileBytes.h"
+#include "SphereRuns.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -17,18 +19,6 @@ namespace neuralmesh::testing
 {
 namespace
 {
-/// The bytes of a number, in either order.
-template <typename Number>
-std::string bytesOf(Number number, bool isBigEndian = false)
-{
-  auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
-  if (isBigEndian)
-  {
-    std::reverse(bytes.begin(), bytes.end());
-  }
-  return { bytes.begin(), bytes.end() };
-}
-
 /// The points (i, -i, i / 2) for i from 0 on.
 template <typename Number>
 std::string rawPoints(std::uint32_t count, bool isBigEndian = false)
@@ -85,8 +75,6 @@ protected:
 
   std::filesystem::path folder_;
 };
-
-bool goOn(double) { return true; }
 
 std::vector<PointFile::Point> drawn(
   const PointFile& file, std::uint64_t wanted, std::uint64_t seed = 1)

@@ -17,7 +17,7 @@ namespace neuralmesh::testing
 {
 namespace
 {
-constexpr std::size_t SamplesPerVertex = 10;
+constexpr std::size_t SamplesPerVertexOfGaps = 10;
 
 Mesh sphereMesh(unsigned resolution, const PointCloud& cloud)
 {
@@ -26,14 +26,14 @@ Mesh sphereMesh(unsigned resolution, const PointCloud& cloud)
 
 std::vector<Triangle> gapsOf(const PointCloud& cloud, Mesh& mesh)
 {
-  SurfaceFit fit(cloud, mesh, SamplesPerVertex * mesh.vertexCount());
+  SurfaceFit fit(cloud, mesh, SamplesPerVertexOfGaps * mesh.vertexCount());
   EXPECT_TRUE(fit.findPlaces(goOn));
   return findDataGaps(cloud, mesh, fit.places(), fit.medianDistance());
 }
 
 OpenedGaps openedGaps(const PointCloud& cloud, Mesh& mesh, double bridgeWidth)
 {
-  SurfaceFit fit(cloud, mesh, SamplesPerVertex * mesh.vertexCount());
+  SurfaceFit fit(cloud, mesh, SamplesPerVertexOfGaps * mesh.vertexCount());
   EXPECT_TRUE(fit.findPlaces(goOn));
   return openDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), bridgeWidth);
 }

@@ -17,8 +17,6 @@ namespace neuralmesh::testing
 {
 namespace
 {
-Mesh meshOf(const TriangleMesh& triangles) { return buildMesh(triangles, cleanSphere()); }
-
 /// Moves a share of the vertices, those on a boundary within the plane z = 0.
 Mesh perturbed(Mesh mesh, float strength, double share, std::uint64_t seed)
 {

@@ -17,7 +17,7 @@ namespace neuralmesh::testing
 namespace
 {
 /// Two unit spheres, apart by `distance` in x, in one mesh.
-Mesh twoSpheres(double distance)
+Mesh twoSphereMesh(double distance)
 {
   TriangleMesh both = makeSphere(16), other = makeSphere(15);
   const auto count = std::uint32_t(both.points.size());
@@ -81,7 +81,7 @@ std::pair<Mesh, VertexIndex> throughPlate(TriangleMesh surface, double height)
 TEST(PenetratingParts, CapsOfSpheres)
 {
   const PointCloud& cloud = cleanSphere();
-  const Mesh mesh = twoSpheres(1.5);
+  const Mesh mesh = twoSphereMesh(1.5);
   const std::vector<VertexIndex> told = penetratingVertices(mesh);
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
   const Eigen::Vector3d centers[2]{ Eigen::Vector3d::Zero(), Eigen::Vector3d(1.5, 0.011, 0.017) };
@@ -114,7 +114,7 @@ TEST(PenetratingParts, TipOfASpike)
 // Where nothing is cut there are no such parts.
 TEST(PenetratingParts, NoneOfSoundSurfaces)
 {
-  EXPECT_TRUE(penetratingVertices(twoSpheres(2.5)).empty());
+  EXPECT_TRUE(penetratingVertices(twoSphereMesh(2.5)).empty());
   EXPECT_TRUE(penetratingVertices(Mesh()).empty());
 }
 

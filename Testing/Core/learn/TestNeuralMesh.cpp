@@ -13,12 +13,12 @@ namespace neuralmesh::testing
 {
 namespace
 {
-constexpr std::size_t Vertices = 300;
+constexpr std::size_t VertexLimit = 300;
 
 NeuralMesh tetrahedron()
 {
   return { Mesh::tetrahedron({}, 0.1f), std::make_unique<ExactOrder>(4), Vector4(-1.f, -1.f, -1.f),
-    Vector4(1.f, 1.f, 1.f), Vertices };
+    Vector4(1.f, 1.f, 1.f), VertexLimit };
 }
 
 /// What is at odds in it, in words; nothing if all is well.
@@ -82,7 +82,7 @@ TEST(NeuralMesh, AllAgreeAfterEachCall)
       const VertexIndex any = vertices[random.below(std::uint32_t(vertices.size()))];
       const unsigned kind = random.below(100);
       std::string call;
-      if (kind < 30 && mesh.vertexCount() < Vertices)
+      if (kind < 30 && mesh.vertexCount() < VertexLimit)
       {
         call = "split";
         const VertexIndex top = mesh.top();

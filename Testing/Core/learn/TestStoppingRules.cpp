@@ -143,14 +143,17 @@ TEST(StoppingRules, Cancelled)
 // So it is wherever the run is then, and what there is of the mesh is whole.
 TEST(StoppingRules, CancelledAnywhere)
 {
+  CloudOptions options;
+  options.count = 5000;
+  const PointCloud cloud(sphereCloud(options));
   int all = 0;
-  reconstruct(cleanSphere(), small(), [&](double) { return ++all > 0; });
+  reconstruct(cloud, small(), [&](double) { return ++all > 0; });
   ASSERT_GT(all, 20);
   for (int last = 1; last <= all; ++last)
   {
     int calls = 0;
     const Reconstruction result =
-      reconstruct(cleanSphere(), small(), [&](double) { return ++calls < last; });
+      reconstruct(cloud, small(), [&](double) { return ++calls < last; });
     EXPECT_EQ(result.stopReason, StopReason::Cancelled);
     EXPECT_EQ(calls, last);
     EXPECT_FALSE(result.finish.has_value());

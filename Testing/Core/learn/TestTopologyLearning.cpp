@@ -3,6 +3,7 @@
 #include "mesh/SurfaceReport.h"
 #include "run/Reconstruction.h"
 #include "Shapes.h"
+#include "SphereRuns.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +11,6 @@ namespace neuralmesh::testing
 {
 namespace
 {
-bool goOn(double) { return true; }
-
 Parameters learning(Variant variant, Order order, Preset preset = Preset::Default)
 {
   Parameters parameters = Parameters::of(preset, variant, order);
@@ -22,7 +21,7 @@ Parameters learning(Variant variant, Order order, Preset preset = Preset::Defaul
   return parameters;
 }
 
-PointCloud cloudOf(const TriangleMesh& surface, std::size_t count)
+PointCloud samplesOf(const TriangleMesh& surface, std::size_t count)
 {
   return PointCloud(generateCloud(surface, { .count = count }));
 }
@@ -49,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, TopologyLearningOf,
 // A torus gets its handle, in one piece and without a boundary, for each of five seeds.
 TEST_P(TopologyLearningOf, TorusGetsItsHandle)
 {
-  const PointCloud torus = cloudOf(makeTorus(), 200000);
+  const PointCloud torus = samplesOf(makeTorus(), 200000);
   Parameters parameters = learning(GetParam().variant, GetParam().order);
   for (parameters.seed = 1; parameters.seed <= 5; ++parameters.seed)
   {
@@ -66,7 +65,7 @@ TEST_P(TopologyLearningOf, TorusGetsItsHandle)
 TEST_P(TopologyLearningOf, SphereStaysASphere)
 {
   const Reconstruction result = reconstruct(
-    cloudOf(makeSphere(), 100000), learning(GetParam().variant, GetParam().order), goOn);
+    samplesOf(makeSphere(), 100000), learning(GetParam().variant, GetParam().order), goOn);
   const SurfaceReport report = reportSurface(result.mesh);
   EXPECT_TRUE(report.isClosed());
   EXPECT_EQ(report.genus, 0);
@@ -76,7 +75,7 @@ TEST_P(TopologyLearningOf, SphereStaysASphere)
 // The rules of the thesis, which seldom get there, give an oriented manifold all the same.
 TEST_P(TopologyLearningOf, ThesisRulesGiveAManifold)
 {
-  const Reconstruction result = reconstruct(cloudOf(makeTorus(), 50000),
+  const Reconstruction result = reconstruct(samplesOf(makeTorus(), 50000),
     learning(GetParam().variant, GetParam().order, Preset::Thesis), goOn);
   EXPECT_TRUE(isManifold(reportSurface(result.mesh)));
   EXPECT_GT(result.counts.removedTriangles, 0u);
@@ -92,7 +91,7 @@ TEST_P(TopologyLearningOf, NeverTearsTheWholeMesh)
     parameters.triangleRemovalFactor = 1.;
     parameters.topologyPatience = 1.;
     parameters.maximumIterations = 50000;
-    const Reconstruction result = reconstruct(cloudOf(makeSphere(), points), parameters, goOn);
+    const Reconstruction result = reconstruct(samplesOf(makeSphere(), points), parameters, goOn);
     EXPECT_GE(result.mesh.points.size(), 3u) << points;
     EXPECT_TRUE(isManifold(reportSurface(result.mesh))) << points;
   }
@@ -101,7 +100,7 @@ TEST_P(TopologyLearningOf, NeverTearsTheWholeMesh)
 // The same seed gives the same mesh.
 TEST_P(TopologyLearningOf, IsReproducible)
 {
-  const PointCloud torus = cloudOf(makeTorus(), 50000);
+  const PointCloud torus = samplesOf(makeTorus(), 50000);
   const Parameters parameters = learning(GetParam().variant, GetParam().order);
   const Reconstruction a = reconstruct(torus, parameters, goOn);
   const Reconstruction b = reconstruct(torus, parameters, goOn);

@@ -11,10 +11,10 @@ namespace
 {
 /// Random operations on a mesh whose boundaries are kept; after each of them the loops are compared
 /// with those of the bare triangles.
-class RandomOperations
+class RandomBoundaryOperations
 {
 public:
-  RandomOperations(Mesh mesh, std::uint64_t seed)
+  RandomBoundaryOperations(Mesh mesh, std::uint64_t seed)
     : start_(std::move(mesh))
     , mesh_(start_)
     , boundaries_(mesh_)
@@ -255,20 +255,20 @@ Mesh makeTorusMesh()
   return tube.mesh;
 }
 
-struct Start
+struct StartShape
 {
   const char* name;
   Mesh (*make)();
   std::uint64_t seed;
 };
 
-class BoundaryManagerStarts : public ::testing::TestWithParam<Start>
+class BoundaryManagerStarts : public ::testing::TestWithParam<StartShape>
 {
 };
 
 INSTANTIATE_TEST_SUITE_P(BoundaryManager, BoundaryManagerStarts,
-  ::testing::Values(Start{ "Closed", makeClosed, 1 }, Start{ "Torn", makeTorn, 2 },
-    Start{ "TornAgain", makeTorn, 3 }, Start{ "Torus", makeTorusMesh, 4 }),
+  ::testing::Values(StartShape{ "Closed", makeClosed, 1 }, StartShape{ "Torn", makeTorn, 2 },
+    StartShape{ "TornAgain", makeTorn, 3 }, StartShape{ "Torus", makeTorusMesh, 4 }),
   [](const auto& start) { return std::string(start.param.name); });
 }
 
@@ -276,7 +276,7 @@ INSTANTIATE_TEST_SUITE_P(BoundaryManager, BoundaryManagerStarts,
 // every vertex knows its loop.
 TEST_P(BoundaryManagerStarts, LoopsAreThoseOfTheTriangles)
 {
-  RandomOperations operations(GetParam().make(), GetParam().seed);
+  RandomBoundaryOperations operations(GetParam().make(), GetParam().seed);
   ASSERT_EQ(operations.run(10000), "");
   EXPECT_GT(operations.mostLoops(), 10u);
   for (const char* operation : { "split", "split at the boundary", "collapse",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/Refinement.h"
 
-#include "cloud/MeshBuilder.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/SmallPieces.h"
 #include "mesh/SurfaceReport.h"
@@ -15,8 +14,6 @@ namespace neuralmesh::testing
 {
 namespace
 {
-Mesh meshOf(const TriangleMesh& triangles) { return buildMesh(triangles, cleanSphere()); }
-
 float longestEdge(const Mesh& mesh)
 {
   float longest = 0.f;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SelfIntersections.h"
 
-#include "cloud/MeshBuilder.h"
 #include "mesh/SurfaceReport.h"
 #include "MeshTools.h"
 #include "OpenShapes.h"
@@ -14,8 +13,6 @@ namespace neuralmesh::testing
 {
 namespace
 {
-Mesh meshOf(const TriangleMesh& triangles) { return buildMesh(triangles, cleanSphere()); }
-
 Mesh perturbed(Mesh mesh, float strength, std::uint64_t seed)
 {
   Random random(seed);

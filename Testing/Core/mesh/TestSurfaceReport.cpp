@@ -17,7 +17,7 @@ namespace
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 /// `width` times `height` squares of side 1, each two triangles.
-TriangleMesh makeGrid(unsigned width, unsigned height)
+TriangleMesh makeRectangle(unsigned width, unsigned height)
 {
   TriangleMesh grid;
   for (unsigned y = 0; y <= height; ++y)
@@ -136,7 +136,7 @@ TEST(SurfaceReport, VolumeFarAway)
 // On the boundary four edges are regular; a hole is a loop of its own.
 TEST(SurfaceReport, OpenGridWithHole)
 {
-  TriangleMesh grid = makeGrid(5, 5);
+  TriangleMesh grid = makeRectangle(5, 5);
   SurfaceReport report = reportSurface(grid);
   EXPECT_FALSE(report.isClosed());
   EXPECT_EQ(report.boundaryEdges, 20u);
@@ -202,7 +202,7 @@ TEST(SurfaceReport, MoebiusStrip)
 // is seen where it is flat.
 TEST(SurfaceReport, InconsistentButOrientable)
 {
-  TriangleMesh grid = makeGrid(3, 3);
+  TriangleMesh grid = makeRectangle(3, 3);
   std::swap(grid.triangles[8][0], grid.triangles[8][1]);
   const SurfaceReport report = reportSurface(grid);
   EXPECT_EQ(report.inconsistentEdges, 3u);
@@ -258,7 +258,7 @@ TEST(SurfaceReport, Folds)
 // What is not fit for use is counted, and does not disturb the rest.
 TEST(SurfaceReport, UncleanMeshes)
 {
-  TriangleMesh mesh = makeGrid(2, 2);
+  TriangleMesh mesh = makeRectangle(2, 2);
   const auto first = std::uint32_t(mesh.points.size());
   mesh.points.emplace_back(100., 100., 100.); // used by a triangle that uses it twice
   mesh.points.emplace_back(200., 0., 0.);     // not used

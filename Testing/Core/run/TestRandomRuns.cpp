@@ -245,7 +245,7 @@ TEST(RandomRuns, VaryEveryParameter)
 // It is the same to the byte on any number of threads, after a break, and if somebody watches.
 TEST(RandomRuns, Reconstructions)
 {
-  forEachCase(80,
+  forEachCase(50,
     [](std::uint64_t seed)
     {
       AnyChoice choice(seed);
@@ -302,7 +302,7 @@ TEST(RandomRuns, Reconstructions)
 // time, finished and as it is.
 TEST(RandomRuns, Streams)
 {
-  forEachCase(20,
+  forEachCase(15,
     [](std::uint64_t seed)
     {
       AnyChoice choice(seed);

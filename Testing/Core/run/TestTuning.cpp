@@ -213,7 +213,7 @@ TEST(Tuning, AnyCloud)
   for (const auto& pointAt : clouds)
   {
     std::vector<Eigen::Vector3d> points;
-    for (int i = 0; i < 8000; ++i)
+    for (int i = 0; i < 4000; ++i)
     {
       points.push_back(pointAt(i));
     }

@@ -17,7 +17,7 @@ namespace neuralmesh::testing
 {
 namespace
 {
-PointCloud cloudOf(const TriangleMesh& surface, double noise = 0., std::size_t count = 40000)
+PointCloud scanOf(const TriangleMesh& surface, double noise = 0., std::size_t count = 40000)
 {
   CloudOptions options;
   options.count = count;
@@ -62,7 +62,7 @@ TEST(FrontSurface, ClosesWhereTheShapeIsClosed)
 {
   for (const long genus : { 0, 1 })
   {
-    const PointCloud cloud = cloudOf(genus == 0 ? makeSphere() : makeTorus());
+    const PointCloud cloud = scanOf(genus == 0 ? makeSphere() : makeTorus());
     const auto surface = front(cloud, 3000);
     ASSERT_TRUE(surface);
     const SurfaceReport report = reportOf(*surface, cloud);
@@ -79,7 +79,7 @@ TEST(FrontSurface, EndsWhereThePointsEnd)
   TriangleMesh surface = makeSphere();
   std::erase_if(surface.triangles,
     [&](const auto& triangle) { return std::abs(surface.points[triangle[0]].z()) < 0.3; });
-  const PointCloud cloud = cloudOf(surface);
+  const PointCloud cloud = scanOf(surface);
   const auto caps = front(cloud, 3000);
   ASSERT_TRUE(caps);
   const SurfaceReport report = reportOf(*caps, cloud);
@@ -91,7 +91,7 @@ TEST(FrontSurface, EndsWhereThePointsEnd)
 // layers are kept apart; and where they are not, the disorder tells.
 TEST(FrontSurface, KeepsTheTwoSidesOfAPlate)
 {
-  const PointCloud cloud = cloudOf(plate(0.03), 0., 100000);
+  const PointCloud cloud = scanOf(plate(0.03), 0., 100000);
   const auto apart = front(cloud, 4000, Layers::Apart), joined = front(cloud, 4000);
   ASSERT_TRUE(apart);
   ASSERT_TRUE(joined);
@@ -106,7 +106,7 @@ TEST(FrontSurface, KeepsTheTwoSidesOfAPlate)
 // Keeps the promise: samples lie closer to the surface than the points do.
 TEST(FrontSurface, TakesAwayNoise)
 {
-  const PointCloud cloud = cloudOf(makeSphere(), 0.004);
+  const PointCloud cloud = scanOf(makeSphere(), 0.004);
   const auto surface = front(cloud, 2000);
   ASSERT_TRUE(surface);
   const auto meanHeight = [&](std::span<const Vector4> points)
@@ -124,7 +124,7 @@ TEST(FrontSurface, TakesAwayNoise)
 // Keeps the promise: the same bytes each time.
 TEST(FrontSurface, IsTheSameEachTime)
 {
-  const PointCloud cloud = cloudOf(makeTorus(), 0.003, 10000);
+  const PointCloud cloud = scanOf(makeTorus(), 0.003, 10000);
   const auto first = front(cloud, 2000), second = front(cloud, 2000);
   ASSERT_TRUE(first && second);
   EXPECT_EQ(neuralmesh::trianglesOf(first->mesh, cloud).points,
@@ -134,7 +134,7 @@ TEST(FrontSurface, IsTheSameEachTime)
 // Keeps the promise: it can be ended at any time.
 TEST(FrontSurface, CanBeEnded)
 {
-  const PointCloud cloud = cloudOf(makeSphere());
+  const PointCloud cloud = scanOf(makeSphere());
   const NearestPoints nearest(cloud.points());
   int calls = 0;
   const auto surfaceAfter = [&](int last)

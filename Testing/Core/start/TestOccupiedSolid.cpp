@@ -16,7 +16,7 @@ namespace neuralmesh::testing
 {
 namespace
 {
-PointCloud cloudOf(const TriangleMesh& shape, double outliers = 0.)
+PointCloud solidCloud(const TriangleMesh& shape, double outliers = 0.)
 {
   CloudOptions options;
   options.count = 40000;
@@ -56,7 +56,7 @@ double areaOf(const Mesh& mesh, const PointCloud& cloud)
 // The grid is as fine as asked for along the longest side of the bulk, and lies all around it.
 TEST(OccupiedSolid, GridFollowsTheResolution)
 {
-  const PointCloud cloud = cloudOf(makeTorus());
+  const PointCloud cloud = solidCloud(makeTorus());
   const Eigen::Vector3d size = (cloud.bulkMax() - cloud.bulkMin()).toDouble();
   for (const unsigned resolution : { 10u, 33u, 64u })
   {
@@ -76,7 +76,7 @@ TEST(OccupiedSolid, EnclosesTheShape)
 {
   for (const TriangleMesh& shape : { makeSphere(), makeTorus() })
   {
-    const PointCloud cloud = cloudOf(shape);
+    const PointCloud cloud = solidCloud(shape);
     const SurfaceReport truth = reportSurface(shape);
     for (const unsigned resolution : { 24u, 48u })
     {
@@ -111,7 +111,7 @@ TEST(OccupiedSolid, NarrowGapsAreClosed)
 // A flat cloud encloses nothing: it gives a skin a voxel or two thick.
 TEST(OccupiedSolid, OpenScansGiveASkin)
 {
-  const PointCloud cloud = cloudOf(makeGrid(4));
+  const PointCloud cloud = solidCloud(makeGrid(4));
   for (const unsigned resolution : { 16u, 48u })
   {
     const OccupiedSolid solid = occupiedSolid(cloud, resolution);
@@ -128,7 +128,7 @@ TEST(OccupiedSolid, OutliersAreLeftOut)
 {
   for (const unsigned resolution : { 24u, 48u })
   {
-    const PointCloud clean = cloudOf(makeTorus()), bad = cloudOf(makeTorus(), 0.1);
+    const PointCloud clean = solidCloud(makeTorus()), bad = solidCloud(makeTorus(), 0.1);
     const double volume = volumeOf(occupiedSolid(clean, resolution), clean);
     const OccupiedSolid solid = occupiedSolid(bad, resolution);
     EXPECT_NEAR(volumeOf(solid, bad), volume, 0.1 * volume);
@@ -148,7 +148,7 @@ TEST(OccupiedSolid, FollowsTheDensity)
       options.gradient = 20.;
       options.gradientAxis = 0;
       options.outliers = outliers;
-      const PointCloud even = cloudOf(makeTorus());
+      const PointCloud even = solidCloud(makeTorus());
       const PointCloud cloud(generateCloud(makeTorus(), options));
       const OccupiedSolid solid = occupiedSolid(cloud, resolution);
       const double volume = volumeOf(occupiedSolid(even, resolution), even);
@@ -185,7 +185,7 @@ TEST(OccupiedSolid, SurfaceIsAlwaysAManifold)
 // of it faces the same way.
 TEST(OneSheet, HalfOfAFlatSkin)
 {
-  const PointCloud cloud = cloudOf(makeGrid(4));
+  const PointCloud cloud = solidCloud(makeGrid(4));
   const OccupiedSolid solid = occupiedSolid(cloud, 32);
   Mesh skin = skinOf(solid, cloud);
   ASSERT_TRUE(reportOf(skin).isClosed());

@@ -24,7 +24,7 @@ VoxelVotes makeVotes(std::array<std::size_t, 3> counts, unsigned voters)
   return votes;
 }
 
-std::size_t indexOf(const VoxelGrid& grid, std::size_t x, std::size_t y, std::size_t z)
+std::size_t voteIndex(const VoxelGrid& grid, std::size_t x, std::size_t y, std::size_t z)
 {
   return (z * grid.counts[1] + y) * grid.counts[0] + x;
 }
@@ -130,7 +130,7 @@ void fillBox(const VoxelGrid& grid, Voxels& inside, std::array<std::size_t, 3> f
     });
 }
 
-std::size_t sum(const Voxels& inside)
+std::size_t insideCount(const Voxels& inside)
 {
   return std::accumulate(inside.begin(), inside.end(), std::size_t(0));
 }
@@ -161,7 +161,7 @@ TEST(VoxelMajority, ContactsAreFilled)
     {
       VoxelVotes votes = makeVotes({ 6, 6, 6 }, 9);
       const auto strides = votes.grid.strides();
-      const std::size_t corner = indexOf(votes.grid, 2, 2, 2);
+      const std::size_t corner = voteIndex(votes.grid, 2, 2, 2);
       const std::size_t a = corner + strides[plane], b = corner + strides[(plane + 1) % 3];
       const std::size_t across = a + b - corner;
       Voxels inside(votes.grid.size(), 0);
@@ -171,7 +171,7 @@ TEST(VoxelMajority, ContactsAreFilled)
         votes.votes[std::max(a, b)] = 3;
       }
       fillContacts(votes, inside);
-      EXPECT_EQ(sum(inside), 3u);
+      EXPECT_EQ(insideCount(inside), 3u);
       EXPECT_EQ(inside[favorSecond ? std::max(a, b) : std::min(a, b)], 1u);
     }
   }
@@ -182,8 +182,8 @@ TEST(VoxelMajority, OtherContactsStay)
 {
   VoxelVotes votes = makeVotes({ 7, 7, 7 }, 9);
   Voxels inside(votes.grid.size(), 0);
-  inside[indexOf(votes.grid, 2, 2, 2)] = inside[indexOf(votes.grid, 3, 3, 3)] = 1;
-  inside[indexOf(votes.grid, 5, 2, 2)] = 1;
+  inside[voteIndex(votes.grid, 2, 2, 2)] = inside[voteIndex(votes.grid, 3, 3, 3)] = 1;
+  inside[voteIndex(votes.grid, 5, 2, 2)] = 1;
   const Voxels before = inside;
   fillContacts(votes, inside);
   EXPECT_EQ(inside, before);
@@ -230,20 +230,20 @@ TEST(VoxelMajority, SmallPiecesAreDropped)
   fillBox(grid, inside, { 2, 2, 2 }, { 4, 4, 4 }, 1);     // 8
   fillBox(grid, inside, { 8, 2, 2 }, { 9, 2 + 7, 3 }, 1); // 7
   dropSmallPieces(grid, inside);
-  EXPECT_EQ(sum(inside), 8u);
+  EXPECT_EQ(insideCount(inside), 8u);
 
   fillBox(grid, inside, { 20, 2, 2 }, { 40, 28, 28 }, 1);  // 13520
   fillBox(grid, inside, { 8, 20, 2 }, { 9, 22, 9 }, 1);    // 14
   fillBox(grid, inside, { 14, 20, 2 }, { 15, 21, 15 }, 1); // 13
   dropSmallPieces(grid, inside);
-  EXPECT_EQ(sum(inside), 13520u + 14u + 13u);
+  EXPECT_EQ(insideCount(inside), 13520u + 14u + 13u);
   fillBox(grid, inside, { 40, 2, 2 }, { 42, 28, 28 }, 1); // now 14872
   dropSmallPieces(grid, inside);
-  EXPECT_EQ(sum(inside), 14872u + 14u);
+  EXPECT_EQ(insideCount(inside), 14872u + 14u);
 
   Voxels nothing(grid.size(), 0);
   dropSmallPieces(grid, nothing);
-  EXPECT_EQ(sum(nothing), 0u);
+  EXPECT_EQ(insideCount(nothing), 0u);
 }
 
 // Hollows are filled, caves with a way out are not.
