@@ -71,7 +71,8 @@ has_files bin/neuralmesh lib/libvtkFiltersNeuralMesh.so include/NeuralMesh/vtkNe
 [ -z "$(find "$root" -mindepth 1 -maxdepth 1 ! -name usr)" ] || fail "there is more than /usr"
 ! grep -rlF "$(realpath "$build")" "$root" || fail "these name the folder of the build"
 sources=$(realpath "$(dirname "$0")/../..")
-! grep -rlF "$sources/" "$root" || fail "these name the folder of the sources"
+# Not where it is the end of another path, as "/neuralmesh/" may be.
+! grep -rlE "(^|[^[:alnum:]_.-])$sources/" "$root" || fail "these name the folder of the sources"
 
 # Promise: what Python compiles when the package is installed goes when it is removed.
 grep -q "py3compile -p $name" "$scratch/control/postinst" || fail "nothing is compiled"

@@ -67,7 +67,7 @@ Vector4 centerOf(const Mesh& mesh, const Triangle& triangle)
 }
 
 /// A piece of triangles without samples.
-struct Piece
+struct EmptyPiece
 {
   std::vector<std::uint32_t> triangles;
   double area = 0.;
@@ -79,7 +79,7 @@ struct Piece
 };
 
 /// Finds pieces of those triangles that are empty, connected by vertices.
-std::vector<Piece> findPieces(const Mesh& mesh, const NumberedTriangles& triangles,
+std::vector<EmptyPiece> findPieces(const Mesh& mesh, const NumberedTriangles& triangles,
   std::span<const std::uint32_t> samples, const std::vector<bool>& isEmpty)
 {
   DisjointSets sets(samples.size());
@@ -96,9 +96,9 @@ std::vector<Piece> findPieces(const Mesh& mesh, const NumberedTriangles& triangl
       }
     }
   }
-  std::vector<Piece> pieces;
+  std::vector<EmptyPiece> pieces;
   std::vector<std::uint32_t> pieceOf(samples.size(), 0);
-  const auto pieceWith = [&](std::uint32_t t) -> Piece&
+  const auto pieceWith = [&](std::uint32_t t) -> EmptyPiece&
   {
     std::uint32_t& number = pieceOf[sets.root(t)];
     if (number == 0)
@@ -113,7 +113,7 @@ std::vector<Piece> findPieces(const Mesh& mesh, const NumberedTriangles& triangl
     const double area = areaOf(mesh, triangles.all()[t]);
     if (isEmpty[t])
     {
-      Piece& piece = pieceWith(t);
+      EmptyPiece& piece = pieceWith(t);
       piece.area += area;
       piece.triangles.push_back(t);
       const auto& corners = triangles.all()[t];
@@ -131,7 +131,7 @@ std::vector<Piece> findPieces(const Mesh& mesh, const NumberedTriangles& triangl
         if (isEmpty[other] && std::find(touched.begin(), touched.end(), root) == touched.end())
         {
           touched.push_back(root);
-          Piece& piece = pieceWith(other);
+          EmptyPiece& piece = pieceWith(other);
           piece.areaAround += area;
           piece.samplesAround += samples[t];
         }
@@ -269,14 +269,14 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
     isEmpty[t] = samples[t] == 0 && (!isFine || distance(t) > LeastSpacingsIfEmpty * meanSpacing) &&
       !isTooSmall(t);
   }
-  std::vector<Piece> pieces = findPieces(mesh, triangles, samples, isEmpty);
+  std::vector<EmptyPiece> pieces = findPieces(mesh, triangles, samples, isEmpty);
   // Small triangles around a piece may have too few samples to tell.
-  const auto densityAt = [&](const Piece& piece)
+  const auto densityAt = [&](const EmptyPiece& piece)
   { return isFine && piece.samplesAround < LeastExpectedSamples ? meanDensity : piece.density(); };
   std::erase_if(pieces,
-    [&](const Piece& piece) { return piece.area * densityAt(piece) < LeastExpectedSamples; });
+    [&](const EmptyPiece& piece) { return piece.area * densityAt(piece) < LeastExpectedSamples; });
   std::vector<Triangle> gaps;
-  for (const Piece& piece : pieces)
+  for (const EmptyPiece& piece : pieces)
   {
     const double spacing = std::max(meanSpacing, 1. / std::sqrt(densityAt(piece)));
     const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
