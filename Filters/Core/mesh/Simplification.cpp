@@ -12,13 +12,13 @@ namespace neuralmesh
 {
 namespace
 {
-struct Edge
+struct ShortEdge
 {
   float squaredLength;
   VertexIndex a;
   VertexIndex b;
 
-  friend bool operator>(const Edge& x, const Edge& y)
+  friend bool operator>(const ShortEdge& x, const ShortEdge& y)
   {
     return std::tie(x.squaredLength, x.a, x.b) > std::tie(y.squaredLength, y.a, y.b);
   }
@@ -46,7 +46,7 @@ public:
   {
     while (mesh_.vertexCount() > count && !edges_.empty())
     {
-      const Edge edge = edges_.top();
+      const ShortEdge edge = edges_.top();
       edges_.pop();
       // Vertices do not move, so an edge that is there has its length.
       if (mesh_.isAlive(edge.a) && mesh_.ring(edge.a).contains(edge.b))
@@ -89,7 +89,7 @@ private:
   }
 
   Mesh& mesh_;
-  std::priority_queue<Edge, std::vector<Edge>, std::greater<>> edges_;
+  std::priority_queue<ShortEdge, std::vector<ShortEdge>, std::greater<>> edges_;
 };
 }
 

@@ -18,7 +18,7 @@ constexpr int MostPassesOverSlivers = 3;
 /// Where a sliver cannot go, the worst triangle must become better by that factor.
 constexpr float LeastGainOfQuality = 2.f;
 
-struct Corners
+struct CornerPlaces
 {
   Vector4 a, b, c;
 
@@ -68,7 +68,7 @@ public:
   }
 
 private:
-  Corners corners(VertexIndex a, VertexIndex b, VertexIndex c) const
+  CornerPlaces corners(VertexIndex a, VertexIndex b, VertexIndex c) const
   {
     return { mesh_.position(a), mesh_.position(b), mesh_.position(c) };
   }
@@ -153,7 +153,7 @@ private:
       return 0.f;
     }
     const Vector4 before = corners(a, b, c).normal() + corners(b, a, d).normal();
-    const Corners one = corners(a, d, c), other = corners(b, c, d);
+    const CornerPlaces one = corners(a, d, c), other = corners(b, c, d);
     return keepsSide(before, one.normal()) && keepsSide(before, other.normal())
       ? std::min(one.quality(), other.quality())
       : 0.f;
@@ -174,7 +174,7 @@ private:
       {
         continue;
       }
-      const Corners before = corners(removed, b, c), after = corners(kept, b, c);
+      const CornerPlaces before = corners(removed, b, c), after = corners(kept, b, c);
       const float quality = after.quality();
       // What is a line itself has no side.
       if (before.quality() >= least_ && !keepsSide(before.normal(), after.normal()))

@@ -11,14 +11,17 @@ namespace neuralmesh
 namespace
 {
 /// The side from a corner to the next one of its triangle, as the edge that it lies on.
-struct Side
+struct TriangleSide
 {
   VertexIndex low;
   VertexIndex high;
   TriangleFans::Corner corner;
 
-  bool isSameEdge(const Side& other) const { return low == other.low && high == other.high; }
-  friend bool operator<(const Side& a, const Side& b)
+  bool isSameEdge(const TriangleSide& other) const
+  {
+    return low == other.low && high == other.high;
+  }
+  friend bool operator<(const TriangleSide& a, const TriangleSide& b)
   {
     return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
   }
@@ -34,7 +37,7 @@ TriangleFans::Corner previousInTriangle(TriangleFans::Corner corner)
   return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 
-std::string text(const Side& side)
+std::string text(const TriangleSide& side)
 {
   return "edge " + std::to_string(side.low) + "-" + std::to_string(side.high);
 }
@@ -71,7 +74,7 @@ void TriangleFans::requireDistinctCorners() const
 
 void TriangleFans::linkSides()
 {
-  std::vector<Side> sides;
+  std::vector<TriangleSide> sides;
   sides.reserve(opposite_.size());
   for (Corner corner = 0; corner < opposite_.size(); ++corner)
   {
@@ -81,8 +84,8 @@ void TriangleFans::linkSides()
   std::sort(sides.begin(), sides.end());
   for (auto first = sides.begin(); first != sides.end();)
   {
-    const auto last =
-      std::find_if(first, sides.end(), [&](const Side& side) { return !side.isSameEdge(*first); });
+    const auto last = std::find_if(
+      first, sides.end(), [&](const TriangleSide& side) { return !side.isSameEdge(*first); });
     const auto count = last - first;
     if (count > 2)
     {

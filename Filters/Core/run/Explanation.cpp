@@ -46,7 +46,7 @@ constexpr double EdgesOfPiece = 2.;
 constexpr double LeastAskedInPiece = 4.;
 
 constexpr std::size_t SpacingsAsked = 500;
-constexpr std::size_t PointsPerRange = 256;
+constexpr std::size_t ExplainedPerRange = 256;
 
 /// Places found at a time: what is kept of them is less.
 constexpr std::size_t PointsPerBlock = 65536;
@@ -93,7 +93,7 @@ public:
     {
       return 0.f;
     }
-    executor.forEachRange(squared.size(), PointsPerRange,
+    executor.forEachRange(squared.size(), ExplainedPerRange,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -239,7 +239,7 @@ private:
   {
     const std::size_t all = result_.asked.points.size();
     spacings_.assign(all, 0.f);
-    executor_.forEachRange(all, PointsPerRange,
+    executor_.forEachRange(all, ExplainedPerRange,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -494,7 +494,7 @@ PointDistances distancesTo(
   result.isBeyondBoundary.resize(result.points.size());
   result.meanEdge = mesh.meanEdge();
   const float near = MediansToLookAgain * places.medianOfSome(result.points, executor);
-  executor.forEachRange(result.points.size(), PointsPerRange,
+  executor.forEachRange(result.points.size(), ExplainedPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -523,7 +523,7 @@ VertexSupport supportOf(
   for (std::size_t first = 0; first < points.size(); first += PointsPerBlock)
   {
     const std::size_t size = std::min(PointsPerBlock, points.size() - first);
-    executor.forEachRange(size, PointsPerRange,
+    executor.forEachRange(size, ExplainedPerRange,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)

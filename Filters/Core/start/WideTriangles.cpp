@@ -51,10 +51,10 @@ bool isWide(const Triangle& triangle, const Mesh& mesh, std::span<const float> r
 }
 
 /// Triangles that hang together along edges, each alike: wide or not.
-class Parts
+class JoinedParts
 {
 public:
-  Parts(
+  JoinedParts(
     const Mesh& mesh, const NumberedTriangles& triangles, const std::vector<std::uint8_t>& isWide)
     : sets_(triangles.all().size())
     , sizes_(triangles.all().size(), 0)
@@ -97,7 +97,7 @@ std::vector<Triangle> findWideTriangles(const Mesh& mesh, std::span<const LayerS
   std::vector<std::uint8_t> areWide(all.size());
   std::transform(all.begin(), all.end(), areWide.begin(),
     [&](const Triangle& triangle) { return isWide(triangle, mesh, radii) ? 1 : 0; });
-  Parts parts(mesh, triangles, areWide);
+  JoinedParts parts(mesh, triangles, areWide);
   const auto isSmall = [&](std::size_t size)
   { return size >= LeastOfPart && double(size) < SmallPart * double(all.size()); };
   std::vector<std::uint8_t> joinsSmall(all.size(), 0);
