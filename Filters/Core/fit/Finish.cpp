@@ -9,6 +9,7 @@
 #include "mesh/SelfIntersections.h"
 #include "mesh/SliverRemoval.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -16,8 +17,9 @@ namespace neuralmesh
 {
 namespace
 {
-/// Defects, at most, that are taken away if nothing else helps.
+/// Defects, at most, that are taken away if nothing else helps: so many, or that part of the triangles.
 constexpr std::size_t MostTakenAway = 200;
+constexpr double MostPartTakenAway = 0.02;
 /// Of triangles, see removeSlivers().
 constexpr float LeastQuality = 0.1f;
 /// To take slivers away; each leaves more of them.
@@ -223,9 +225,9 @@ bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& pro
   {
   }
   // A mesh that is open anyway may have a small hole more.
-  if (mesh_.isOpen())
+  while (mesh_.isOpen() &&
+    mendsBy([this] { replaceCrossings(mesh_, Crossings::Fewest); }, guard, progress))
   {
-    mendsBy([this] { replaceCrossings(mesh_); }, guard, progress);
   }
   return true;
 }
@@ -235,7 +237,8 @@ bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& pro
 template <typename Remove>
 bool Finish::mendsBy(const Remove& remove, FitGuard& guard, const Progress& progress)
 {
-  if (report_.left.total() == 0 || report_.left.total() > MostTakenAway)
+  const auto most = std::size_t(MostPartTakenAway * double(mesh_.triangleCount()));
+  if (report_.left.total() == 0 || report_.left.total() > std::max(MostTakenAway, most))
   {
     return false;
   }

@@ -2,6 +2,7 @@
 #include "start/AdvancingFront.h"
 
 #include "mesh/Delaunay.h"
+#include "start/LayersApart.h"
 
 #include <Eigen/Geometry>
 
@@ -499,7 +500,9 @@ private:
 std::vector<std::array<std::uint32_t, 3>> advancingFront(
   std::span<const LayerSample> samples, Layers layers)
 {
-  const Facets facets(samples);
+  const std::vector<LayerSample> moved =
+    layers == Layers::Apart ? layersApart(samples) : std::vector<LayerSample>();
+  const Facets facets(layers == Layers::Apart ? moved : samples);
   return AdvancingFront(facets, samples.size(), layers).run();
 }
 }

@@ -62,6 +62,8 @@ constexpr std::uint64_t SeedOfFront = 1;
 /// will do.
 constexpr double MostDisorder = 5.;
 constexpr double MostDisorderAtAll = 40.;
+/// Share of the samples of a front: of a sheet that has two sides.
+constexpr double LeastInTwoLayers = 0.05;
 /// Of its samples: more lie in no layer where there are outliers in all of space.
 constexpr double MostScatter = 0.03;
 
@@ -387,6 +389,15 @@ std::optional<FirstSurface> thinSolid(const PointCloud& cloud, FirstSurface skin
                                                                : std::nullopt;
 }
 
+/// Whether a front shows the two sides of what another one takes for one sheet: then it has hardly more
+/// boundaries. Where views lie beside each other, each layer ends somewhere.
+bool showsBothLayers(const FrontSurface& apart, const FrontSurface& joined)
+{
+  return joined.inOneOfTwo >= LeastInTwoLayers && apart.disorder() < MostDisorder &&
+    BoundaryManager(apart.mesh).loopCount() <=
+    BoundaryManager(joined.mesh).loopCount() + MostLoopsOfSheet;
+}
+
 /// The front of the candidates that agrees best with itself, if any does.
 std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const NearestPoints& nearest,
   std::size_t mostVertices, Boundaries boundaries, const Progress& progress, double leastPiece)
@@ -398,11 +409,11 @@ std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const Neares
   {
     auto front = frontSurface(
       cloud, nearest, samples, layers, SeedOfFront, partOf(progress, at, at + 0.5), leastPiece);
-    if (front && (!best || front->disorder() < best->disorder()))
+    if (front && (!best || front->disorder() < best->disorder() || showsBothLayers(*front, *best)))
     {
       best = std::move(front);
     }
-    if (best && best->disorder() < MostDisorder)
+    if (best && best->disorder() < MostDisorder && best->inOneOfTwo < LeastInTwoLayers)
     {
       break;
     }

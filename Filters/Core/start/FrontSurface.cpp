@@ -48,7 +48,7 @@ void dropSmallPieces(TriangleMesh& mesh, double leastPiece)
 std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestPoints& nearest,
   std::size_t count, Layers layers, std::uint64_t seed, const Progress& progress, double leastPiece)
 {
-  const auto [samples, inNoLayer] =
+  const auto [samples, inNoLayer, inOneOfTwo] =
     layerSamples(nearest, count, layers, seed, partOf(progress, 0., PartOfSamples));
   if (samples.empty() || !progress(PartOfSamples))
   {
@@ -74,12 +74,13 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestP
   FrontSurface result;
   result.mesh = buildMesh(std::move(triangles), cloud);
   result.samples = samples.size();
+  result.inOneOfTwo = inOneOfTwo;
   result.scatter = double(inNoLayer) / double(samples.size() + inNoLayer);
   result.filledLoops = fillSmallGaps(result.mesh);
   result.crossings = intersectingPairs(result.mesh).size();
   if (result.crossings > 0)
   {
-    replaceCrossings(result.mesh);
+    replaceCrossings(result.mesh, Crossings::All);
   }
   result.mesh.removeTriangles(findWideTriangles(result.mesh, samples));
   fillSmallGaps(result.mesh);

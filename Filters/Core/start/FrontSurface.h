@@ -20,6 +20,7 @@ struct FrontSurface
   std::size_t samples = 0;
   double scatter = 0.;         ///< share of the samples that lie in no layer, and were left out
   std::size_t filledLoops = 0; ///< small ones that the front had left
+  double inOneOfTwo = 0.;      ///< see LayerSamples
   std::size_t crossings = 0; ///< pairs of triangles that intersected, before these were taken away
 
   /// Loops filled and crossings, for a thousand samples. Surfaces have few; where it is many the samples

@@ -34,6 +34,8 @@ struct LayerPoints
 };
 constexpr std::array<LayerPoints, 3> LayerPointsTried{ { { 16, 0.44f }, { 32, 0.63f },
   { 64, 0.79f } } };
+/// Of two layers that are almost as far apart as points that tell.
+constexpr LayerPoints PointsOfTwoLayers{ MostPointsOfLayer, 0.86f };
 constexpr float SmallError = 0.04f;
 /// About, of as many points of a surface, for the root of their number and the distance to the nearest
 /// seven.
@@ -52,8 +54,17 @@ constexpr float ClosestOfMoved = 0.4f;
 constexpr float SlopeOfDisk = 0.25f;
 constexpr float NoiseOfDisk = 3.f;
 
+/// Of one layer: cosine of the angle between normals, rise over the distance, and how many radii are looked
+/// at, for as many samples at least.
+constexpr float LeastCosineInLayer = 0.7f;
+constexpr float LargestRiseInLayer = 0.3f;
+constexpr float ReachOfLayer = 1.5f;
+constexpr std::size_t LeastAroundStray = 4;
+
 constexpr std::uint32_t NoSample = ~0u;
 constexpr std::size_t LayersPerCheck = 256;
+/// Of so many one is asked whether there are two layers.
+constexpr std::size_t SamplesPerProbe = 16;
 /// Of those tried so far: where so many lie in no layer, the noise is wider than samples are apart.
 constexpr double MostInNoLayer = 0.25;
 
@@ -149,7 +160,7 @@ struct Search
   std::vector<NearPoint> buffer = {};
 };
 
-Told tell(Search& search, Vector4 place, LayerPoints points)
+Told tell(Search& search, Vector4 place, LayerPoints points, Layers layers = Layers::Joined)
 {
   std::array<NearPoint, MostPointsOfLayer> found;
   const NearestPoints& nearest = search.nearest;
@@ -160,29 +171,24 @@ Told tell(Search& search, Vector4 place, LayerPoints points)
   {
     return {};
   }
-  Told result{ localLayer(place, nearest.points(), std::span(found).first(there)), 0.f, 0.f,
+  Told result{ localLayer(place, nearest.points(), std::span(found).first(there), layers), 0.f, 0.f,
     points };
   result.noise = result.layer.scatter / points.scatterLeft;
   result.error = result.noise * std::sqrt(6.f / float(points.count));
   return result;
 }
 
-/// Moves a sample onto its layer. Returns whether it lies in one.
-bool moveOntoLayer(Search& search, LayerSample& sample)
+/// By as few points as the noise needs.
+Told tellByFew(Search& search, const LayerSample& sample)
 {
-  const Vector4 place = sample.position;
   Told best;
   for (const LayerPoints points : LayerPointsTried)
   {
-    const Told told = tell(search, place, points);
+    const Told told = tell(search, sample.position, points);
     if (told.points.count > 0 &&
       (best.points.count == 0 || best.layer.breadth < LeastBreadth || told.error < best.error))
     {
       best = told;
-      if (told.layer.distance < FarthestMove * told.layer.radius)
-      {
-        sample.position = told.layer.position;
-      }
     }
     if (best.points.count > 0 && best.error <= SmallError * sample.radius &&
       best.layer.breadth >= LeastBreadth)
@@ -190,22 +196,44 @@ bool moveOntoLayer(Search& search, LayerSample& sample)
       break;
     }
   }
+  return best;
+}
+
+/// Moves a sample onto its layer. Returns whether it lies in one.
+bool moveOntoLayer(Search& search, LayerSample& sample, Layers layers)
+{
+  Told best;
+  if (layers == Layers::Apart)
+  {
+    best = tell(search, sample.position, PointsOfTwoLayers, layers);
+  }
+  const bool isOneOfTwo = best.layer.isOneOfTwo;
+  if (!isOneOfTwo)
+  {
+    best = tellByFew(search, sample);
+  }
   if (best.points.count == 0)
   {
     return false;
   }
-  const auto takeNormal = [&](const LocalLayer& layer)
-  { sample.normal = layer.breadth >= LeastBreadth ? layer.normal : Vector4(); };
-  takeNormal(best.layer);
+  const auto take = [&](const LocalLayer& layer)
+  {
+    if (layer.distance < FarthestMove * layer.radius)
+    {
+      sample.position = layer.position;
+    }
+    sample.normal = layer.breadth >= LeastBreadth ? layer.normal : Vector4();
+  };
+  take(best.layer);
   sample.noise = best.noise;
   sample.error = best.error;
   if (best.error > NoticeableError * sample.radius)
   {
-    const Told again = tell(search, sample.position, best.points);
+    const Told again =
+      tell(search, sample.position, best.points, isOneOfTwo ? Layers::Apart : Layers::Joined);
     if (again.layer.distance < FarthestMove * again.layer.radius)
     {
-      sample.position = again.layer.position;
-      takeNormal(again.layer);
+      take(again.layer);
     }
   }
   return best.noise < ScatterOfNoLayer * best.layer.radius;
@@ -266,6 +294,40 @@ std::vector<LayerSample> apart(std::vector<LayerSample> samples, Layers layers, 
   }
   return result;
 }
+
+/// Whether the way from a sample to another one rises above its plane no more than their planes differ.
+bool areInOneLayer(const LayerSample& sample, const LayerSample& other)
+{
+  const Vector4 way = other.position - sample.position;
+  const float rise = std::abs(dot(way, sample.normal));
+  const float cosine = std::abs(dot(sample.normal, other.normal));
+  return cosine >= LeastCosineInLayer &&
+    rise * rise <= LargestRiseInLayer * LargestRiseInLayer * squaredNorm(way);
+}
+
+/// Without those that lie in one layer with none around them: between two layers, or across them.
+std::vector<LayerSample> withoutStrays(std::vector<LayerSample> samples)
+{
+  std::vector<Vector4> positions(samples.size());
+  std::transform(samples.begin(), samples.end(), positions.begin(),
+    [](const LayerSample& sample) { return sample.position; });
+  const NearestPoints nearest(positions);
+  std::vector<bool> isStray(samples.size(), false);
+  for (std::uint32_t i = 0; i < samples.size(); ++i)
+  {
+    std::size_t around = 0, inLayer = 0;
+    nearest.forEachWithin(positions[i], ReachOfLayer * samples[i].radius,
+      [&](std::uint32_t other, float)
+      {
+        around += other != i ? 1 : 0;
+        inLayer += other != i && areInOneLayer(samples[i], samples[other]) ? 1 : 0;
+      });
+    isStray[i] = inLayer == 0 && around >= LeastAroundStray;
+  }
+  std::size_t i = 0;
+  std::erase_if(samples, [&](const LayerSample&) { return isStray[i++]; });
+  return samples;
+}
 }
 
 float pointSpacing(const NearestPoints& nearest, std::uint32_t point)
@@ -280,7 +342,8 @@ std::optional<Vector4> placeInLayer(const NearestPoints& nearest, std::uint32_t 
   const Spacing spacing = spacingAt(nearest, point);
   sample.radius = spacing.farthest;
   Search search{ nearest, spacing.mean };
-  return moveOntoLayer(search, sample) ? std::optional(sample.position) : std::nullopt;
+  return moveOntoLayer(search, sample, Layers::Joined) ? std::optional(sample.position)
+                                                       : std::nullopt;
 }
 
 LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layers layers,
@@ -292,7 +355,7 @@ LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layer
   // Of each point, the last sample in whose reach it is.
   std::vector<std::uint32_t> reachedBy(points.size(), NoSample);
   std::vector<LayerSample> samples;
-  std::size_t inNoLayer = 0;
+  std::size_t inNoLayer = 0, asked = 0, inOneOfTwo = 0;
   Search search{ nearest };
   for (const std::uint32_t point : shuffled(points.size(), seed))
   {
@@ -312,7 +375,13 @@ LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layer
     const Spacing spacing = spacingAt(nearest, point);
     sample.radius = diskRadius.of(spacing);
     search.spacing = spacing.mean;
-    const bool isInLayer = moveOntoLayer(search, sample);
+    if (layers == Layers::Joined && tried % SamplesPerProbe == 0)
+    {
+      ++asked;
+      inOneOfTwo +=
+        tell(search, sample.position, PointsOfTwoLayers, Layers::Apart).layer.isOneOfTwo ? 1 : 0;
+    }
+    const bool isInLayer = moveOntoLayer(search, sample, layers);
     // Noise had it look as if it were in another layer than what is there.
     if (isInLayer && reachedBy[point] != NoSample &&
       isOnDisk(samples[reachedBy[point]], sample.position))
@@ -340,6 +409,8 @@ LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layer
       ++inNoLayer;
     }
   }
-  return { apart(std::move(samples), layers, seed), inNoLayer };
+  samples = apart(std::move(samples), layers, seed);
+  return { layers == Layers::Apart ? withoutStrays(std::move(samples)) : std::move(samples),
+    inNoLayer, double(inOneOfTwo) / double(std::max<std::size_t>(1, asked)) };
 }
 }

@@ -4,6 +4,7 @@
 #include "base/Progress.h"
 #include "base/Vector4.h"
 #include "cloud/NearestPoints.h"
+#include "start/LocalLayer.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,13 +24,6 @@ struct LayerSample
   float error = 0.f;  ///< about how far it lies off the surface because of that
 };
 
-/// What is taken for one surface.
-enum class Layers
-{
-  Joined, ///< all that is closer than samples are: right where scatter is wider than it seems
-  Apart   ///< points in one plane, as of the two sides of a plate that is thinner than that
-};
-
 /// Mean distance of a point to its nearest neighbours.
 float pointSpacing(const NearestPoints& nearest, std::uint32_t point);
 /// Where a point lies on the layer that it forms with its neighbours; nothing if these lie anywhere.
@@ -39,6 +33,9 @@ struct LayerSamples
 {
   std::vector<LayerSample> all;
   std::size_t inNoLayer = 0; ///< that were tried, and left out
+  /// Share of the samples that lie in one of two layers almost as close to each other as samples are. Asked
+  /// where layers are joined, of some.
+  double inOneOfTwo = 0.;
 };
 
 /// About `count` places, evenly spread for the density that the cloud has there: each farther from

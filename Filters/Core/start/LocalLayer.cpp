@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace neuralmesh
 {
@@ -21,6 +22,10 @@ constexpr double HalfWidth = 0.524;
 /// Two layers are farther apart than so many standard deviations of each: of one, cut in the middle, the
 /// halves are 2.7 apart, and 3.5 if it is evenly spread.
 constexpr double LayersApart = 4.5;
+/// The same where the plane was chosen for that; of a rod, cut along its middle, the halves are 4.1 apart.
+constexpr double ThickLayersApart = 5.;
+/// To find the plane of two layers.
+constexpr int RoundsOfGroups = 3;
 constexpr std::size_t LeastPoints = 6;
 /// Keeps sums of weights above 0.
 constexpr double LeastWeight = 1e-12;
@@ -95,8 +100,12 @@ public:
     }
   }
 
-  LocalLayer layer(Vector4 place)
+  LocalLayer layer(Vector4 place, Layers layers)
   {
+    if (layers == Layers::Apart)
+    {
+      keepOneOfTwo();
+    }
     findPlane(nearness_);
     findHeights(Eigen::Vector3d::Zero());
     if (keepOwnLayer())
@@ -134,6 +143,7 @@ public:
     result.scatter = float(radius_ * scatter_);
     result.distance = float(radius_ * move.norm());
     result.breadth = float(breadth_);
+    result.isOneOfTwo = isOneOfTwo_;
     return result;
   }
 
@@ -169,9 +179,21 @@ private:
     }
   }
 
-  /// Where the heights fall into two groups apart from each other, leaves out the one that the place does
-  /// not lie in. Returns whether there was one.
-  bool keepOwnLayer()
+  /// Two groups of heights, with the least variance within them.
+  struct Groups
+  {
+    double threshold = 0.; ///< between them
+    std::size_t below = 0;
+    double apart = 0.;  ///< of their means
+    double within = 0.; ///< variance
+
+    bool areApart(double deviations) const
+    {
+      return apart * apart >= deviations * deviations * within;
+    }
+  };
+
+  std::optional<Groups> groups() const
   {
     Values sorted = heights_;
     std::sort(sorted.begin(), sorted.begin() + std::ptrdiff_t(count_));
@@ -181,8 +203,8 @@ private:
       sum += sorted[i];
       squares += sorted[i] * sorted[i];
     }
-    // The split that leaves the least variance within the groups.
-    double lower = 0., best = 0., threshold = 0.;
+    Groups result;
+    double lower = 0., best = 0.;
     const auto count = double(count_);
     for (std::size_t i = 1; i < count_; ++i)
     {
@@ -190,34 +212,30 @@ private:
       const auto below = double(i);
       const double apart = (sum - lower) / (count - below) - lower / below;
       const double between = below * (count - below) * apart * apart;
-      if (between > best)
+      if (between > best && sorted[i - 1] < sorted[i])
       {
         best = between;
-        threshold = 0.5 * (sorted[i - 1] + sorted[i]);
+        result.threshold = 0.5 * (sorted[i - 1] + sorted[i]);
+        result.below = i;
+        result.apart = apart;
       }
     }
-    std::size_t below = 0;
-    lower = 0.;
-    for (; below < count_ && sorted[below] < threshold; ++below)
-    {
-      lower += sorted[below];
-    }
-    const std::size_t own = threshold > 0. ? below : count_ - below;
-    if (below == 0 || below == count_ || own < LeastPoints)
-    {
-      return false;
-    }
-    const double apart = (sum - lower) / (count - double(below)) - lower / double(below);
-    const double within =
-      std::max(0., (squares - sum * sum / count - best / (count * count) * count) / count);
-    if (apart * apart < LayersApart * LayersApart * within)
+    result.within = std::max(0., (squares - sum * sum / count - best / count) / count);
+    return result.below > 0 ? std::optional(result) : std::nullopt;
+  }
+
+  /// Leaves out the group that the place does not lie in, unless hardly anything is left then.
+  bool keepOwn(const Groups& groups)
+  {
+    const bool isBelow = groups.threshold > 0.;
+    if ((isBelow ? groups.below : count_ - groups.below) < LeastPoints)
     {
       return false;
     }
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count_; ++i)
     {
-      if ((heights_[i] < threshold) == (threshold > 0.))
+      if ((heights_[i] < groups.threshold) == isBelow)
       {
         offsets_[kept] = offsets_[i];
         nearness_[kept] = nearness_[i];
@@ -226,6 +244,52 @@ private:
     }
     count_ = kept;
     return true;
+  }
+
+  /// Where the heights fall into two groups apart from each other, leaves out the one that the place does
+  /// not lie in. Returns whether there was one.
+  bool keepOwnLayer()
+  {
+    const auto found = groups();
+    return found && found->areApart(LayersApart) && keepOwn(*found);
+  }
+
+  /// The same where two layers are almost as far apart as the points that tell: then the plane follows
+  /// from what lies within each of two groups, which follow from the plane.
+  void keepOneOfTwo()
+  {
+    Values alike;
+    alike.fill(1.);
+    findPlane(alike);
+    findHeights(Eigen::Vector3d::Zero());
+    auto found = groups();
+    for (int i = 0; i < RoundsOfGroups && found && !found->areApart(ThickLayersApart); ++i)
+    {
+      findPlaneOf(*found);
+      findHeights(Eigen::Vector3d::Zero());
+      found = groups();
+    }
+    isOneOfTwo_ = found && found->areApart(ThickLayersApart) && keepOwn(*found);
+  }
+
+  void findPlaneOf(const Groups& groups)
+  {
+    std::array<Eigen::Vector3d, 2> means{ Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero() };
+    const auto groupOf = [&](std::size_t i)
+    { return heights_[i] < groups.threshold ? std::size_t(0) : std::size_t(1); };
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      means[groupOf(i)] += offsets_[i];
+    }
+    means[0] /= double(groups.below);
+    means[1] /= double(count_ - groups.below);
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      const Eigen::Vector3d d = offsets_[i] - means[groupOf(i)];
+      moments += d * d.transpose();
+    }
+    axes_ = principalAxes(moments);
   }
 
   /// Standard deviation of the heights where they are the densest.
@@ -318,12 +382,13 @@ private:
   Eigen::Vector3d normal_;
   double scatter_ = 0.;
   double breadth_ = 0.;
+  bool isOneOfTwo_ = false;
 };
 }
 
 LocalLayer localLayer(
-  Vector4 place, std::span<const Vector4> points, std::span<const NearPoint> nearest)
+  Vector4 place, std::span<const Vector4> points, std::span<const NearPoint> nearest, Layers layers)
 {
-  return Neighborhood(place, points, nearest).layer(place);
+  return Neighborhood(place, points, nearest).layer(place, layers);
 }
 }

@@ -36,19 +36,21 @@ TEST(CrossingRemoval, NothingIntersects)
   const Mesh before = crossedSheet();
   const std::size_t crossing = intersectingTriangles(before).size();
   ASSERT_GT(crossing, 0u);
-  Mesh removed = before, replaced = before;
+  Mesh removed = before, replaced = before, fewest = before;
   removeCrossings(removed);
-  replaceCrossings(replaced);
-  for (Mesh* mesh : { &removed, &replaced })
+  replaceCrossings(replaced, Crossings::All);
+  replaceCrossings(fewest, Crossings::Fewest);
+  for (Mesh* mesh : { &removed, &replaced, &fewest })
   {
     mesh->dropErased();
     EXPECT_EQ(defectOf(*mesh), "");
     EXPECT_TRUE(intersectingTriangles(*mesh).empty());
   }
+  // The gap that is left is filled, or what stands in the sheet goes, and not what it meets.
   EXPECT_EQ(removed.triangleCount() + crossing, before.triangleCount());
-  // The gap that is left is filled.
   EXPECT_EQ(reportOf(removed).boundaryLoops, 2u);
   EXPECT_EQ(reportOf(replaced).boundaryLoops, 1u);
+  EXPECT_EQ(fewest.triangleCount() + 1, before.triangleCount());
 }
 
 // A mesh in which nothing intersects stays as it is.
@@ -56,7 +58,8 @@ TEST(CrossingRemoval, LeavesOthersAlone)
 {
   const Mesh before = meshOf(makeGrid(20));
   Mesh mesh = before;
-  replaceCrossings(mesh);
+  replaceCrossings(mesh, Crossings::All);
+  replaceCrossings(mesh, Crossings::Fewest);
   EXPECT_EQ(trianglesOf(mesh), trianglesOf(before));
 }
 }

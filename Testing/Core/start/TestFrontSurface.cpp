@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace neuralmesh::testing
 {
@@ -101,6 +102,43 @@ TEST(FrontSurface, KeepsTheTwoSidesOfAPlate)
   EXPECT_EQ(report.components, 1u);
   EXPECT_LT(apart->disorder(), 5.);
   EXPECT_GT(joined->disorder(), 20.);
+}
+
+// Keeps the promise: so it is where a plate is three times as thin as samples are apart, and points scatter by a
+// sixth of that; one that takes it for a single sheet says that there are two layers.
+TEST(FrontSurface, KeepsThinPlatesWithNoise)
+{
+  // Of the diagonal, which is 2.83.
+  constexpr double Thickness = 0.02, Noise = Thickness / 6. / 2.83;
+  const PointCloud cloud = scanOf(plate(Thickness), Noise, 200000);
+  const auto apart = front(cloud, 6000, Layers::Apart), joined = front(cloud, 6000);
+  ASSERT_TRUE(apart);
+  ASSERT_TRUE(joined);
+  EXPECT_GT(joined->inOneOfTwo, 0.5);
+  EXPECT_LT(apart->disorder(), 5.);
+  const SurfaceReport report = reportOf(*apart, cloud);
+  EXPECT_LE(std::abs(*report.genus), 1);
+  EXPECT_LE(report.boundaryLoops, 3u);
+  EXPECT_NEAR(report.area, 8., 0.2);
+  // Both sides are where they are: nothing lies between them but the rim.
+  std::size_t between = 0;
+  for (const Eigen::Vector3d& point : neuralmesh::trianglesOf(apart->mesh, cloud).points)
+  {
+    const bool isOnRim = std::max(std::abs(point.x()), std::abs(point.y())) > 0.97;
+    between += !isOnRim && std::abs(point.z()) < 0.3 * Thickness ? 1 : 0;
+  }
+  EXPECT_LT(between, apart->mesh.vertexCount() / 100);
+}
+
+// Keeps the promise: rods and spheres have no two layers, however coarse the samples are.
+TEST(FrontSurface, RoundShapesHaveOneLayer)
+{
+  for (const TriangleMesh& shape : { makeSphere(), makeTorus(0.1) })
+  {
+    const auto surface = front(scanOf(shape, 0.001, 60000), 3000);
+    ASSERT_TRUE(surface);
+    EXPECT_LT(surface->inOneOfTwo, 0.05);
+  }
 }
 
 // Keeps the promise: samples lie closer to the surface than the points do.
