@@ -4,7 +4,8 @@
 #   Utilities/check_sanitizers.sh [address|thread] [--all] [CTEST-OPTION...]
 #
 # address: memory and undefined behaviour; the fast and the sanitized tests of the filters and of what in
-#   the core stands hostile data or any operation, and a short campaign of fuzzing.
+#   the core stands hostile data or any operation, and a short campaign of fuzzing. What both sanitizers
+#   find, and accesses that are not aligned, are left to the first one and to --all.
 # thread: those of what has threads.
 #
 # With --all, which takes an hour: address has every test of the core and the filters, of damaged files
@@ -44,13 +45,14 @@ programs='NeuralMeshCoreMemoryTests NeuralMeshCoreThreadTests NeuralMeshFilterTe
 check_address()
 {
   if "$all"; then
-    check sanitize "$programs NeuralMeshCoreTests NeuralMeshApplicationTests
+    check sanitize-all "$programs NeuralMeshCoreTests NeuralMeshApplicationTests
       NeuralMeshFuzzReadersShortly" \
       -R '^(Core|Filters|Fuzzing)\.|^Applications\.(BadFiles|PointReader|MeshReader)\.' \
       -E "$memory" "$@"
   else
     # What chooses parameters only calls what others test here.
-    check sanitize "$programs" -R '^(Core|Filters|Fuzzing.Engine)' -L 'fast|sanitized' \
+    NEURALMESH_RANDOM_RUNS=15 \
+      check sanitize "$programs" -R '^(Core|Filters|Fuzzing.Engine)' -L 'fast|sanitized' \
       -E 'Tuning|Automatic' "$@"
   fi
 }
@@ -62,7 +64,7 @@ check_thread()
       NeuralMeshFilterTests NeuralMeshFilterThreadTests' -R '^(Core|Filters)\.' -E "$memory|$million" "$@"
   else
     # This sanitizer takes twenty times as long.
-    NEURALMESH_RANDOM_RUNS=12 \
+    NEURALMESH_RANDOM_RUNS=8 \
       check sanitize-threads 'NeuralMeshCoreThreadTests NeuralMeshFilterThreadTests' \
       -R '^(Core|Filters)\.' -L '(fast|sanitized)-threads' "$@"
   fi

@@ -27,7 +27,7 @@ void Abort(vtkObject* caller, unsigned long, void*, void*)
 
 int TestNeuralMeshAutomatic(int, char*[])
 {
-  const auto cloud = FilterTesting::SphereCloud(40000);
+  const auto cloud = FilterTesting::SphereCloud(34000);
   vtkNew<vtkNeuralMesh> filter;
   filter->SetInputData(cloud);
   filter->SetNumberOfVertices(4500);
