@@ -21,7 +21,7 @@ namespace
 {
 PointCloud cubeCloud(CloudOptions options = {})
 {
-  options.count = 50000;
+  options.count = 30000;
   return PointCloud(generateCloud(makeCube(), options));
 }
 
