@@ -19,9 +19,9 @@ namespace neuralmesh::testing
 {
 namespace
 {
-PointCloud cubeCloud(CloudOptions options = {})
+PointCloud cubeCloud(CloudOptions options = {}, std::size_t count = 30000)
 {
-  options.count = 30000;
+  options.count = count;
   return PointCloud(generateCloud(makeCube(), options));
 }
 
@@ -91,7 +91,7 @@ TEST(Tuning, NoDensityByCurvatureUnderNoise)
 {
   CloudOptions options;
   options.noise = 0.01;
-  const Tuning tuning = tune(cubeCloud(options), fiveThousand(), goOn).value();
+  const Tuning tuning = tune(cubeCloud(options, 50000), fiveThousand(), goOn).value();
   EXPECT_EQ(tuning.parameters.curvatureDensity, 0.);
   EXPECT_FALSE(tuning.remarks.empty());
 }
@@ -234,7 +234,7 @@ TEST(Tuning, TrialsAreAgainstTheChosenDensity)
 {
   CloudOptions options;
   options.noise = 0.01;
-  const PointCloud cloud = cubeCloud(options);
+  const PointCloud cloud = cubeCloud(options, 50000);
   Parameters wanted = fiveThousand();
   const Tuning chosen = tune(cloud, wanted, goOn).value();
   ASSERT_EQ(chosen.parameters.curvatureDensity, 0.);
