@@ -299,6 +299,49 @@ def details():
             scene(neuralmesh.reconstruct(eight, 5000), "y", 20, 30)]
 
 
+def ball(count):
+    points = np.random.default_rng(2).normal(size=(count, 3))
+    return points / np.linalg.norm(points, axis=1)[:, None]
+
+
+def failure(points, *views, **options):
+    """The points, a mesh of them for each of the options, from the same side."""
+    return [scene(data, *views) for data in (
+        cloud_data(points[::max(1, len(points) // 20000)]),
+        *(neuralmesh.reconstruct(points, **wanted) for wanted in options["meshes"]))]
+
+
+def failure_missing():
+    random = np.random.default_rng(3)
+    angle = random.uniform(0, 2 * np.pi, 4000)
+    rod = np.column_stack((0.04 * np.cos(angle), random.uniform(0.95, 2.15, 4000), 0.04 * np.sin(angle)))
+    return failure(np.vstack((ball(40000), rod)), "y", 30, 10,
+                   meshes=({"vertices": 150}, {"vertices": 2000}))
+
+
+def failure_thin():
+    """The two sides of a plate."""
+    random = np.random.default_rng(3)
+    points = random.uniform((0, 0, 0), (1, 0.6, 0), (60000, 3))
+    points += 0.0035 * random.choice((-1, 1), (60000, 1)) * (0, 0, 1) + random.normal(0, 0.001, points.shape)
+    return failure(points, "z", 20, 40, meshes=({"vertices": 1000}, {"vertices": 10000}))
+
+
+def failure_views():
+    """Three views that lie a half percent of the diagonal apart."""
+    random = np.random.default_rng(3)
+    size = np.linalg.norm(np.ptp(bunny()[0], axis=0))
+    views = [clouds.sample(*bunny(), 60000, seed=seed) + random.normal(0, 0.003 * size, 3)
+             for seed in (1, 2, 3)]
+    return failure(np.vstack(views), "y", 30, 10,
+                   meshes=({"vertices": 20000}, {"vertices": 20000, "fit_smoothness": 10}))
+
+
+def failure_finer():
+    points = ball(1500) * (1 + np.random.default_rng(3).normal(0, 0.02, (1500, 1)))
+    return failure(points, "y", 30, 10, meshes=({"vertices": 1400}, {"vertices": 300}))
+
+
 def direction(towards):
     """Azimuth and elevation of a camera that looks from there, with y upwards."""
     x, y, z = towards / np.linalg.norm(towards)

@@ -85,6 +85,7 @@ private:
   float c_ = 0.f;
   unsigned slot_ = 0;
 };
+}
 
 PlaceOnMesh closestPlaceAt(Vector4 point, const Mesh& mesh, VertexIndex v)
 {
@@ -105,7 +106,6 @@ PlaceOnMesh closestPlaceAt(Vector4 point, const Mesh& mesh, VertexIndex v)
     Vector4(1.f - closest.b() - closest.c(), closest.b(), closest.c()), 0.f };
   place.squaredDistance = squaredNorm(point - pointAt(place, mesh.positions()));
   return place;
-}
 }
 
 PlaceOnMesh closestPlace(Vector4 point, const Mesh& mesh, const VertexGrid& grid)

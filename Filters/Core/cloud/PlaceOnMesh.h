@@ -24,6 +24,9 @@ PlaceOnMesh closestPlace(Vector4 point, const Mesh& mesh, const VertexGrid& grid
 /// The same, beginning at a vertex near by: goes from vertex to vertex as long as that is closer.
 PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near);
 
+/// The same, on the triangles of this vertex.
+PlaceOnMesh closestPlaceAt(Vector4 point, const Mesh& mesh, VertexIndex v);
+
 /// Whether the place lies on the boundary.
 bool isOnBoundary(const PlaceOnMesh& place, const Mesh& mesh);
 

@@ -148,6 +148,10 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
     {
       return false;
     }
+    if (isLast)
+    {
+      report_.shareBetweenLayers = surfaceFit->shareBetweenLayers();
+    }
     if (round == 0)
     {
       smoothness = report_.smoothness;

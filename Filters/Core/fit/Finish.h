@@ -28,6 +28,7 @@ struct FinishReport
   int roundsTakenBack = 0;
   std::size_t heldVertices =
     0; ///< that rounds have left where they were, so that no samples were lost
+  double shareBetweenLayers = 0.; ///< see SurfaceFit::shareBetweenLayers(), after the last round
 };
 
 /// What is to be done with a mesh once it is learnt.

@@ -66,6 +66,9 @@ public:
   /// Mean over root mean square of the distances of samples to the mesh: 0.8 for noise, 1 if all are
   /// as far away.
   double distanceEvenness() const;
+  /// Of the vertices with enough samples on their triangles, the part that lies between two layers of them:
+  /// at either side of the surface, all nearly as far from it.
+  double shareBetweenLayers() const;
   /// Of the samples to the mesh.
   float medianDistance() const { return medianDistance_; }
   /// Of the samples, at the last findPlaces().
@@ -74,6 +77,7 @@ public:
 private:
   bool isUsed(std::size_t sample) const { return isUsed_[sample] != 0; }
   float weight(std::size_t sample) const { return weights_.empty() ? 1.f : weights_[sample]; }
+  void findPlace(std::size_t sample, const VertexGrid& grid);
   /// Tells outliers by how far samples are from each other around their places.
   void chooseUsed(float edges);
   bool isLost(std::size_t sample, float squaredBefore) const;
@@ -97,7 +101,9 @@ private:
   std::vector<Vector4> samples_;
   std::vector<float> weights_; ///< of the samples; empty if all weigh alike
   std::vector<PlaceOnMesh> places_;
-  std::vector<std::uint8_t> isUsed_; ///< of the samples, those that are no outliers
+  /// Of the samples, those that are no outliers, and have not switched to the other side of a thin part.
+  std::vector<std::uint8_t> isUsed_;
+  std::vector<VertexIndex> opposite_; ///< of each vertex, see OppositeLayer.h
   bool hasPlaces_ = false;
   std::optional<LocalSpacing> spacing_; ///< at the last findPlaces()
   std::size_t usedCount_ = 0;

@@ -85,6 +85,7 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters, const Me
   }
   isListDue_ = parameters.order == Order::List;
   enterListIfDue();
+  thinParts_.emplace(neuralMesh_, executor);
   observeFirstMesh();
 }
 
@@ -155,12 +156,17 @@ void Learner::learnBatch(std::size_t size)
   noiseFilter_.beginBatch(size, neuralMesh_.vertexCount());
   winGain_.beginBatch(noiseFilter_.observationStride());
   findWinners(samples);
+  const bool hasThinParts = thinParts_ && thinParts_->any();
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
     neuralMesh_.prefetchBehind(i, winners_);
     if (!mesh().isAlive(winners_[i]))
     {
       winners_[i] = neuralMesh_.winner(samples[i]);
+    }
+    if (hasThinParts)
+    {
+      winners_[i] = thinParts_->facingWinner(neuralMesh_, samples[i], winners_[i]);
     }
     basicStep(samples[i], winners_[i]);
     ++counts_.iterations;
@@ -178,6 +184,10 @@ void Learner::learnBatch(std::size_t size)
     }
   }
   neuralMesh_.compactIfGrown(executor_);
+  if (hasThinParts)
+  {
+    thinParts_->lookIfGrown(neuralMesh_, executor_);
+  }
 }
 
 void Learner::findWinners(std::span<const Vector4> samples)
@@ -295,6 +305,10 @@ void Learner::exchange(Archive& archive)
   const std::uint64_t mostSamplesAfterGrowth = samplesAfterGrowth_;
   archive(nextAddition_, nextRemoval_, nextTopology_, samplesAfterGrowth_);
   archive.require(samplesAfterGrowth_ <= mostSamplesAfterGrowth);
+  if (thinParts_)
+  {
+    thinParts_->exchange(archive);
+  }
   if (archive.isReading())
   {
     updateDecay();

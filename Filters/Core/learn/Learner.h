@@ -8,6 +8,7 @@
 #include "learn/NeuralMesh.h"
 #include "learn/NoiseFilter.h"
 #include "learn/Parameters.h"
+#include "learn/ThinParts.h"
 #include "learn/TopologyLearning.h"
 #include "learn/WinGain.h"
 
@@ -170,6 +171,8 @@ private:
   std::optional<VertexProperty<std::uint8_t>> hasWon_;
   std::optional<FeatureStrength> featureStrength_;
   std::optional<TopologyLearning> topology_;
+  /// Nothing where learning has started from a tetrahedron: its sides are no layers yet.
+  std::optional<ThinParts> thinParts_;
   BoundarySmoothing boundarySmoothing_ = BoundarySmoothing::Along;
   RunCounts counts_;
   std::vector<VertexIndex> winners_; ///< of the samples of a batch

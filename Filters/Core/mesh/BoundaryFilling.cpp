@@ -11,8 +11,6 @@ namespace
 {
 /// Longer loops are openings.
 constexpr std::size_t MostEdgesOfGap = 12;
-/// Those around which the normals turn by more than 110 degrees are outlines of pieces.
-constexpr float CosineOfOutline = -0.34f;
 
 /// A corner of a boundary, and the square of the edge with which a triangle would close it.
 struct RimCorner
@@ -107,7 +105,7 @@ std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longe
   {
     const std::vector<VertexIndex> loop = boundaries.vertices(mesh, index);
     const bool isWanted = !loop.empty() && loop.size() <= mostEdges &&
-      (leastCosine <= -1.f || cosineAround(mesh, loop) >= leastCosine);
+      (leastCosine <= -1.f || loop.size() == 3 || cosineAround(mesh, loop) >= leastCosine);
     if (isWanted && fillLoop(mesh, loop, float(longestEdge * longestEdge), isAllowed))
     {
       boundaries.retrace(mesh, loop);

@@ -9,11 +9,14 @@
 
 namespace neuralmesh
 {
+/// Loops around which the normals turn by more than 110 degrees are outlines of pieces.
+inline constexpr float CosineOfOutline = -0.34f;
+
 /// Fills the loops that can be filled with triangles without edges of `longestEdge` or more, and
 /// that are all allowed, if that is asked: small holes, and slits. Loops of more than `mostEdges` stay, and
 /// those where the normals around are farther from that of what would fill them than by `leastCosine`:
 /// it is 1 for a hole in a plane, about 0 at the end of a pipe, -1 at the outline of a sheet, which would
-/// be closed by a second layer.
+/// be closed by a second layer. A single triangle is no sheet.
 ///
 /// Corner by corner, each time the one with the shortest third edge. Returns the number of loops filled.
 /// Not in the thesis.

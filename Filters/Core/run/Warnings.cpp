@@ -2,6 +2,7 @@
 #include "run/Warnings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <sstream>
@@ -12,11 +13,15 @@ namespace neuralmesh
 namespace
 {
 constexpr double MostUnexplained = 0.03;
+/// Of the vertices.
+constexpr double MostBetweenLayers = 0.1;
 /// Of the area: less is not worth a word.
 constexpr double LeastUnknownSide = 0.001;
 constexpr double WholeArea = 0.999;
 /// Named in one sentence; the others are counted.
 constexpr std::size_t MostPiecesNamed = 2;
+/// What is no farther from the mesh than this part of an edge is there, but coarse.
+constexpr double CoarseEdges = 0.5;
 /// With less points a vertex, the mesh follows single points.
 constexpr std::size_t LeastPointsPerVertex = 2;
 /// Of a closed mesh.
@@ -49,12 +54,28 @@ std::string placeText(const Eigen::Vector3d& place, const PointCloud& cloud)
   return text.str();
 }
 
-void warnOfPieces(const Explanation& explanation, const PointCloud& cloud, bool areBeyondBoundary,
+/// What has become of a piece of the cloud.
+enum class Fate
+{
+  Missing,
+  BeyondBoundary,
+  Coarse
+};
+
+Fate fateOf(const MissedPiece& piece, double coarse)
+{
+  return piece.isBeyondBoundary ? Fate::BeyondBoundary
+    : piece.farthest < coarse   ? Fate::Coarse
+                                : Fate::Missing;
+}
+
+void warnOfPieces(const Explanation& explanation, const PointCloud& cloud, Fate fate,
   std::vector<std::string>& warnings)
 {
+  const double coarse = CoarseEdges * explanation.asked.meanEdge * cloud.unit();
   std::vector<MissedPiece> pieces;
   std::copy_if(explanation.pieces.begin(), explanation.pieces.end(), std::back_inserter(pieces),
-    [&](const MissedPiece& piece) { return piece.isBeyondBoundary == areBeyondBoundary; });
+    [&](const MissedPiece& piece) { return fateOf(piece, coarse) == fate; });
   if (pieces.empty())
   {
     return;
@@ -69,13 +90,15 @@ void warnOfPieces(const Explanation& explanation, const PointCloud& cloud, bool 
   {
     where += " and " + counted(pieces.size() - MostPiecesNamed, "other place", "other places");
   }
-  warnings.push_back(
-    (areBeyondBoundary ? "The mesh ends, or is open, where there are points: about "
-                       : "A part of the cloud is missing in the mesh: about ") +
-    where + ". More vertices reach what is thin or narrow" +
-    (areBeyondBoundary ? ", Boundaries close fills openings. "
-                       : ", a first mesh holds what is lost. ") +
-    std::string(HowToSee));
+  constexpr std::array<std::string_view, 3> What{ "A part of the cloud is missing in the mesh",
+    "The mesh ends, or is open, where there are points", "The mesh is coarser than its cloud" };
+  constexpr std::array<std::string_view, 3> WhatHelps{
+    "More vertices reach what is thin or narrow, a first mesh holds what is lost.",
+    "More vertices reach what is thin or narrow, Boundaries close fills openings.",
+    "It is up to half an edge away from them: more vertices show what is narrow or bent there."
+  };
+  warnings.push_back(std::string(What[std::size_t(fate)]) + ": about " + where + ". " +
+    std::string(WhatHelps[std::size_t(fate)]) + " " + std::string(HowToSee));
 }
 
 void warnOfPoints(
@@ -89,8 +112,10 @@ void warnOfPoints(
       "them before you use the mesh. " +
       std::string(HowToSee));
   }
-  warnOfPieces(explanation, cloud, false, warnings);
-  warnOfPieces(explanation, cloud, true, warnings);
+  for (const Fate fate : { Fate::Missing, Fate::BeyondBoundary, Fate::Coarse })
+  {
+    warnOfPieces(explanation, cloud, fate, warnings);
+  }
 }
 
 void warnOfDefects(const Reconstruction& result, std::vector<std::string>& warnings)
@@ -103,6 +128,15 @@ void warnOfDefects(const Reconstruction& result, std::vector<std::string>& warni
       " others and could not be repaired: the surface is thinner there than triangles are large, "
       "or two layers are taken for one. More vertices make triangles smaller; another seed may "
       "do.");
+  }
+  const double between = result.finish ? result.finish->shareBetweenLayers : 0.;
+  if (between > MostBetweenLayers)
+  {
+    warnings.push_back("The mesh lies between two layers of points at " + percent(between) +
+      " of its vertices: two sides of a thin part are taken for one, or views of the same surface "
+      "lie "
+      "apart. For a thin part more vertices may do, or a first mesh with both sides; views can be "
+      "registered anew.");
   }
   if (folds > 0)
   {

@@ -30,6 +30,14 @@ constexpr double LargestGrowth = 5.;
 /// Against the distance: between samples whose normals are the same.
 constexpr float LargestRise = 0.3f;
 constexpr float ErrorsOfRise = 3.f;
+/// Of the radius of a sample: it was moved away from another layer.
+constexpr float LeastWay = 0.1f;
+
+/// Of a triangle and the way of a sample away from another layer: cosine that tells to which side it looks.
+constexpr double CosineOfSide = 0.5;
+/// That is so sure as it is close by: what is left of it in the next triangle, and how little is nothing.
+constexpr double SideLeft = 0.8;
+constexpr double LeastSide = 0.2;
 
 constexpr double None = std::numeric_limits<double>::infinity();
 
@@ -158,11 +166,13 @@ private:
 class AdvancingFront
 {
 public:
-  AdvancingFront(const Facets& facets, std::size_t sampleCount, Layers layers)
+  /// `ways` are those of the samples, away from another layer beside theirs; none if layers are joined.
+  AdvancingFront(const Facets& facets, std::size_t sampleCount, std::span<const Vector4> ways)
     : facets_(facets)
+    , ways_(ways)
     , firstEdge_(sampleCount, NoEdge)
     , openEdges_(sampleCount, 0)
-    , keepsToLayers_(layers == Layers::Apart)
+    , keepsToLayers_(!ways.empty())
   {
   }
 
@@ -170,7 +180,7 @@ public:
   {
     for (const Seed& seed : seeds())
     {
-      const auto corners = cornersOf(seed.facet);
+      const auto corners = cornersOf(seed);
       const bool isFree = std::all_of(
         corners.begin(), corners.end(), [&](std::int32_t v) { return !isOnSurface(v); });
       const auto [a, b, c] = corners;
@@ -179,7 +189,7 @@ public:
           (facets_.areInOneLayer(a, b) && facets_.areInOneLayer(b, c) &&
             facets_.areInOneLayer(c, a))))
       {
-        addTriangle(corners, seed.facet, seed.radius);
+        addTriangle(corners, seed.facet, seed.radius, 0.);
         advance();
       }
     }
@@ -200,6 +210,8 @@ private:
   {
     double radius;
     Facet facet;
+    /// 1 if it looks away from another layer, -1 if it looks to that, 0 if its samples do not tell.
+    double side = 0.;
   };
 
   /// A directed edge of a triangle. It belongs to the front as long as the triangle on its other side is
@@ -212,6 +224,8 @@ private:
     Facet facet; ///< of its triangle
     double radius;
     bool isOpen;
+    /// The side of its triangle, or of one a few triangles away; fading to 0, which is unknown.
+    double side = 0.;
   };
 
   /// The triangle with which the front would go on at an edge. The classes come one after another.
@@ -251,7 +265,7 @@ private:
           const double radius = facets_.radius(facet);
           if (radius < None)
           {
-            result.push_back({ radius, facet });
+            result.push_back({ radius, facet, sideOf(cornersOf(facet)) });
           }
         }
       }
@@ -259,10 +273,46 @@ private:
     std::sort(result.begin(), result.end(),
       [](const Seed& a, const Seed& b)
       {
-        return std::tie(a.radius, a.facet.cell, a.facet.index) <
-          std::tie(b.radius, b.facet.cell, b.facet.index);
+        const bool isATold = a.side != 0., isBTold = b.side != 0.;
+        return std::tie(isBTold, a.radius, a.facet.cell, a.facet.index) <
+          std::tie(isATold, b.radius, b.facet.cell, b.facet.index);
       });
     return result;
+  }
+
+  /// Layers beside each other look away from each other, as the sides of a plate do, or to each other: they
+  /// could not be joined at their rims else. So seeds come first whose samples tell that, and where it is
+  /// told the surface keeps to it.
+  double sideOf(const std::array<std::int32_t, 3>& corners) const
+  {
+    if (ways_.empty())
+    {
+      return 0.;
+    }
+    const auto [a, b, c] = corners;
+    const Eigen::Vector3d normal = (facets_.position(b) - facets_.position(a))
+                                     .cross(facets_.position(c) - facets_.position(a))
+                                     .normalized();
+    double least = 0., most = 0.;
+    for (const std::int32_t corner : corners)
+    {
+      const double along = normal.dot(ways_[std::size_t(corner)].toDouble());
+      least = std::min(least, along);
+      most = std::max(most, along);
+    }
+    return most > CosineOfSide && least > -CosineOfSide ? 1.
+      : least < -CosineOfSide && most < CosineOfSide    ? -1.
+                                                        : 0.;
+  }
+
+  std::array<std::int32_t, 3> cornersOf(const Seed& seed) const
+  {
+    auto corners = cornersOf(seed.facet);
+    if (seed.side < 0.)
+    {
+      std::swap(corners[1], corners[2]);
+    }
+    return corners;
   }
 
   std::array<std::int32_t, 3> cornersOf(Facet facet) const
@@ -288,11 +338,17 @@ private:
     return edge != NoEdge && edges_[edge].isOpen;
   }
 
-  void addTriangle(const std::array<std::int32_t, 3>& corners, Facet facet, double radius)
+  /// `sideBefore` is the side of the triangle beside it.
+  void addTriangle(
+    const std::array<std::int32_t, 3>& corners, Facet facet, double radius, double sideBefore)
   {
+    const double own = sideOf(corners);
+    const double side = own != 0.        ? own
+      : std::abs(sideBefore) > LeastSide ? SideLeft * sideBefore
+                                         : 0.;
     triangles_.push_back(
       { std::uint32_t(corners[0]), std::uint32_t(corners[1]), std::uint32_t(corners[2]) });
-    std::array<std::uint32_t, 3> own;
+    std::array<std::uint32_t, 3> added;
     for (std::size_t i = 0; i < 3; ++i)
     {
       const std::int32_t from = corners[i], to = corners[(i + 1) % 3], apex = corners[(i + 2) % 3];
@@ -309,11 +365,12 @@ private:
         --openEdges_[std::size_t(from)];
         --openEdges_[std::size_t(to)];
       }
-      own[i] = std::uint32_t(edges_.size());
-      edges_.push_back({ from, to, apex, firstEdge_[std::size_t(from)], facet, radius, isOpen });
-      firstEdge_[std::size_t(from)] = own[i];
+      added[i] = std::uint32_t(edges_.size());
+      edges_.push_back(
+        { from, to, apex, firstEdge_[std::size_t(from)], facet, radius, isOpen, side });
+      firstEdge_[std::size_t(from)] = added[i];
     }
-    for (const std::uint32_t edge : own)
+    for (const std::uint32_t edge : added)
     {
       propose(edge);
     }
@@ -394,7 +451,7 @@ private:
           return;
         }
         const double cosine = normal.dot((facets_.position(apex) - from).cross(along).normalized());
-        if (cosine > CosineOfFold)
+        if (cosine > CosineOfFold && !(edge.side * sideOf({ edge.to, edge.from, apex }) < 0.))
         {
           best.apex = apex;
           best.facet = facet;
@@ -482,11 +539,13 @@ private:
         waiting_.push_back(candidate.edge);
         continue;
       }
-      addTriangle({ edge.to, edge.from, candidate.apex }, candidate.facet, candidate.radius);
+      addTriangle(
+        { edge.to, edge.from, candidate.apex }, candidate.facet, candidate.radius, edge.side);
     }
   }
 
   const Facets& facets_;
+  std::span<const Vector4> ways_;
   std::vector<std::uint32_t> firstEdge_; ///< that begins at a sample
   std::vector<std::uint32_t> openEdges_; ///< that begin or end there
   std::vector<Edge> edges_;
@@ -500,9 +559,21 @@ private:
 std::vector<std::array<std::uint32_t, 3>> advancingFront(
   std::span<const LayerSample> samples, Layers layers)
 {
-  const std::vector<LayerSample> moved =
-    layers == Layers::Apart ? layersApart(samples) : std::vector<LayerSample>();
-  const Facets facets(layers == Layers::Apart ? moved : samples);
-  return AdvancingFront(facets, samples.size(), layers).run();
+  if (layers == Layers::Joined)
+  {
+    const Facets facets(samples);
+    return AdvancingFront(facets, samples.size(), {}).run();
+  }
+  const std::vector<LayerSample> moved = layersApart(samples);
+  std::vector<Vector4> ways(samples.size());
+  std::transform(moved.begin(), moved.end(), samples.begin(), ways.begin(),
+    [](const LayerSample& to, const LayerSample& from)
+    {
+      const Vector4 way = to.position - from.position;
+      const float length = std::sqrt(squaredNorm(way));
+      return length > LeastWay * from.radius ? 1.f / length * way : Vector4();
+    });
+  const Facets facets(moved);
+  return AdvancingFront(facets, samples.size(), ways).run();
 }
 }

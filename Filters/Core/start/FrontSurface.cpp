@@ -84,7 +84,14 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestP
   }
   result.mesh.removeTriangles(findWideTriangles(result.mesh, samples));
   fillSmallGaps(result.mesh);
+  if (layers == Layers::Apart)
+  {
+    // Along the rims of plates.
+    fillSlits(result.mesh, samples);
+  }
   removeCrossings(result.mesh);
+  // What it has opened: a few triangles that intersect come apart in learning, a hole would stay.
+  fillSmallGaps(result.mesh);
   result.mesh.dropErased();
   return result;
 }

@@ -34,8 +34,10 @@ struct LayerPoints
 };
 constexpr std::array<LayerPoints, 3> LayerPointsTried{ { { 16, 0.44f }, { 32, 0.63f },
   { 64, 0.79f } } };
-/// Of two layers that are almost as far apart as points that tell.
+/// Of two layers that are almost as far apart as points that tell; fewer where a layer ends.
 constexpr LayerPoints PointsOfTwoLayers{ MostPointsOfLayer, 0.86f };
+constexpr std::array<LayerPoints, 3> PointsOfTwoLayersTried{ { PointsOfTwoLayers, { 48, 0.73f },
+  { 24, 0.55f } } };
 constexpr float SmallError = 0.04f;
 /// About, of as many points of a surface, for the root of their number and the distance to the nearest
 /// seven.
@@ -205,7 +207,14 @@ bool moveOntoLayer(Search& search, LayerSample& sample, Layers layers)
   Told best;
   if (layers == Layers::Apart)
   {
-    best = tell(search, sample.position, PointsOfTwoLayers, layers);
+    for (const LayerPoints points : PointsOfTwoLayersTried)
+    {
+      best = tell(search, sample.position, points, layers);
+      if (best.layer.isOneOfTwo)
+      {
+        break;
+      }
+    }
   }
   const bool isOneOfTwo = best.layer.isOneOfTwo;
   if (!isOneOfTwo)

@@ -3,6 +3,7 @@
 
 #include "base/DisjointSets.h"
 #include "cloud/NearestPoints.h"
+#include "mesh/BoundaryFilling.h"
 #include "mesh/NumberedTriangles.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace neuralmesh
@@ -123,5 +125,15 @@ std::vector<Triangle> findWideTriangles(const Mesh& mesh, std::span<const LayerS
     }
   }
   return result;
+}
+
+std::size_t fillSlits(Mesh& mesh, std::span<const LayerSample> samples)
+{
+  const std::vector<float> radii = radiiOf(mesh, samples);
+  BoundaryManager boundaries(mesh);
+  return fillBoundaries(
+    mesh, boundaries, std::numeric_limits<float>::max(),
+    [&](const Triangle& triangle) { return !isWide(triangle, mesh, radii); },
+    std::numeric_limits<std::size_t>::max(), CosineOfOutline);
 }
 }

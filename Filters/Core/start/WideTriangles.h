@@ -14,4 +14,8 @@ namespace neuralmesh
 /// than 1/300 of the triangles to another: that is rather a sparse part of a surface than one of its
 /// own.
 std::vector<Triangle> findWideTriangles(const Mesh& mesh, std::span<const LayerSample> samples);
+
+/// Fills the loops that can be filled wholly with triangles that are not wide: slits, however long they are.
+/// Not the outlines of sheets. Returns their number.
+std::size_t fillSlits(Mesh& mesh, std::span<const LayerSample> samples);
 }

@@ -6,9 +6,13 @@
 #include "MeshTools.h"
 #include "OpenShapes.h"
 #include "SphereRuns.h"
+#include "ThinPlate.h"
 #include "TrueSurfaces.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace neuralmesh::testing
 {
@@ -255,5 +259,43 @@ TEST(SurfaceFit, EndedRunsMoveNothing)
     EXPECT_EQ(pointsOf(mesh) == before, !isDone);
   }
   EXPECT_GT(calls, 3);
+}
+
+// Of a plate thinner than edges are long, the sides come to where their own points are, though nearest
+// vertices are often those of the other side.
+TEST(SurfaceFit, SidesOfAThinPlateStayApart)
+{
+  constexpr unsigned Side = 20;
+  constexpr double Thickness = 0.2 / Side;
+  const PointCloud cloud(platePoints(20000, Thickness, 0.1 * Thickness));
+  Mesh mesh = buildMesh(makePlate(Side, 1.5 * Thickness), cloud);
+  fitted(cloud, mesh, 0.);
+  for (const Eigen::Vector3d& point : trianglesOf(mesh, cloud).points)
+  {
+    const double fromRim = std::min({ point.x(), point.y(), 1. - point.x(), 1. - point.y() });
+    if (fromRim > 1.5 / Side)
+    {
+      EXPECT_NEAR(std::abs(point.z()), 0.5 * Thickness, 0.1 * Thickness);
+    }
+  }
+}
+
+// A sheet between two layers of points is told as such; in noise, evenly spread points, and on a surface that
+// is coarser than its bends, hardly any vertex is.
+TEST(SurfaceFit, TellsWhereItLiesBetweenLayers)
+{
+  constexpr double Thickness = 0.02;
+  const auto shareOf = [](const PointCloud& cloud, Mesh mesh)
+  {
+    SurfaceFit fit(cloud, mesh, SamplesPerVertex * mesh.vertexCount());
+    EXPECT_TRUE(fit.findPlaces(goOn));
+    return fit.shareBetweenLayers();
+  };
+  const PointCloud layers(platePoints(20000, Thickness, 0.15 * Thickness));
+  const PointCloud noise(platePoints(20000, 0., Thickness));
+  EXPECT_GT(shareOf(layers, buildMesh(makeGrid(30), layers)), 0.9);
+  EXPECT_LT(shareOf(noise, buildMesh(makeGrid(30), noise)), 0.1);
+  const PointCloud sphere = noisySphere(0.);
+  EXPECT_LT(shareOf(sphere, buildMesh(makeSphere(6), sphere)), 0.1);
 }
 }

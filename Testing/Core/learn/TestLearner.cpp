@@ -7,6 +7,7 @@
 #include "MeshTools.h"
 #include "run/Reconstruction.h"
 #include "SphereRuns.h"
+#include "ThinPlate.h"
 
 #include <gtest/gtest.h>
 
@@ -378,5 +379,33 @@ TEST(Learner, AllocationsAreCounted)
   const std::size_t before = allocationCount();
   Learner learner(cleanSphere(), small());
   EXPECT_GT(allocationCount(), before);
+}
+
+// From a first mesh with both sides of a thin plate, each side keeps to its own points, though edges are
+// several times as long as the plate is thick.
+TEST(Learner, WinnersFaceTheirSamples)
+{
+  constexpr unsigned Side = 8;
+  constexpr double Thickness = 0.01;
+  const PointCloud cloud(platePoints(20000, Thickness));
+  Parameters parameters;
+  parameters.numberOfVertices = 500;
+  Learner learner(cloud, parameters, buildMesh(makePlate(Side, Thickness), cloud));
+  learner.learn(1000000);
+  ASSERT_TRUE(learner.isComplete());
+  const Mesh mesh = learner.learntMesh().mesh;
+  std::size_t asked = 0, wrong = 0;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    const Eigen::Vector3d point = cloud.toInput(mesh.position(v));
+    if (std::min({ point.x(), point.y(), 1. - point.x(), 1. - point.y() }) > 0.1)
+    {
+      ++asked;
+      const bool isAbove = mesh.normal(v)[2] > 0.f;
+      wrong += std::abs(point.z() - (isAbove ? 0.5 : -0.5) * Thickness) > 0.25 * Thickness ? 1 : 0;
+    }
+  }
+  ASSERT_GT(asked, 200u);
+  EXPECT_EQ(wrong, 0u);
 }
 }

@@ -262,4 +262,39 @@ TEST(Warnings, MissingPartAndDefects)
   EXPECT_TRUE(hasWarning(result, "1 round of the fit"));
   EXPECT_EQ(result.warnings.size(), 5u);
 }
+
+// Promise: what is no farther away than half an edge is called coarse, not missing.
+TEST(Warnings, CoarseIsNotMissing)
+{
+  Reconstruction result;
+  result.explanation.emplace();
+  result.explanation->asked.meanEdge = 0.1;
+  const PointCloud cloud(sphere(1000));
+  MissedPiece piece;
+  piece.points = 120.;
+  piece.farthest = 0.04 * cloud.unit();
+  result.explanation->pieces.push_back(piece);
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_TRUE(hasWarning(result, "coarser than its cloud: about 120 points"));
+  EXPECT_FALSE(hasWarning(result, "missing"));
+  result.explanation->pieces[0].farthest = 0.06 * cloud.unit();
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_FALSE(hasWarning(result, "coarser"));
+  EXPECT_TRUE(hasWarning(result, "missing in the mesh: about 120 points"));
+}
+
+// Promise: a mesh between two layers of points is told.
+TEST(Warnings, BetweenLayers)
+{
+  Reconstruction result;
+  result.quality = MeshQuality{};
+  result.finish = FinishReport{};
+  result.finish->shareBetweenLayers = 0.4;
+  const PointCloud cloud(sphere(1000));
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_TRUE(hasWarning(result, "between two layers of points at 40 % of its vertices"));
+  result.finish->shareBetweenLayers = 0.05;
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_FALSE(hasWarning(result, "between two layers"));
+}
 }

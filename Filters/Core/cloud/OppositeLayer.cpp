@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cloud/OppositeLayer.h"
+
+#include <array>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+/// A part for the executor.
+constexpr std::size_t VerticesPerRange = 512;
+/// Looked for from so many edges behind the vertex and before it, and farther away where that finds none: the
+/// farther away, the thinner a part may be. Found up to so many edges from it.
+constexpr std::array<float, 4> ProbeEdges{ -0.5f, 0.5f, -1.5f, 1.5f };
+constexpr float MostEdges = 1.f;
+/// Of the normals: turned away by more than 110 degrees.
+constexpr float MostCosine = -0.35f;
+
+float meanEdgeAt(const Mesh& mesh, VertexIndex v)
+{
+  float sum = 0.f;
+  for (const VertexIndex neighbor : mesh.ring(v))
+  {
+    sum += std::sqrt(squaredNorm(mesh.position(neighbor) - mesh.position(v)));
+  }
+  return sum / float(mesh.valence(v));
+}
+
+/// From triangle to triangle, as long as that is closer: where two layers meet, the closest vertex may be
+/// none of those of the closest triangle.
+PlaceOnMesh closestOnTriangles(Vector4 point, const Mesh& mesh, VertexIndex near)
+{
+  PlaceOnMesh best = closestPlaceFrom(point, mesh, near);
+  for (bool isBetter = true; isBetter;)
+  {
+    isBetter = false;
+    const Triangle corners = best.triangle;
+    for (std::size_t i = 1; i < corners.size(); ++i)
+    {
+      const PlaceOnMesh place = closestPlaceAt(point, mesh, corners[i]);
+      if (place.squaredDistance < best.squaredDistance)
+      {
+        best = place;
+        isBetter = true;
+      }
+    }
+  }
+  return best;
+}
+}
+
+VertexIndex oppositeVertex(const Mesh& mesh, const VertexGrid& grid, VertexIndex v)
+{
+  const Vector4 normal = mesh.normal(v);
+  const float squared = squaredNorm(normal);
+  if (!(squared > 0.f))
+  {
+    return NoVertex;
+  }
+  const Vector4 unit = 1.f / std::sqrt(squared) * normal;
+  const float edge = meanEdgeAt(mesh, v);
+  const float reach = MostEdges * edge;
+  const auto isOpposite = [&](VertexIndex found)
+  {
+    if (found == v || found == NoVertex ||
+      squaredNorm(mesh.position(found) - mesh.position(v)) > reach * reach)
+    {
+      return false;
+    }
+    const Vector4 other = mesh.normal(found);
+    return dot(unit, other) < MostCosine * std::sqrt(squaredNorm(other));
+  };
+  for (const float edges : ProbeEdges)
+  {
+    const VertexIndex found =
+      grid.closest(mesh.position(v) + edges * edge * unit, mesh.positions());
+    if (isOpposite(found))
+    {
+      return found;
+    }
+  }
+  return NoVertex;
+}
+
+std::vector<VertexIndex> oppositeVertices(const Mesh& mesh, const VertexGrid& grid,
+  std::span<const std::uint8_t> isAsked, const Executor& executor)
+{
+  std::vector<VertexIndex> result(mesh.indexEnd(), NoVertex);
+  executor.forEachRange(result.size(), VerticesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        if (mesh.isAlive(v) && (isAsked.empty() || isAsked[v] != 0))
+        {
+          result[v] = oppositeVertex(mesh, grid, v);
+        }
+      }
+    });
+  return result;
+}
+
+PlaceOnMesh facingPlace(Vector4 point, const Mesh& mesh, VertexIndex closest, VertexIndex opposite)
+{
+  if (opposite == NoVertex || !mesh.isAlive(opposite))
+  {
+    return closestPlaceAt(point, mesh, closest);
+  }
+  const PlaceOnMesh place = closestOnTriangles(point, mesh, closest);
+  const PlaceOnMesh other = closestOnTriangles(point, mesh, opposite);
+  return other.squaredDistance < place.squaredDistance ? other : place;
+}
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "learn/ThinParts.h"
+
+#include "base/Archive.h"
+#include "cloud/OppositeLayer.h"
+
+#include <algorithm>
+#include <array>
+
+namespace neuralmesh
+{
+namespace
+{
+/// They are looked at whenever there are so many times more vertices.
+constexpr double GrowthUntilLook = 1.5;
+}
+
+ThinParts::ThinParts(NeuralMesh& neuralMesh, const Executor& executor)
+  : isThin_(neuralMesh.addProperty(std::uint8_t(1), OnSplit::Copy))
+{
+  look(neuralMesh, executor);
+}
+
+void ThinParts::look(NeuralMesh& neuralMesh, const Executor& executor)
+{
+  const std::span<std::uint8_t> isThin = neuralMesh.values(isThin_);
+  const std::vector<VertexIndex> opposite =
+    oppositeVertices(neuralMesh.mesh(), neuralMesh.grid(), isThin, executor);
+  std::transform(opposite.begin(), opposite.end(), isThin.begin(),
+    [](VertexIndex v) { return std::uint8_t(v == NoVertex ? 0 : 1); });
+  any_ = std::find(isThin.begin(), isThin.end(), 1) != isThin.end();
+  nextLook_ = std::size_t(GrowthUntilLook * double(neuralMesh.vertexCount()));
+}
+
+void ThinParts::lookIfGrown(NeuralMesh& neuralMesh, const Executor& executor)
+{
+  if (any_ && neuralMesh.vertexCount() >= nextLook_)
+  {
+    look(neuralMesh, executor);
+  }
+}
+
+VertexIndex ThinParts::facingWinner(
+  const NeuralMesh& neuralMesh, Vector4 sample, VertexIndex closest) const
+{
+  const Mesh& mesh = neuralMesh.mesh();
+  if (mesh.values(isThin_)[closest] == 0)
+  {
+    return closest;
+  }
+  const VertexIndex opposite = oppositeVertex(mesh, neuralMesh.grid(), closest);
+  if (opposite == NoVertex)
+  {
+    return closest;
+  }
+  const PlaceOnMesh place = facingPlace(sample, mesh, closest, opposite);
+  const std::array<float, 3> weights{ place.weights[0], place.weights[1], place.weights[2] };
+  const auto nearest = std::max_element(weights.begin(), weights.end()) - weights.begin();
+  return place.triangle[std::size_t(nearest)];
+}
+
+void ThinParts::exchange(Archive& archive) { archive(any_, nextLook_); }
+}
