@@ -12,7 +12,7 @@ namespace
 constexpr std::size_t VerticesPerRange = 512;
 /// Looked for from so many edges behind the vertex and before it, and farther away where that finds none: the
 /// farther away, the thinner a part may be. Found up to so many edges from it.
-constexpr std::array<float, 4> ProbeEdges{ -0.5f, 0.5f, -1.5f, 1.5f };
+constexpr std::array<float, 4> ProbeEdges{ -1.5f, 1.5f, -4.f, 4.f };
 constexpr float MostEdges = 1.f;
 /// Of the normals: turned away by more than 110 degrees.
 constexpr float MostCosine = -0.35f;
@@ -25,28 +25,6 @@ float meanEdgeAt(const Mesh& mesh, VertexIndex v)
     sum += std::sqrt(squaredNorm(mesh.position(neighbor) - mesh.position(v)));
   }
   return sum / float(mesh.valence(v));
-}
-
-/// From triangle to triangle, as long as that is closer: where two layers meet, the closest vertex may be
-/// none of those of the closest triangle.
-PlaceOnMesh closestOnTriangles(Vector4 point, const Mesh& mesh, VertexIndex near)
-{
-  PlaceOnMesh best = closestPlaceFrom(point, mesh, near);
-  for (bool isBetter = true; isBetter;)
-  {
-    isBetter = false;
-    const Triangle corners = best.triangle;
-    for (std::size_t i = 1; i < corners.size(); ++i)
-    {
-      const PlaceOnMesh place = closestPlaceAt(point, mesh, corners[i]);
-      if (place.squaredDistance < best.squaredDistance)
-      {
-        best = place;
-        isBetter = true;
-      }
-    }
-  }
-  return best;
 }
 }
 
@@ -101,14 +79,34 @@ std::vector<VertexIndex> oppositeVertices(const Mesh& mesh, const VertexGrid& gr
   return result;
 }
 
+PlaceOnMesh closestPlaceOnLayer(Vector4 point, const Mesh& mesh, VertexIndex near)
+{
+  PlaceOnMesh best = closestPlaceFrom(point, mesh, near);
+  for (bool isBetter = true; isBetter;)
+  {
+    isBetter = false;
+    const Triangle corners = best.triangle;
+    for (std::size_t i = 1; i < corners.size(); ++i)
+    {
+      const PlaceOnMesh place = closestPlaceAt(point, mesh, corners[i]);
+      if (place.squaredDistance < best.squaredDistance)
+      {
+        best = place;
+        isBetter = true;
+      }
+    }
+  }
+  return best;
+}
+
 PlaceOnMesh facingPlace(Vector4 point, const Mesh& mesh, VertexIndex closest, VertexIndex opposite)
 {
   if (opposite == NoVertex || !mesh.isAlive(opposite))
   {
     return closestPlaceAt(point, mesh, closest);
   }
-  const PlaceOnMesh place = closestOnTriangles(point, mesh, closest);
-  const PlaceOnMesh other = closestOnTriangles(point, mesh, opposite);
+  const PlaceOnMesh place = closestPlaceOnLayer(point, mesh, closest);
+  const PlaceOnMesh other = closestPlaceOnLayer(point, mesh, opposite);
   return other.squaredDistance < place.squaredDistance ? other : place;
 }
 }

@@ -22,6 +22,10 @@ VertexIndex oppositeVertex(const Mesh& mesh, const VertexGrid& grid, VertexIndex
 std::vector<VertexIndex> oppositeVertices(const Mesh& mesh, const VertexGrid& grid,
   std::span<const std::uint8_t> isAsked, const Executor& executor = Executor::sequential());
 
+/// The place on the layer of a vertex: goes from triangle to triangle as long as that is closer. Where two layers
+/// meet, the closest vertex may be none of those of the closest triangle.
+PlaceOnMesh closestPlaceOnLayer(Vector4 point, const Mesh& mesh, VertexIndex near);
+
 /// The place on the layer that faces the point: the closer one of the place near `closest`, the closest
 /// vertex, and of that near `opposite`, a vertex of the other layer. If `opposite` is NoVertex, or erased,
 /// that on the triangles of `closest`.

@@ -146,13 +146,15 @@ void SurfaceFit::findPlace(std::size_t sample, const VertexGrid& grid)
     place = facingPlace(point, mesh_, closest, opposite_[closest]);
     return;
   }
-  place = closestPlaceFrom(point, mesh_, place.triangle[0]);
   const VertexIndex opposite = opposite_[place.triangle[0]];
-  if (opposite != NoVertex)
+  if (opposite == NoVertex)
   {
-    const PlaceOnMesh facing = facingPlace(point, mesh_, place.triangle[0], opposite);
-    isUsed_[sample] = facing.squaredDistance < place.squaredDistance ? 0 : 1;
+    place = closestPlaceFrom(point, mesh_, place.triangle[0]);
+    return;
   }
+  place = closestPlaceOnLayer(point, mesh_, place.triangle[0]);
+  const PlaceOnMesh other = closestPlaceOnLayer(point, mesh_, opposite);
+  isUsed_[sample] = other.squaredDistance < place.squaredDistance ? 0 : 1;
 }
 
 void SurfaceFit::chooseUsed(float edges)

@@ -85,7 +85,7 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters, const Me
   }
   isListDue_ = parameters.order == Order::List;
   enterListIfDue();
-  thinParts_.emplace(neuralMesh_, executor);
+  thinParts_.find(neuralMesh_, executor);
   observeFirstMesh();
 }
 
@@ -98,6 +98,7 @@ Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mes
   , samples_(cloud.points(), parameters.seed, cloud.weights())
   , noiseFilter_(parameters)
   , winGain_(parameters)
+  , thinParts_(neuralMesh_)
 {
   if (!parameters.filtersNoise())
   {
@@ -156,7 +157,7 @@ void Learner::learnBatch(std::size_t size)
   noiseFilter_.beginBatch(size, neuralMesh_.vertexCount());
   winGain_.beginBatch(noiseFilter_.observationStride());
   findWinners(samples);
-  const bool hasThinParts = thinParts_ && thinParts_->any();
+  const bool hasThinParts = thinParts_.any();
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
     neuralMesh_.prefetchBehind(i, winners_);
@@ -166,7 +167,7 @@ void Learner::learnBatch(std::size_t size)
     }
     if (hasThinParts)
     {
-      winners_[i] = thinParts_->facingWinner(neuralMesh_, samples[i], winners_[i]);
+      winners_[i] = thinParts_.facingWinner(neuralMesh_, samples[i], winners_[i]);
     }
     basicStep(samples[i], winners_[i]);
     ++counts_.iterations;
@@ -186,7 +187,7 @@ void Learner::learnBatch(std::size_t size)
   neuralMesh_.compactIfGrown(executor_);
   if (hasThinParts)
   {
-    thinParts_->lookIfGrown(neuralMesh_, executor_);
+    thinParts_.lookIfGrown(neuralMesh_, executor_);
   }
 }
 
@@ -305,10 +306,7 @@ void Learner::exchange(Archive& archive)
   const std::uint64_t mostSamplesAfterGrowth = samplesAfterGrowth_;
   archive(nextAddition_, nextRemoval_, nextTopology_, samplesAfterGrowth_);
   archive.require(samplesAfterGrowth_ <= mostSamplesAfterGrowth);
-  if (thinParts_)
-  {
-    thinParts_->exchange(archive);
-  }
+  thinParts_.exchange(archive);
   if (archive.isReading())
   {
     updateDecay();

@@ -167,12 +167,12 @@ private:
   SampleStream samples_;
   NoiseFilter noiseFilter_;
   WinGain winGain_;
+  /// None where learning has started from a tetrahedron: its sides are no layers yet.
+  ThinParts thinParts_;
   /// Since the last removal. Nothing where noise is filtered.
   std::optional<VertexProperty<std::uint8_t>> hasWon_;
   std::optional<FeatureStrength> featureStrength_;
   std::optional<TopologyLearning> topology_;
-  /// Nothing where learning has started from a tetrahedron: its sides are no layers yet.
-  std::optional<ThinParts> thinParts_;
   BoundarySmoothing boundarySmoothing_ = BoundarySmoothing::Along;
   RunCounts counts_;
   std::vector<VertexIndex> winners_; ///< of the samples of a batch

@@ -15,9 +15,15 @@ namespace
 constexpr double GrowthUntilLook = 1.5;
 }
 
-ThinParts::ThinParts(NeuralMesh& neuralMesh, const Executor& executor)
-  : isThin_(neuralMesh.addProperty(std::uint8_t(1), OnSplit::Copy))
+ThinParts::ThinParts(NeuralMesh& neuralMesh)
+  : isThin_(neuralMesh.addProperty(std::uint8_t(0), OnSplit::Copy))
 {
+}
+
+void ThinParts::find(NeuralMesh& neuralMesh, const Executor& executor)
+{
+  const std::span<std::uint8_t> isThin = neuralMesh.values(isThin_);
+  std::fill(isThin.begin(), isThin.end(), std::uint8_t(1));
   look(neuralMesh, executor);
 }
 

@@ -17,9 +17,10 @@ class Archive;
 class ThinParts
 {
 public:
-  /// Looks for them.
-  ThinParts(NeuralMesh& neuralMesh, const Executor& executor);
+  explicit ThinParts(NeuralMesh& neuralMesh);
 
+  /// Looks for them among all vertices; before, there are none.
+  void find(NeuralMesh& neuralMesh, const Executor& executor);
   bool any() const { return any_; }
   /// The winner that faces the sample, where `closest` is the closest vertex.
   VertexIndex facingWinner(const NeuralMesh& neuralMesh, Vector4 sample, VertexIndex closest) const;

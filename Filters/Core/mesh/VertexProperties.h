@@ -109,8 +109,8 @@ private:
   struct Column
   {
     std::vector<T> values;
-    T first;
-    OnSplit onSplit;
+    T first{};
+    OnSplit onSplit = OnSplit::Copy;
   };
 
   template <typename Use>

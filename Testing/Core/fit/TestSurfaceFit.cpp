@@ -269,7 +269,7 @@ TEST(SurfaceFit, SidesOfAThinPlateStayApart)
   constexpr double Thickness = 0.2 / Side;
   const PointCloud cloud(platePoints(20000, Thickness, 0.1 * Thickness));
   Mesh mesh = buildMesh(makePlate(Side, 1.5 * Thickness), cloud);
-  fitted(cloud, mesh, 0.);
+  fitted(cloud, mesh, 0.1);
   for (const Eigen::Vector3d& point : trianglesOf(mesh, cloud).points)
   {
     const double fromRim = std::min({ point.x(), point.y(), 1. - point.x(), 1. - point.y() });
