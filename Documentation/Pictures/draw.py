@@ -327,16 +327,6 @@ def failure_thin():
     return failure(points, "z", 20, 40, meshes=({"vertices": 1000}, {"vertices": 10000}))
 
 
-def failure_views():
-    """Three views that lie a half percent of the diagonal apart."""
-    random = np.random.default_rng(3)
-    size = np.linalg.norm(np.ptp(bunny()[0], axis=0))
-    views = [clouds.sample(*bunny(), 60000, seed=seed) + random.normal(0, 0.003 * size, 3)
-             for seed in (1, 2, 3)]
-    return failure(np.vstack(views), "y", 30, 10,
-                   meshes=({"vertices": 20000}, {"vertices": 20000, "fit_smoothness": 10}))
-
-
 def failure_finer():
     points = ball(1500) * (1 + np.random.default_rng(3).normal(0, 0.02, (1500, 1)))
     return failure(points, "y", 30, 10, meshes=({"vertices": 1400}, {"vertices": 300}))

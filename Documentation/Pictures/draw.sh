@@ -6,7 +6,7 @@ cd "$(dirname "$0")/../.."
 
 declare -A pictures=(
   [draw.py]="leap errors hard_scans details growth noise topology normals ensemble first_mesh openings
-    sides orders failure_missing failure_thin failure_views failure_finer"
+    sides orders failure_missing failure_thin failure_finer"
   [draw_charts.py]="steps sweep_moves sweep_growth sweep_noise sweep_fit"
   [draw_house.py]="rooms"
   [draw_tutorial.sh]="tutorial_scan tutorial_mesh tutorial_window tutorial_colours
