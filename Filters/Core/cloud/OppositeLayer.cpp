@@ -10,9 +10,8 @@ namespace
 {
 /// A part for the executor.
 constexpr std::size_t VerticesPerRange = 512;
-/// Looked for from so many edges behind the vertex and before it, and farther away where that finds none: the
-/// farther away, the thinner a part may be. Found up to so many edges from it.
-constexpr std::array<float, 4> ProbeEdges{ -1.5f, 1.5f, -4.f, 4.f };
+/// Looked for from so many edges behind the vertex and before it. Found up to so many edges from it.
+constexpr std::array<float, 2> ProbeEdges{ -1.5f, 1.5f };
 constexpr float MostEdges = 1.f;
 /// Of the normals: turned away by more than 110 degrees.
 constexpr float MostCosine = -0.35f;
