@@ -17,13 +17,13 @@ namespace neuralmesh
 VertexIndex oppositeVertex(const Mesh& mesh, const VertexGrid& grid, VertexIndex v);
 
 /// The same for each vertex of a mesh; NoVertex nearly everywhere. Elsewhere the surface is thin, or a gap
-/// narrow, and a sample may be closer to a vertex of the other layer than to any of its own. Erased vertices have none, and those that are
-/// not asked for; without `isAsked` all are.
+/// narrow, and a sample may be closer to a vertex of the other layer than to any of its own. Erased
+/// vertices have none, and those that are not asked for; without `isAsked` all are.
 std::vector<VertexIndex> oppositeVertices(const Mesh& mesh, const VertexGrid& grid,
   std::span<const std::uint8_t> isAsked, const Executor& executor = Executor::sequential());
 
-/// The place on the layer of a vertex: goes from triangle to triangle as long as that is closer. Where two layers
-/// meet, the closest vertex may be none of those of the closest triangle.
+/// The place on the layer of a vertex: goes from triangle to triangle as long as that is closer. Where
+/// two layers meet, the closest vertex may be none of those of the closest triangle.
 PlaceOnMesh closestPlaceOnLayer(Vector4 point, const Mesh& mesh, VertexIndex near);
 
 /// The place on the layer that faces the point: the closer one of the place near `closest`, the closest

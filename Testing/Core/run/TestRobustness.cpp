@@ -38,7 +38,7 @@ TEST(Robustness, SpreadOutliers)
 {
   for (const TrueSurface& shape : { trueSphere(), trueTorus() })
   {
-    for (const std::uint64_t seed : { 1u, 2u })
+    for (const std::uint64_t seed : { 1u, 2u, 3u, 4u })
     {
       SCOPED_TRACE(shape.name + ", " + std::to_string(seed));
       CloudOptions options;
