@@ -232,22 +232,3 @@ void vtkNeuralMeshOrientation::AddReport(
     output, "UnorientedPieces", static_cast<vtkIdType>(report.unknownPieces));
   vtkMeshArrays::AddFieldValue<vtkDoubleArray>(output, "UnorientedShare", report.unknownShare());
 }
-
-void vtkNeuralMeshOrientation::Warn(
-  const neuralmesh::OrientationReport& report, vtkNeuralMeshAlgorithm* filter)
-{
-  using neuralmesh::SideEvidence;
-  if (report.hasToldNothing(SideEvidence::Viewpoints))
-  {
-    vtkWarningWithObjectMacro(filter, << "The viewpoints tell nothing of the sides of the surface: "
-                                         "they are not finite, see as much of either side, or are "
-                                         "those of no point.");
-  }
-  if (report.hasToldNothing(SideEvidence::Normals))
-  {
-    vtkWarningWithObjectMacro(
-      filter, << "The normals of the input tell nothing of the sides of the "
-                 "surface: they are zero, not finite, or point to either "
-                 "side.");
-  }
-}

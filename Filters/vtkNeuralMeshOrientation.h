@@ -40,9 +40,8 @@ public:
   /** Adds the field data of the input in which viewpoints are. */
   void CopyViewpoints(vtkPolyData* part) const;
 
-  /** The figures in the field data, and a warning where something that was given tells nothing. */
+  /** The figures in the field data. */
   static void AddReport(const neuralmesh::OrientationReport& report, vtkPolyData* output);
-  static void Warn(const neuralmesh::OrientationReport& report, vtkNeuralMeshAlgorithm* filter);
 
 private:
   /** An array in each leaf; null where there is none. Empty if there is none at all. */

@@ -3,6 +3,7 @@
 
 #include "learn/Parameters.h"
 #include "run/StreamingReconstruction.h"
+#include "vtkExplainedPoints.h"
 #include "vtkMeshArrays.h"
 #include "vtkNeuralMeshOrientation.h"
 #include "vtkNeuralMeshReport.h"
@@ -13,13 +14,12 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
+#include <string>
 
 vtkStandardNewMacro(vtkNeuralMeshStream);
 
@@ -27,28 +27,6 @@ namespace
 {
 /// Learnt between two looks at the clock.
 constexpr std::uint64_t SamplesPerLook = 20000;
-
-void Fill(const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output)
-{
-  vtkNeuralMeshReport::FillMesh(result, vtkAlgorithm::DOUBLE_PRECISION, output);
-  vtkNeuralMeshOrientation::AddReport(result.orientation, output);
-  if (!result.quality)
-  {
-    return;
-  }
-  const auto addNumber = [output](const char* name, double value)
-  { vtkMeshArrays::AddFieldValue<vtkDoubleArray>(output, name, value); };
-  const auto addCount = [output](const char* name, auto count)
-  { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, static_cast<vtkIdType>(count)); };
-  addNumber("Residual", result.quality->residual);
-  // As long as nothing is fitted, noise is not known.
-  addNumber("Noise",
-    result.finish ? result.finish->noise * unit : std::numeric_limits<double>::quiet_NaN());
-  addNumber("OutlierShare", result.quality->outlierShare);
-  addCount("Components", result.quality->surface.components);
-  addCount("Genus", result.quality->surface.genus.value_or(-1));
-  addCount("BoundaryLoops", result.quality->surface.boundaryLoops);
-}
 }
 
 vtkNeuralMeshStream::vtkNeuralMeshStream() { this->SetNumberOfInputPorts(0); }
@@ -210,8 +188,18 @@ int vtkNeuralMeshStream::RequestData(
   const neuralmesh::Reconstruction result = this->Stream->mesh(
     this->FinishOutput, [&progress](double fraction) { return progress.Report(fraction); }, hints);
   this->AbortExecute = 0;
-  vtkNeuralMeshOrientation::Warn(result.orientation, this);
-  Fill(result, this->Stream->unit(), output);
+  for (const std::string& warning : result.warnings)
+  {
+    vtkWarningMacro(<< warning);
+  }
+  vtkNeuralMeshReport::FillMesh(result, DOUBLE_PRECISION, output);
+  vtkNeuralMeshOrientation::AddReport(result.orientation, output);
+  if (result.quality)
+  {
+    vtkNeuralMeshReport::AddQuality(result, this->Stream->unit(), output);
+    vtkExplainedPoints::AddCounts(*result.explanation, output);
+  }
+  vtkNeuralMeshReport::AddWarnings(result.warnings, output);
   const auto add = [output](const char* name, vtkIdType value)
   { vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(output, name, value); };
   add("NumberOfVertices", output->GetNumberOfPoints());

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Promises: the output is the mesh of all points that have come, from points or datasets, fitted or
 // not, with its arrays; the same calls give the same bytes; a reservoir may be smaller than what comes;
-// without points it is empty; what does not go together is an error; an abort is obeyed; Reset()
+// without points it is empty; what a user must know of the mesh is warned of, and stands in the field data;
+// what does not go together is an error; an abort is obeyed; Reset()
 // forgets; values out of range are clamped.
 #include "FilterTesting.h"
 
 #include "vtkNeuralMeshStream.h"
 
 #include "vtkExecutive.h"
+#include "vtkFieldData.h"
 #include "vtkPointData.h"
+#include "vtkStringArray.h"
 
 #include <cmath>
 #include <sstream>
@@ -123,6 +126,32 @@ int CheckUnfitted()
   return EXIT_SUCCESS;
 }
 
+int CheckWarnings()
+{
+  vtkNew<vtkNeuralMeshStream> stream;
+  vtkNew<FilterTesting::MessageCounter> messages;
+  messages->Observe(stream);
+  stream->SetNumberOfVertices(300);
+  stream->AddPoints(FilterTesting::SpherePoints(400));
+  stream->Learn(60000);
+  stream->Update();
+  const auto warningsOf = [](vtkPolyData* mesh)
+  {
+    return vtkStringArray::SafeDownCast(mesh->GetFieldData()->GetAbstractArray("Warnings"));
+  };
+  vtkPolyData* mesh = stream->GetOutput();
+  CHECK(warningsOf(mesh) && warningsOf(mesh)->GetNumberOfValues() == messages->Warnings);
+  CHECK(messages->Warnings > 0);
+  CHECK(warningsOf(mesh)->GetValue(0).find("finer than its data") != std::string::npos);
+  CHECK(FilterTesting::FieldValue(mesh, "UnexplainedShare") < 0.01);
+
+  vtkNew<vtkNeuralMeshStream> coarser;
+  Run(coarser);
+  coarser->Update();
+  CHECK(warningsOf(coarser->GetOutput())->GetNumberOfValues() == 0);
+  return EXIT_SUCCESS;
+}
+
 int CheckErrors()
 {
   vtkNew<vtkNeuralMeshStream> stream;
@@ -194,6 +223,7 @@ int TestNeuralMeshStream(int, char*[])
 {
   CHECK(CheckMesh() == EXIT_SUCCESS);
   CHECK(CheckUnfitted() == EXIT_SUCCESS);
+  CHECK(CheckWarnings() == EXIT_SUCCESS);
   CHECK(CheckErrors() == EXIT_SUCCESS);
   CHECK(CheckEnds() == EXIT_SUCCESS);
   return EXIT_SUCCESS;

@@ -15,43 +15,6 @@ namespace
 constexpr std::size_t PointsPerVertex = 2;
 constexpr std::size_t LeastLearnt = 100;
 
-/// Points that are explained where only their numbers are wanted.
-constexpr std::size_t PointsExplained = 10000;
-/// Those that vertices rest on: hardly a vertex is without any.
-constexpr std::size_t PointsPerVertexOfSupport = 4;
-
-/// Which points of a cloud are not in what is left of it, which has the same order.
-std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& left)
-{
-  std::vector<std::uint8_t> result(cloud.points().size(), 1);
-  for (std::size_t i = 0, kept = 0; i < cloud.points().size() && kept < left.points().size(); ++i)
-  {
-    if (!(squaredNorm(cloud.points()[i] - left.points()[kept]) > 0.f))
-    {
-      result[i] = 0;
-      ++kept;
-    }
-  }
-  return result;
-}
-
-/// What becomes of the points of a cloud; `left` are those without clusters of outliers, if it has some.
-void explainPoints(const PointCloud& cloud, const PointCloud* left, double leastPiece,
-  bool explainsAll, Reconstruction& result, const Executor& executor)
-{
-  ExplanationRules rules;
-  rules.leastPiece = leastPiece;
-  if (left)
-  {
-    rules.isLeftOut = leftOutOf(cloud, *left);
-  }
-  const auto mostOf = [&](std::size_t some) { return explainsAll ? cloud.points().size() : some; };
-  result.explanation = explain(
-    cloud, distancesTo(result.surface, cloud, mostOf(PointsExplained), executor), rules, executor);
-  result.support = supportOf(result.surface, cloud,
-    mostOf(PointsPerVertexOfSupport * result.surface.vertexCount()), executor);
-}
-
 /// Learns until a stopping rule is met; returns which.
 StopReason learnAll(LearningState state, Checkpoint& checkpoint, const PointCloud& cloud,
   const Parameters& parameters, const GrowthWatch& watch, const Progress& progress)

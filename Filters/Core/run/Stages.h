@@ -57,4 +57,9 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
 void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
   const OrientationHints& hints, Reconstruction& result,
   const Executor& executor = Executor::sequential());
+
+/// Adds to what is described what becomes of the points of the cloud, of all or of some; `left` are those
+/// without clusters of outliers, if it has some. Fewer points than the part `leastPiece` are a small piece.
+void explainPoints(const PointCloud& cloud, const PointCloud* left, double leastPiece,
+  bool explainsAll, Reconstruction& result, const Executor& executor = Executor::sequential());
 }

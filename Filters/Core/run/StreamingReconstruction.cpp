@@ -2,11 +2,13 @@
 #include "run/StreamingReconstruction.h"
 
 #include "run/Stages.h"
+#include "run/Warnings.h"
 #include "start/OccupiedVoxels.h"
 #include "start/OutlierClusters.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -135,9 +137,10 @@ bool StreamingReconstruction::takeInPoints(const Progress& progress)
   {
     return hasMesh();
   }
+  std::optional<PointCloud> withClusters;
   if (auto cleaned = withoutClusters(*cloud))
   {
-    *cloud = std::move(*cleaned);
+    withClusters = std::exchange(*cloud, std::move(*cleaned));
   }
   Parameters parameters = learnable(parameters_, *cloud);
   parameters.seed += clouds_++;
@@ -157,6 +160,7 @@ bool StreamingReconstruction::takeInPoints(const Progress& progress)
     }
   }
   cloud_ = std::move(cloud);
+  withClusters_ = std::move(withClusters);
   directions_ = reservoir_.directions();
   takenIn_ = reservoir_.seen();
   return true;
@@ -210,7 +214,14 @@ Reconstruction StreamingReconstruction::mesh(
     allHints.normalOf = [this](std::uint32_t point) { return directions_[point].cast<double>(); };
   }
   const bool isMeasured = isFinished && result.isComplete();
-  describe(std::move(learnt), *cloud_, isMeasured ? cloud_.get() : nullptr, allHints, result);
+  const PointCloud& all = withClusters_ ? *withClusters_ : *cloud_;
+  describe(std::move(learnt), *cloud_, isMeasured ? &all : nullptr, allHints, result);
+  if (isMeasured)
+  {
+    explainPoints(
+      all, withClusters_ ? &*cloud_ : nullptr, parameters_.keepPieces, false, result);
+  }
+  result.warnings = warningsOf(result, all);
   return result;
 }
 }

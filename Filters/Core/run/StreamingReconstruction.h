@@ -42,8 +42,8 @@ public:
   bool hasMesh() const { return learner_.has_value(); }
   /// The mesh as it is, if there is one. With `isFinished` it is fitted to the points of the last
   /// learn() by FitRounds, opened and repaired, and measured, unless `progress` ends that; and if it
-  /// has all its vertices, it has as many as were asked for. Without rounds it is only measured. The
-  /// stream itself stays as it is. The mesh is turned to its outer side by `hints`, of which viewpoints
+  /// has all its vertices, it has as many as were asked for. Without rounds it is only measured. What is
+  /// measured has warnings, too. The stream itself stays as it is. The mesh is turned to its outer side by `hints`, of which viewpoints
   /// and up direction count, and by the directions of the points.
   Reconstruction mesh(
     bool isFinished, const Progress& progress, const OrientationHints& hints = {}) const;
@@ -67,6 +67,7 @@ private:
   std::uint64_t takenIn_ = 0; ///< how many had come when the cloud was made
   std::uint64_t clouds_ = 0;
   std::unique_ptr<PointCloud> cloud_;
+  std::optional<PointCloud> withClusters_; ///< the same with clusters of outliers, if it has some
   std::vector<Eigen::Vector3f> directions_; ///< of what the cloud was made of
   std::optional<Learner> learner_;
   std::optional<double> bridgeWidth_;

@@ -105,9 +105,8 @@ class Stream:
             progress: As in reconstruct(); if it returns False, the mesh is fitted in part only.
 
         Returns:
-            vtkPolyData as from reconstruct(), in 8-byte floats, without point data but `Normals` and
-            `Activity`; without points as long as there are too few for a mesh. Field data as in
-            vtkNeuralMeshStream.
+            vtkPolyData as from reconstruct(), in 8-byte floats, without data of the input points; without
+            points as long as there are too few for a mesh. Field data as in vtkNeuralMeshStream.
         """
         self._algorithm.SetFinishOutput(bool(finish))
         execute(self._algorithm, progress)
