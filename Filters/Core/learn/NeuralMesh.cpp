@@ -42,6 +42,8 @@ NeuralMesh::NeuralMesh(Mesh mesh, std::unique_ptr<ActivityOrder> order, Vector4 
   , boxMax_(boxMax)
   , mostVertices_(mostVertices)
 {
+  // Those of another learner: a checkpoint would hold them only where learning began from its mesh.
+  mesh_.dropProperties();
   compact(executor);
 }
 

@@ -123,6 +123,8 @@ public:
   {
     return properties_.add(indexEnd(), first, onSplit);
   }
+  /// Forgets all of them.
+  void dropProperties() { properties_ = VertexProperties(); }
   /// The values of a property, by the index of the vertex.
   template <typename T>
   std::span<T> values(VertexProperty<T> property)

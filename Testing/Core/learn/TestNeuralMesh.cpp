@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/Archive.h"
 #include "BoundaryTools.h"
 #include "learn/ExactOrder.h"
 #include "learn/ListOrder.h"
@@ -58,6 +59,25 @@ std::string disagreementIn(const NeuralMesh& neuralMesh, Random& random)
   }
   return {};
 }
+}
+
+// What another learner knew of the vertices of its mesh is no part of one that begins from it: what is read
+// from a checkpoint would be in other places.
+TEST(NeuralMesh, TakesNoPropertiesOver)
+{
+  const auto checksumFrom = [](Mesh mesh)
+  {
+    NeuralMesh neuralMesh(std::move(mesh), std::make_unique<ExactOrder>(4),
+      Vector4(-1.f, -1.f, -1.f), Vector4(1.f, 1.f, 1.f), VertexLimit);
+    neuralMesh.addProperty(1.f, OnSplit::Copy);
+    Archive archive;
+    archive(neuralMesh);
+    archive.finish();
+    return archive.checksum();
+  };
+  Mesh used = Mesh::tetrahedron({}, 0.1f);
+  used.addProperty(std::uint8_t(7), OnSplit::Begin);
+  EXPECT_EQ(checksumFrom(std::move(used)), checksumFrom(Mesh::tetrahedron({}, 0.1f)));
 }
 
 // After each call of a random sequence of them the mesh is a manifold, its closest vertex is found,
