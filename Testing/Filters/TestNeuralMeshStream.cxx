@@ -136,9 +136,7 @@ int CheckWarnings()
   stream->Learn(60000);
   stream->Update();
   const auto warningsOf = [](vtkPolyData* mesh)
-  {
-    return vtkStringArray::SafeDownCast(mesh->GetFieldData()->GetAbstractArray("Warnings"));
-  };
+  { return vtkStringArray::SafeDownCast(mesh->GetFieldData()->GetAbstractArray("Warnings")); };
   vtkPolyData* mesh = stream->GetOutput();
   CHECK(warningsOf(mesh) && warningsOf(mesh)->GetNumberOfValues() == messages->Warnings);
   CHECK(messages->Warnings > 0);

@@ -218,8 +218,7 @@ Reconstruction StreamingReconstruction::mesh(
   describe(std::move(learnt), *cloud_, isMeasured ? &all : nullptr, allHints, result);
   if (isMeasured)
   {
-    explainPoints(
-      all, withClusters_ ? &*cloud_ : nullptr, parameters_.keepPieces, false, result);
+    explainPoints(all, withClusters_ ? &*cloud_ : nullptr, parameters_.keepPieces, false, result);
   }
   result.warnings = warningsOf(result, all);
   return result;

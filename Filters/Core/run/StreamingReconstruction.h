@@ -67,7 +67,7 @@ private:
   std::uint64_t takenIn_ = 0; ///< how many had come when the cloud was made
   std::uint64_t clouds_ = 0;
   std::unique_ptr<PointCloud> cloud_;
-  std::optional<PointCloud> withClusters_; ///< the same with clusters of outliers, if it has some
+  std::optional<PointCloud> withClusters_;  ///< the same with clusters of outliers, if it has some
   std::vector<Eigen::Vector3f> directions_; ///< of what the cloud was made of
   std::optional<Learner> learner_;
   std::optional<double> bridgeWidth_;

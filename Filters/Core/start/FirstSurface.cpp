@@ -398,17 +398,19 @@ bool showsBothLayers(const FrontSurface& apart, const FrontSurface& joined)
     BoundaryManager(joined.mesh).loopCount() + MostLoopsOfSheet;
 }
 
-/// The front of the candidates that agrees best with itself, if any does.
+/// The front of the candidates that agrees best with itself, if any does. Where there is a closed solid
+/// already, only one that is certain counts.
 std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const NearestPoints& nearest,
-  std::size_t mostVertices, Boundaries boundaries, const Progress& progress, double leastPiece)
+  std::size_t mostVertices, Boundaries boundaries, const Progress& progress, double leastPiece,
+  bool mustBeCertain)
 {
   const std::size_t samples = std::clamp(mostVertices, LeastSamples, MostSamples);
   std::optional<FrontSurface> best;
   double at = 0.;
   for (const Layers layers : { Layers::Joined, Layers::Apart })
   {
-    auto front = frontSurface(
-      cloud, nearest, samples, layers, SeedOfFront, partOf(progress, at, at + 0.5), leastPiece);
+    auto front = frontSurface(cloud, nearest, samples, layers, SeedOfFront,
+      partOf(progress, at, at + 0.5), leastPiece, mustBeCertain ? MostScatter : 1.);
     if (front && (!best || front->disorder() < best->disorder() || showsBothLayers(*front, *best)))
     {
       best = std::move(front);
@@ -469,9 +471,10 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
   {
     return std::move(grid->surface);
   }
-  if (auto front = surfaceOfFront(cloud, nearest, mostOfFront, boundaries, ofFront, leastPiece))
+  const bool isClosed = grid && !skin && grid->surface.isCertain;
+  if (auto front =
+        surfaceOfFront(cloud, nearest, mostOfFront, boundaries, ofFront, leastPiece, isClosed))
   {
-    const bool isClosed = grid && !skin && grid->surface.isCertain;
     const double left = grid ? grid->evidence.unexplained : 1.;
     if ((front->isCertain || !isClosed) &&
       evidenceFor(cloud, nearest, front->mesh).unexplained <= left)

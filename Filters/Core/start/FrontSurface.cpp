@@ -46,10 +46,11 @@ void dropSmallPieces(TriangleMesh& mesh, double leastPiece)
 }
 
 std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestPoints& nearest,
-  std::size_t count, Layers layers, std::uint64_t seed, const Progress& progress, double leastPiece)
+  std::size_t count, Layers layers, std::uint64_t seed, const Progress& progress, double leastPiece,
+  double mostScatter)
 {
   const auto [samples, inNoLayer, inOneOfTwo] =
-    layerSamples(nearest, count, layers, seed, partOf(progress, 0., PartOfSamples));
+    layerSamples(nearest, count, layers, seed, partOf(progress, 0., PartOfSamples), mostScatter);
   if (samples.empty() || !progress(PartOfSamples))
   {
     return {};

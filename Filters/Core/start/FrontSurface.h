@@ -36,8 +36,9 @@ inline constexpr double LeastPiece = 0.0005;
 
 /// The surface of about `count` samples on the layers of the cloud: with boundaries where the cloud ends,
 /// and as many pieces as that has. Without pieces of less than `leastPiece` of the triangles. Nothing if
-/// there are too few points, or it was ended before.
+/// there are too few points, it was ended before, or it is sure while samples are taken that more than the
+/// part `mostScatter` of them lies in no layer.
 std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestPoints& nearest,
   std::size_t count, Layers layers, std::uint64_t seed, const Progress& progress,
-  double leastPiece = LeastPiece);
+  double leastPiece = LeastPiece, double mostScatter = 1.);
 }

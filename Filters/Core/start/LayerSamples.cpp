@@ -69,6 +69,8 @@ constexpr std::size_t LayersPerCheck = 256;
 constexpr std::size_t SamplesPerProbe = 16;
 /// Of those tried so far: where so many lie in no layer, the noise is wider than samples are apart.
 constexpr double MostInNoLayer = 0.25;
+/// It is sure that there are more than are allowed beyond so many deviations of chance.
+constexpr double DeviationsOfSure = 4.;
 
 /// How far points are from each other around one.
 struct Spacing
@@ -337,6 +339,14 @@ std::vector<LayerSample> withoutStrays(std::vector<LayerSample> samples)
   std::erase_if(samples, [&](const LayerSample&) { return isStray[i++]; });
   return samples;
 }
+
+/// Whether too many of those tried lie in no layer.
+bool areTooMany(std::size_t inNoLayer, std::size_t tried, double most)
+{
+  const double allowed = most * double(tried);
+  return double(inNoLayer) >
+    std::min(MostInNoLayer * double(tried), allowed + DeviationsOfSure * std::sqrt(allowed));
+}
 }
 
 float pointSpacing(const NearestPoints& nearest, std::uint32_t point)
@@ -356,7 +366,7 @@ std::optional<Vector4> placeInLayer(const NearestPoints& nearest, std::uint32_t 
 }
 
 LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layers layers,
-  std::uint64_t seed, const Progress& progress)
+  std::uint64_t seed, const Progress& progress, double mostInNoLayer)
 {
   const DiskRadius diskRadius(nearest, count);
   const std::span<const Vector4> points = nearest.points();
@@ -374,7 +384,7 @@ LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layer
     }
     const std::size_t tried = samples.size() + inNoLayer;
     if (tried > 0 && tried % LayersPerCheck == 0 &&
-      (double(inNoLayer) > MostInNoLayer * double(tried) ||
+      (areTooMany(inNoLayer, tried, mostInNoLayer) ||
         !progress(std::min(1., double(samples.size()) / double(count)))))
     {
       return {};

@@ -42,7 +42,8 @@ struct LayerSamples
 /// the others than a radius that grows with the root of the distance between points. (A radius that
 /// grows with the distance itself leaves nothing of what is sparse.) Each is moved onto the layer that
 /// it lies in by as few of its nearest points as the noise needs; what lies in no layer is left out.
-/// None at all if a quarter of them lies in no layer, or it was ended before.
+/// None at all if a quarter of them lies in no layer, or it was ended before, or it is sure that more than the
+/// part `mostInNoLayer` does: that is known early where outliers are in all of space.
 LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layers layers,
-  std::uint64_t seed, const Progress& progress);
+  std::uint64_t seed, const Progress& progress, double mostInNoLayer);
 }
