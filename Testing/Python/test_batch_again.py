@@ -171,10 +171,10 @@ class Ends(BatchTest):
         # It may not come to its end before the other one has begun.
         self.process.send_signal(signal.SIGSTOP)
         _, errors, status = self.run_batch()
-        self.assertEqual(status, 1)
-        self.assertIn("another batch is working there", errors)
         self.process.send_signal(signal.SIGCONT)
         self.process.terminate()
+        self.assertEqual(status, 1)
+        self.assertIn("another batch is working there", errors)
         self.process.wait()
 
 

@@ -43,8 +43,8 @@ public:
   /// The mesh as it is, if there is one. With `isFinished` it is fitted to the points of the last
   /// learn() by FitRounds, opened and repaired, and measured, unless `progress` ends that; and if it
   /// has all its vertices, it has as many as were asked for. Without rounds it is only measured. What is
-  /// measured has warnings, too. The stream itself stays as it is. The mesh is turned to its outer side by `hints`, of which viewpoints
-  /// and up direction count, and by the directions of the points.
+  /// measured has warnings, too. The stream itself stays as it is. The mesh is turned to its outer side by
+  /// `hints`, of which viewpoints and up direction count, and by the directions of the points.
   Reconstruction mesh(
     bool isFinished, const Progress& progress, const OrientationHints& hints = {}) const;
 
