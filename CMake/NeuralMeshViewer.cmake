@@ -21,13 +21,15 @@ function(neuralmesh_is_viewer file result)
   endif ()
 endfunction ()
 
-# Fetches it and its licence to where the package has it, if all goes well.
+# Fetches it and its licence to where the package has it, if all goes well. By itself npm tries for more
+# than a minute where there is no way out, at each configuration.
 function(neuralmesh_fetch_viewer)
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/vtk.js")
   file(REMOVE_RECURSE "${folder}")
   file(MAKE_DIRECTORY "${folder}")
   execute_process(
     COMMAND "${NEURALMESH_NPM}" pack --silent "vtk.js@${viewer_version}"
+      --fetch-retries=1 --fetch-retry-mintimeout=1000 --fetch-timeout=20000
     WORKING_DIRECTORY "${folder}" TIMEOUT 120
     OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE status)
   set(archive "${folder}/vtk.js-${viewer_version}.tgz")
