@@ -61,6 +61,7 @@ Delaunay::Delaunay(std::span<const Vector4> points)
     return;
   }
   const double scale = double((1u << GridBits) - 2 * Shift) / longest;
+  gridWidth_ = 1. / scale;
   points_.reserve(points.size());
   Random random(Seed, 1);
   for (const Vector4 point : points)

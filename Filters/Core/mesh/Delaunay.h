@@ -3,6 +3,8 @@
 
 #include "base/Vector4.h"
 
+#include <Eigen/Core>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -45,6 +47,15 @@ public:
   };
 
   explicit Delaunay(std::span<const Vector4> points);
+
+  /// Where a point lies on the grid, and how long a cell of the grid is. With other places than these cells
+  /// that are nearly flat look inside out.
+  Eigen::Vector3d onGrid(std::int32_t point) const
+  {
+    const GridPoint& p = points_[std::size_t(point)];
+    return { double(p.x), double(p.y), double(p.z) };
+  }
+  double gridWidth() const { return gridWidth_; }
 
   /// Those inside and outside of the hull; none if all points lie in a plane.
   const std::vector<Cell>& cells() const { return cells_; }
@@ -93,6 +104,7 @@ private:
   int inSphere(const Cell& cell, std::int32_t point) const;
 
   std::vector<GridPoint> points_;
+  double gridWidth_ = 0.;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> marks_; ///< of the cells: round_ if they are in the hole
   std::vector<std::int32_t> unused_;

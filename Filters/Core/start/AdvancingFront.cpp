@@ -54,8 +54,7 @@ class Facets
 public:
   explicit Facets(std::span<const LayerSample> samples)
     : samples_(samples)
-    , positions_(positionsOf(samples))
-    , delaunay_(positions_)
+    , delaunay_(positionsOf(samples))
     , centers_(delaunay_.cells().size())
   {
     for (std::size_t i = 0; i < centers_.size(); ++i)
@@ -68,10 +67,11 @@ public:
   }
 
   const std::vector<Delaunay::Cell>& cells() const { return delaunay_.cells(); }
-  Eigen::Vector3d position(std::int32_t v) const { return positions_[std::size_t(v)].toDouble(); }
+  /// On the grid of the cells.
+  Eigen::Vector3d position(std::int32_t v) const { return delaunay_.onGrid(v); }
 
-  /// The radius of the smallest ball through the corners of a triangle that holds no sample; None if
-  /// the triangle is too large for its samples.
+  /// The radius of the smallest ball through the corners of a triangle that holds no sample, in cells of
+  /// the grid; None if the triangle is too large for its samples.
   double radius(Facet facet) const
   {
     const Delaunay::Cell& cell = cells()[std::size_t(facet.cell)];
@@ -87,7 +87,7 @@ public:
       0.5 * std::sqrt(u.squaredNorm() * v.squaredNorm() * (u - v).squaredNorm() / squared);
     const double size = double(samples_[std::size_t(a)].radius + samples_[std::size_t(b)].radius +
                           samples_[std::size_t(c)].radius) /
-      3.;
+      (3. * delaunay_.gridWidth());
     if (!(circle <= LargestCircle * size))
     {
       return None;
@@ -157,7 +157,6 @@ private:
   }
 
   std::span<const LayerSample> samples_;
-  std::vector<Vector4> positions_;
   Delaunay delaunay_;
   std::vector<Eigen::Vector3d> centers_;
 };

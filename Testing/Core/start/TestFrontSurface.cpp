@@ -9,10 +9,12 @@
 #include "MeshTools.h"
 #include "Shapes.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace neuralmesh::testing
 {
@@ -86,6 +88,47 @@ TEST(FrontSurface, EndsWhereThePointsEnd)
   const SurfaceReport report = reportOf(*caps, cloud);
   EXPECT_EQ(report.components, 2u);
   EXPECT_EQ(report.boundaryLoops, 2u);
+}
+
+// Keeps the promise: on flat facets, as they lie anywhere in space, triangles do not overlap.
+TEST(FrontSurface, FlatFacetsDoNotOverlap)
+{
+  constexpr std::uint32_t Sides = 24;
+  TriangleMesh prism;
+  for (std::uint32_t i = 0; i < Sides; ++i)
+  {
+    const double angle = 2. * std::numbers::pi * i / Sides;
+    for (const double z : { -0.6, 0.6 })
+    {
+      prism.points.emplace_back(std::cos(angle), std::sin(angle), z);
+    }
+  }
+  for (std::uint32_t i = 0; i < Sides; ++i)
+  {
+    const std::uint32_t low = 2 * i, high = low + 1, nextLow = (low + 2) % (2 * Sides),
+                        nextHigh = nextLow + 1;
+    prism.triangles.push_back({ low, nextLow, high });
+    prism.triangles.push_back({ high, nextLow, nextHigh });
+    if (i > 0 && i + 1 < Sides)
+    {
+      prism.triangles.push_back({ 0, nextLow, low });
+      prism.triangles.push_back({ 1, high, nextHigh });
+    }
+  }
+  const Eigen::Matrix3d turn =
+    Eigen::AngleAxisd(0.7, Eigen::Vector3d(1., 2., 3.).normalized()).toRotationMatrix();
+  for (Eigen::Vector3d& point : prism.points)
+  {
+    point = turn * point;
+  }
+  const PointCloud cloud = scanOf(prism, 0., 60000);
+  for (const Layers layers : { Layers::Joined, Layers::Apart })
+  {
+    const auto surface = front(cloud, 6000, layers);
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(surface->crossings, 0u);
+    EXPECT_TRUE(reportOf(*surface, cloud).isClosed());
+  }
 }
 
 // Keeps the promise: what is thinner than the distance between samples has two sides all the same, if
