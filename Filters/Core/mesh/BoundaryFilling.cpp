@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 namespace neuralmesh
@@ -11,6 +12,9 @@ namespace
 {
 /// Longer loops are openings.
 constexpr std::size_t MostEdgesOfGap = 12;
+
+/// Of one that is large enough to be a piece of its own.
+constexpr std::size_t LeastEdgesOfSheet = 7;
 
 /// A corner of a boundary, and the square of the edge with which a triangle would close it.
 struct RimCorner
@@ -118,8 +122,11 @@ std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longe
 std::size_t fillSmallGaps(Mesh& mesh)
 {
   BoundaryManager boundaries(mesh);
-  return fillBoundaries(
-    mesh, boundaries, std::numeric_limits<float>::max(), nullptr, MostEdgesOfGap, CosineOfOutline);
+  constexpr double AnyLength = std::numeric_limits<float>::max();
+  const std::size_t filled =
+    fillBoundaries(mesh, boundaries, AnyLength, nullptr, LeastEdgesOfSheet - 1);
+  return filled +
+    fillBoundaries(mesh, boundaries, AnyLength, nullptr, MostEdgesOfGap, CosineOfOutline);
 }
 
 std::size_t fillShortBoundaries(Mesh& mesh, BoundaryManager& boundaries, double outline)

@@ -24,8 +24,8 @@ std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longe
   const std::function<bool(const Triangle&)>& isAllowed = nullptr,
   std::size_t mostEdges = std::numeric_limits<std::size_t>::max(), float leastCosine = -1.f);
 
-/// The same for loops of at most a dozen edges, whatever their length, that are not the outlines of sheets.
-/// Longer ones are openings.
+/// The same for loops of at most a dozen edges, whatever their length, that are not the outlines of sheets,
+/// which have more than six. Longer ones are openings.
 std::size_t fillSmallGaps(Mesh& mesh);
 
 /// Fills the loops that can be filled and whose edges are shorter than `outline` all together. Returns their

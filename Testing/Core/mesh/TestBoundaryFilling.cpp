@@ -162,6 +162,25 @@ TEST(BoundaryFilling, LongEdgesOfTheHole)
   EXPECT_EQ(fill(mesh, 30.), 1u);
 }
 
+// A hole of six edges is a gap however the surface bends around it, one of seven may be the outline of a sheet.
+TEST(BoundaryFilling, SmallGapsAreNoOutlines)
+{
+  for (const unsigned rim : { 5u, 6u, 7u })
+  {
+    Tube tube = makeTube(rim, 4);
+    Mesh& mesh = tube.mesh;
+    mesh.removeTriangles(trianglesAt(mesh, tube.top));
+    // As at the outline of a sheet, the surface comes from below.
+    for (const VertexIndex v : tube.rings[0])
+    {
+      const Vector4 p = mesh.position(v);
+      mesh.setPosition(v, Vector4(2.f * p[0], 2.f * p[1], -5.f));
+    }
+    EXPECT_EQ(fillSmallGaps(mesh), rim <= 6 ? 1u : 0u);
+    EXPECT_EQ(defectOf(mesh), "");
+  }
+}
+
 // Whatever holes there are, what is filled is closed and has no edge as long as the limit; what is
 // not is as it was.
 TEST(BoundaryFilling, RandomMeshes)
