@@ -3,6 +3,7 @@
 
 #include "base/AtomicFile.h"
 #include "base/ThreadPool.h"
+#include "cloud/CoordinateRange.h"
 #include "cloud/MeshBuilder.h"
 #include "run/Reconstruction.h"
 #include "run/Tuning.h"
@@ -32,6 +33,7 @@
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkNeuralMesh);
 
@@ -46,6 +48,22 @@ constexpr double EndOfChoice = 0.3;
 /// shape.
 constexpr vtkIdType PointsPerVertex = 50;
 constexpr vtkIdType FewestPoints = 1000000;
+
+/// Enough of a cloud to tell where it lies.
+constexpr std::size_t PointsToLookAt = 10000;
+
+/// Whether floats hold a mesh of so many vertices where the points lie.
+bool FitsFloats(const neuralmesh::PointCloud& cloud, vtkIdType vertices)
+{
+  const std::size_t step = 1 + cloud.points().size() / PointsToLookAt;
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < cloud.points().size(); i += step)
+  {
+    points.push_back(cloud.toInput(cloud.points()[i]));
+  }
+  return neuralmesh::CoordinateRange(points).fitsFloats(
+    static_cast<std::size_t>(vertices), Eigen::Vector3d::Zero());
+}
 }
 
 vtkNeuralMesh::vtkNeuralMesh()
@@ -368,7 +386,9 @@ int vtkNeuralMesh::RequestData(
   collector.ReleasePoints();
   std::vector<double>().swap(weights);
 
-  vtkNeuralMeshRun run{ cloud, {}, this->GetUsedPrecision(collector.HasDoublePoints()),
+  const bool needsDoubles = !FitsFloats(cloud, this->NumberOfVertices);
+  vtkNeuralMeshRun run{ cloud, {},
+    this->GetUsedPrecision(collector.HasDoublePoints() || needsDoubles),
     vtkNeuralMeshProgress(this), {}, executor, {}, carries ? EndOfMesh : 1.0, hints };
   if (!this->BeginRun(run, inputVector, outputVector))
   {
@@ -436,10 +456,10 @@ bool vtkNeuralMesh::CollectPoints(
   return true;
 }
 
-int vtkNeuralMesh::GetUsedPrecision(bool hasDoublePoints) const
+int vtkNeuralMesh::GetUsedPrecision(bool needsDoubles) const
 {
-  const int ofInput = hasDoublePoints ? DOUBLE_PRECISION : SINGLE_PRECISION;
-  return this->OutputPointsPrecision == DEFAULT_PRECISION ? ofInput : this->OutputPointsPrecision;
+  const int byItself = needsDoubles ? DOUBLE_PRECISION : SINGLE_PRECISION;
+  return this->OutputPointsPrecision == DEFAULT_PRECISION ? byItself : this->OutputPointsPrecision;
 }
 
 /// Parameters and first mesh. False if no run can be made of them.

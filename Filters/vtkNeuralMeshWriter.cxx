@@ -35,19 +35,20 @@ neuralmesh::CoordinateRange RangeOf(vtkPointSet* data)
   return neuralmesh::CoordinateRange(points);
 }
 
-/** Whether there are digits in the points that floats would lose. */
-bool NeedsDoubles(vtkPointSet* points, vtkIdType vertices, const Eigen::Vector3d& shift)
+/** Whether there are digits in a mesh that floats would lose. */
+bool NeedsDoubles(vtkPolyData* mesh)
 {
-  return points->GetPoints() && points->GetPoints()->GetDataType() == VTK_DOUBLE &&
-    !RangeOf(points).fitsFloats(static_cast<std::size_t>(vertices), shift);
+  return mesh->GetPoints()->GetDataType() == VTK_DOUBLE &&
+    !RangeOf(mesh).fitsFloats(
+      static_cast<std::size_t>(mesh->GetNumberOfPoints()), Eigen::Vector3d::Zero());
 }
 
-/** Throws std::runtime_error where the format cannot hold a mesh that needs doubles. */
+/** Throws std::runtime_error where the format cannot hold a mesh with so many vertices there. */
 void RequireDigits(
   vtkPointSet* points, vtkIdType vertices, const Eigen::Vector3d& shift, const std::string& path)
 {
   if (vtkMeshFile::HasOnlyFloats(vtkMeshFile::Extension(path)) &&
-    NeedsDoubles(points, vertices, shift))
+    !RangeOf(points).fitsFloats(static_cast<std::size_t>(vertices), shift))
   {
     const neuralmesh::CoordinateRange range = RangeOf(points);
     std::ostringstream text;
@@ -135,9 +136,11 @@ void vtkNeuralMeshWriter::WriteMesh(vtkPolyData* mesh)
     throw std::runtime_error("The shift is not finite.");
   }
   const auto shifted = vtkShift::Apply(mesh, shift);
-  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
-  RequireDigits(shifted, vertices, none, this->FileName);
-  const bool hasDoubles = NeedsDoubles(shifted, vertices, none);
+  const bool hasDoubles = NeedsDoubles(shifted);
+  if (hasDoubles)
+  {
+    RequireDigits(shifted, vertices, Eigen::Vector3d::Zero(), this->FileName);
+  }
   neuralmesh::writeAtomicFile(this->FileName,
     [&](const std::string& temporary) { vtkMeshFile::Write(shifted, temporary, hasDoubles); });
   Eigen::Map<Eigen::Vector3d>(this->StoredShift) = vtkShift::Stored(shifted);

@@ -86,9 +86,8 @@ public:
   ///@}
 
   /**
-   * Whether FileName can hold the digits of a mesh of so many vertices, of the precision of these
-   * points and where they lie, by the shift of this writer; if not, an error says so. To be asked
-   * before the mesh is there.
+   * Whether FileName can hold the digits of a mesh of so many vertices where these points lie, by
+   * the shift of this writer; if not, an error says so. To be asked before the mesh is there.
    */
   bool CheckCoordinates(vtkPointSet* points, vtkIdType numberOfVertices);
 

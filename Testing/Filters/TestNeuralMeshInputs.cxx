@@ -189,6 +189,12 @@ int CheckLargeOffset()
   }
   CHECK(meanError < 0.03);
 
+  // Vertices lie between points: floats, half a unit apart there, do not hold them.
+  cloud->SetPoints(FilterTesting::SpherePoints(5000, 50.0, center, VTK_FLOAT));
+  cloud->Modified();
+  filter->Update();
+  CHECK(filter->GetOutput()->GetPoints()->GetDataType() == VTK_DOUBLE);
+
   filter->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
   filter->Update();
   CHECK(filter->GetOutput()->GetPoints()->GetDataType() == VTK_FLOAT);

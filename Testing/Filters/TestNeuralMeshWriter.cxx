@@ -133,12 +133,17 @@ int CheckDigits()
   {
     CHECK(messages->AllText.find(words) != std::string::npos);
   }
+  // What came as floats does not make the mesh of them fit floats.
+  vtkNew<vtkPolyData> floats;
+  floats->SetPoints(
+    FilterTesting::SpherePoints(1000, 50.0, { 500000.0, 5400000.0, 0.0 }, VTK_FLOAT));
+  CHECK(!writer->CheckCoordinates(floats, 20000) && messages->Errors == 2);
   writer->AutomaticShiftOn();
   CHECK(writer->CheckCoordinates(mesh, 4));
   writer->AutomaticShiftOff();
   writer->SetShift(500000.0, 5400000.0, 0.0);
   CHECK(writer->CheckCoordinates(mesh, 4));
-  CHECK(messages->Errors == 1);
+  CHECK(messages->Errors == 2);
   return EXIT_SUCCESS;
 }
 

@@ -69,7 +69,9 @@ def read_mesh(path):
     triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray())
     if len(triangles) != 3 * mesh.GetNumberOfPolys():
         raise ValueError(f"{path}: not only triangles")
-    return vtk_to_numpy(mesh.GetPoints().GetData()).astype(float), triangles.reshape(-1, 3).astype(int)
+    # VTK makes floats of doubles.
+    points = read_points(path) if path.endswith(".ply") else vtk_to_numpy(mesh.GetPoints().GetData()).astype(float)
+    return points, triangles.reshape(-1, 3).astype(int)
 
 
 def write_mesh(path, points, triangles):
