@@ -37,6 +37,8 @@ constexpr double LeastSpacingsIfEmpty = 1.5;
 /// Of the distance between samples on average: where they are farther from each other, it is theirs
 /// that counts, and triangles may be too small there.
 constexpr double SparseGapSpacings = 2.;
+/// Of the distance between samples: so far away they lie on a piece, though it has no noise.
+constexpr double MostOfSpacing = 0.1;
 /// Holes in which there are points are filled with edges up to so many of the mesh on average.
 constexpr double WidestHole = 5.;
 /// ... if the surface around goes on there.
@@ -230,6 +232,49 @@ private:
   bool isAnywhere_;
   std::optional<SomePoints> points_;
 };
+
+/// Of the small pieces at cuts, those that explain no points: others are parts of the surface. These hold
+/// more than the part `leastPiece` of the samples, and half of theirs lie on them but for noise.
+std::vector<Triangle> leftOverPieces(const Mesh& mesh, std::span<const PlaceOnMesh> places,
+  std::span<const std::uint8_t> isAtCut, float medianDistance, double leastPiece)
+{
+  std::vector<Triangle> small = findSmallPieces(mesh, isAtCut);
+  if (small.empty())
+  {
+    return small;
+  }
+  DisjointSets pieces(mesh.indexEnd());
+  std::vector<double> areas(mesh.indexEnd(), 0.);
+  for (const auto& [a, b, c] : small)
+  {
+    pieces.join(a, b);
+    pieces.join(b, c);
+  }
+  for (const Triangle& triangle : small)
+  {
+    areas[pieces.root(triangle[0])] += areaOf(mesh, triangle);
+  }
+  std::vector<std::uint32_t> samples(mesh.indexEnd(), 0), onPiece(mesh.indexEnd(), 0);
+  for (const PlaceOnMesh& place : places)
+  {
+    ++samples[pieces.root(place.triangle[0])];
+  }
+  for (const PlaceOnMesh& place : places)
+  {
+    const std::size_t piece = pieces.root(place.triangle[0]);
+    const double spacing = std::sqrt(areas[piece] / double(samples[piece]));
+    const double most = std::max(LeastMedians * double(medianDistance), MostOfSpacing * spacing);
+    onPiece[piece] += double(place.squaredDistance) <= most * most ? 1 : 0;
+  }
+  const double least = leastPiece * double(places.size());
+  std::erase_if(small,
+    [&](const Triangle& triangle)
+    {
+      const std::size_t piece = pieces.root(triangle[0]);
+      return double(samples[piece]) > least && 2 * onPiece[piece] >= samples[piece];
+    });
+  return small;
+}
 }
 
 std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
@@ -294,10 +339,11 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
 }
 
 OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const PlaceOnMesh> places,
-  float medianDistance, double bridgeWidth)
+  float medianDistance, const GapPlan& plan)
 {
   OpenedGaps result;
-  const std::vector<Triangle> gaps = findDataGaps(cloud, mesh, places, medianDistance);
+  const std::vector<Triangle> gaps =
+    plan.mayOpen ? findDataGaps(cloud, mesh, places, medianDistance) : std::vector<Triangle>();
   result.triangles = gaps.size();
   std::vector<std::uint8_t> isAtCut(mesh.indexEnd());
   for (const Triangle& gap : gaps)
@@ -307,20 +353,20 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   mesh.removeTriangles(gaps);
   if (!gaps.empty())
   {
-    mesh.removeTriangles(findSmallPieces(mesh, isAtCut));
+    mesh.removeTriangles(leftOverPieces(mesh, places, isAtCut, medianDistance, plan.leastPiece));
   }
   BoundaryManager boundaries(mesh);
   if (boundaries.loopCount() == 0)
   {
     return result;
   }
-  result.joined = mergeBoundaries(mesh, boundaries, bridgeWidth, LoopDistance::Mean);
+  result.joined = mergeBoundaries(mesh, boundaries, plan.bridgeWidth, LoopDistance::Mean);
   const SomePoints points(cloud, places.size());
   const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
   const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
   // A bridge may be wide; what goes on where points are is filled anyway.
   result.filled = fillBoundaries(
-    mesh, boundaries, std::max(bridgeWidth, WidestHole * mesh.meanEdge()),
+    mesh, boundaries, std::max(plan.bridgeWidth, WidestHole * mesh.meanEdge()),
     [&](const Triangle& triangle) { return points.distance(centerOf(mesh, triangle)) <= reach; },
     std::numeric_limits<std::size_t>::max(), CosineOfHole);
   return result;

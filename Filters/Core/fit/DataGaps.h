@@ -22,6 +22,14 @@ namespace neuralmesh
 std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   std::span<const PlaceOnMesh> places, float medianDistance);
 
+/// How gaps are to be opened and closed.
+struct GapPlan
+{
+  double bridgeWidth = 0.; ///< see openDataGaps()
+  bool mayOpen = true;     ///< not where the mesh began with openings where there is no data
+  double leastPiece = 0.0005;
+};
+
 struct OpenedGaps
 {
   std::size_t triangles = 0; ///< that were gaps
@@ -31,10 +39,11 @@ struct OpenedGaps
   bool any() const { return triangles + joined + filled > 0; }
 };
 
-/// Takes the gaps away, and small pieces that are left over. Boundaries that face each other, on
-/// average closer than `bridgeWidth`, are joined: they are both sides of a web that lay across a
-/// handle. Slits narrower than that which are close to points all along are closed: webs lay in
-/// creases there. Some vertices may be erased.
+/// Takes the gaps away, and small pieces that are left over: those that hold no more than the part
+/// `leastPiece` of the samples, or do not lie on theirs. Boundaries that face each other, on average closer
+/// than `bridgeWidth`, are joined: they are both sides of a web that lay across a handle. Slits narrower
+/// than that which are close to points all along are closed: webs lay in creases there. Some vertices may
+/// be erased.
 OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const PlaceOnMesh> places,
-  float medianDistance, double bridgeWidth);
+  float medianDistance, const GapPlan& plan);
 }

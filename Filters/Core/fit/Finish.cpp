@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/Finish.h"
 
-#include "fit/DataGaps.h"
 #include "mesh/BoundaryFilling.h"
 #include "mesh/CrossingRemoval.h"
 #include "mesh/EdgeFlips.h"
@@ -24,6 +23,7 @@ constexpr double MostPartTakenAway = 0.02;
 constexpr float LeastQuality = 0.1f;
 /// To take slivers away; each leaves more of them.
 constexpr int MostAttempts = 4;
+constexpr int TimesForSlivers = 2;
 
 DefectCount countDefects(const Mesh& mesh)
 {
@@ -155,7 +155,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
     if (round == 0)
     {
       smoothness = report_.smoothness;
-      const bool isOpened = plan_.bridgeWidth && openGaps(*surfaceFit);
+      const bool isOpened = plan_.gaps && openGaps(*surfaceFit);
       if (closeHoles() || isOpened)
       {
         beginAnew();
@@ -172,8 +172,17 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
   return true;
 }
 
-/// Slivers stay where triangles would intersect, and all of them where points would be lost.
+/// The vertices that come in again halve slivers that are left, so there is a second time.
 void Finish::takeSliversAway(FitGuard& guard)
+{
+  for (int time = 0; time < TimesForSlivers && takeSliversAwayOnce(guard); ++time)
+  {
+  }
+}
+
+/// They stay where triangles would intersect. Returns false, with the mesh as it was, if there are none, if
+/// triangles intersect all the same, or if points would be lost.
+bool Finish::takeSliversAwayOnce(FitGuard& guard)
 {
   const Mesh before = mesh_;
   std::vector<bool> isKept(mesh_.indexEnd(), false), isTouched;
@@ -184,7 +193,7 @@ void Finish::takeSliversAway(FitGuard& guard)
     isTouched = removeSlivers(mesh_, LeastQuality, isKept);
     if (isTouched.empty())
     {
-      return;
+      return false;
     }
     const std::vector<VertexIndex> broken = brokenVertices(mesh_, isTouched);
     areDefects = broken.size() > brokenVertices(before, isTouched).size();
@@ -194,12 +203,15 @@ void Finish::takeSliversAway(FitGuard& guard)
     }
   }
   mesh_.dropErased();
-  refine(mesh_, before.vertexCount(), [](double) { return true; });
+  refine(
+    mesh_, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);
   if (areDefects || mesh_.vertexCount() != before.vertexCount() ||
     (guard.losesPoints(mesh_, false) && !guard.losesPoints(before, false)))
   {
     mesh_ = before;
+    return false;
   }
+  return true;
 }
 
 /// Where the repair would lose samples, it stays as it was, broken or not. Returns false if it was ended
@@ -251,7 +263,8 @@ bool Finish::mendsBy(const Remove& remove, FitGuard& guard, const Progress& prog
   remove();
   // As many vertices come in again where edges are long.
   mesh_.dropErased();
-  refine(mesh_, before.vertexCount(), [](double) { return true; });
+  refine(
+    mesh_, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);
   const IntersectionRepair again = repairIntersections(mesh_, progress);
   if (again.after.total() >= report_.left.total() || mesh_.vertexCount() != before.vertexCount() ||
     (!wasWorse && guard.losesPoints(mesh_, true)))
@@ -306,8 +319,8 @@ bool Finish::closeHoles()
 bool Finish::openGaps(const SurfaceFit& surfaceFit)
 {
   const std::size_t count = mesh_.vertexCount();
-  const OpenedGaps gaps = openDataGaps(
-    cloud_, mesh_, surfaceFit.places(), surfaceFit.medianDistance(), *plan_.bridgeWidth);
+  const OpenedGaps gaps =
+    openDataGaps(cloud_, mesh_, surfaceFit.places(), surfaceFit.medianDistance(), *plan_.gaps);
   if (!gaps.any())
   {
     return false;

@@ -4,6 +4,7 @@
 #include "base/Executor.h"
 #include "base/Progress.h"
 #include "cloud/PointCloud.h"
+#include "fit/DataGaps.h"
 #include "fit/FitGuard.h"
 #include "fit/IntersectionRepair.h"
 #include "fit/SurfaceFit.h"
@@ -34,10 +35,10 @@ struct FinishReport
 /// What is to be done with a mesh once it is learnt.
 struct FinishPlan
 {
-  int rounds = 3;                    ///< of the least-squares fit
-  double smoothness = 0.;            ///< lambda of the fit; 0 = by the noise and the shape
-  double samplesPerVertex = 10.;     ///< in the fit
-  std::optional<double> bridgeWidth; ///< of the gaps to open, see openDataGaps(); nothing = none
+  int rounds = 3;                ///< of the least-squares fit
+  double smoothness = 0.;        ///< lambda of the fit; 0 = by the noise and the shape
+  double samplesPerVertex = 10.; ///< in the fit
+  std::optional<GapPlan> gaps;   ///< nothing: none is opened or closed
   double closedOutline =
     0.; ///< holes with shorter ones are filled, in units of the cloud; 0 = none
   std::size_t vertexCount = 0; ///< of the finished mesh
@@ -64,6 +65,7 @@ private:
   bool openGaps(const SurfaceFit& surfaceFit);
   bool closeHoles();
   void takeSliversAway(FitGuard& guard);
+  bool takeSliversAwayOnce(FitGuard& guard);
   bool repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress);
   template <typename Remove>
   bool mendsBy(const Remove& remove, FitGuard& guard, const Progress& progress);

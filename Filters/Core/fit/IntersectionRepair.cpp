@@ -220,12 +220,12 @@ private:
   }
 
   /// Towards the mean of the neighbours; on a boundary, along it, or what is broken itself towards
-  /// the middle of the neighbours along it.
+  /// the middle of the neighbours along it, unless that lies on an edge between them.
   Vector4 smoothed(VertexIndex v, float rate) const
   {
     const Ring& ring = mesh_.ring(v);
     const Vector4 center = mesh_.position(v);
-    if (ring.isOpen())
+    if (ring.isOpen() && (rate < 1.f || !mesh_.ring(ring.front()).contains(ring.back())))
     {
       return rate < 1.f ? smoothedPosition(mesh_, v, rate)
                         : 0.5f * (mesh_.position(ring.front()) + mesh_.position(ring.back()));

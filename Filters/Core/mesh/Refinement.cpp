@@ -36,7 +36,7 @@ SplitCandidate candidate(const Mesh& mesh, VertexIndex v)
 }
 }
 
-bool refine(Mesh& mesh, std::size_t count, const Progress& progress)
+bool refine(Mesh& mesh, std::size_t count, const Progress& progress, EdgesAfterSplit edges)
 {
   std::priority_queue<SplitCandidate> candidates;
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
@@ -66,7 +66,10 @@ bool refine(Mesh& mesh, std::size_t count, const Progress& progress)
       continue;
     }
     const VertexIndex added = mesh.split(v, plan->first, plan->steps, plan->position);
-    flipEdgesAround(mesh, added);
+    if (edges == EdgesAfterSplit::Flip)
+    {
+      flipEdgesAround(mesh, added);
+    }
     candidates.push(candidate(mesh, v));
     candidates.push(candidate(mesh, added));
   }

@@ -79,7 +79,7 @@ Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
   Beginning beginning = first
     ? Beginning{ first, {}, {} }
     : begin(cloud, parameters, partOf(progress, 0., startOfLearning), executor);
-  const std::optional<double> bridgeWidth = beginning.bridgeWidth;
+  const std::optional<GapPlan> gaps = beginning.gaps;
 
   result.times.enter(Phase::Learning);
   std::optional<Learner> learner(learnerFrom(std::move(beginning), cloud, parameters, executor));
@@ -102,7 +102,7 @@ Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
       : learnt.mesh.vertexCount();
     const Progress finishing = partOf(progress, endOfLearning, 1.);
     result.finish = finish(
-      learnt, cloud, parameters, bridgeWidth, vertices,
+      learnt, cloud, parameters, gaps, vertices,
       [&](double fraction)
       {
         const bool isTimeOver =

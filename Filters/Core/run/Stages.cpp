@@ -55,7 +55,7 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
   result.mesh = std::move(surface->mesh);
   if (parameters.boundaries == Boundaries::Keep && surface->bridgeWidth > 0.)
   {
-    result.bridgeWidth = surface->bridgeWidth;
+    result.gaps = GapPlan{ surface->bridgeWidth, surface->resolution > 0, parameters.keepPieces };
   }
   // The normal-based variant has a way of its own to be dense where the surface bends; and feature
   // strength tells edges best where vertices are spread evenly.
@@ -92,13 +92,13 @@ StopReason learn(Learner& learner, StoppingRules& rules, const Parameters& param
 }
 
 std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
-  const Parameters& parameters, std::optional<double> bridgeWidth, std::size_t vertexCount,
+  const Parameters& parameters, const std::optional<GapPlan>& gaps, std::size_t vertexCount,
   const Progress& progress, const Executor& executor)
 {
   const FinishPlan plan{ .rounds = parameters.fitRounds,
     .smoothness = parameters.fitSmoothness,
     .samplesPerVertex = parameters.fitSamples,
-    .bridgeWidth = bridgeWidth,
+    .gaps = gaps,
     .closedOutline = parameters.closeHolesBelow / cloud.unit(),
     .vertexCount = vertexCount };
   dropPieces(learnt.mesh, parameters.keepPieces);

@@ -21,9 +21,9 @@ namespace neuralmesh
 /// What learning starts from.
 struct Beginning
 {
-  std::optional<Mesh> mesh;          ///< nothing: a tetrahedron
-  std::optional<double> bridgeWidth; ///< of the gaps to open in the end; nothing: they stay closed
-  std::vector<float> weights;        ///< to draw samples by; empty: those of the cloud
+  std::optional<Mesh> mesh;    ///< nothing: a tetrahedron
+  std::optional<GapPlan> gaps; ///< in the end; nothing: they stay as they are
+  std::vector<float> weights;  ///< to draw samples by; empty: those of the cloud
 };
 
 /// Makes the first surface, if the parameters have learning start from one. If it is ended before, or
@@ -49,7 +49,7 @@ StopReason learn(Learner& learner, StoppingRules& rules, const Parameters& param
 
 /// Finishes what was learnt, for `vertexCount` vertices. Returns nothing if it was ended before.
 std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
-  const Parameters& parameters, std::optional<double> bridgeWidth, std::size_t vertexCount,
+  const Parameters& parameters, const std::optional<GapPlan>& gaps, std::size_t vertexCount,
   const Progress& progress, const Executor& executor = Executor::sequential());
 
 /// Turns the mesh to its outer side, and adds to `result` all that a user gets of it. Its quality is

@@ -154,9 +154,9 @@ bool StreamingReconstruction::takeInPoints(const Progress& progress)
   else
   {
     learner_->changeCloud(*cloud_, *cloud, parameters);
-    if (bridgeWidth_)
+    if (gaps_)
     {
-      *bridgeWidth_ *= cloud_->unit() / cloud->unit();
+      gaps_->bridgeWidth *= cloud_->unit() / cloud->unit();
     }
   }
   cloud_ = std::move(cloud);
@@ -184,7 +184,7 @@ bool StreamingReconstruction::beginAnew(
     return false;
   }
   earlierSamples_ = sampleCount();
-  bridgeWidth_ = beginning.bridgeWidth;
+  gaps_ = beginning.gaps;
   learner_.emplace(learnerFrom(std::move(beginning), cloud, parameters));
   learner_->letWander();
   pointsAtBeginning_ = cloud.points().size();
@@ -205,7 +205,7 @@ Reconstruction StreamingReconstruction::mesh(
     const std::size_t vertices = learner_->hasAllVertices()
       ? std::size_t(parameters_.numberOfVertices)
       : learnt.mesh.vertexCount();
-    result.finish = finish(learnt, *cloud_, parameters_, bridgeWidth_, vertices, progress);
+    result.finish = finish(learnt, *cloud_, parameters_, gaps_, vertices, progress);
     result.stopReason = result.finish ? StopReason::None : StopReason::Cancelled;
   }
   OrientationHints allHints{ hints.viewpoints, {}, {}, hints.up };

@@ -70,7 +70,7 @@ private:
   std::optional<PointCloud> withClusters_;  ///< the same with clusters of outliers, if it has some
   std::vector<Eigen::Vector3f> directions_; ///< of what the cloud was made of
   std::optional<Learner> learner_;
-  std::optional<double> bridgeWidth_;
+  std::optional<GapPlan> gaps_;
   std::size_t pointsAtBeginning_ = 0;
   double uncoveredAtBeginning_ = 0.;
   std::size_t beginnings_ = 0;

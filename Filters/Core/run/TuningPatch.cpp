@@ -190,9 +190,8 @@ std::optional<PatchMesh> TuningPatch::finish(
   }
   LearntMesh learnt = *learnt_;
   const std::size_t vertices = learnt.mesh.vertexCount();
-  const auto report =
-    neuralmesh::finish(learnt, learntCloud(), own(wanted), beginning_->bridgeWidth,
-      hasAllVertices_ ? std::max(std::size_t(vertices_), vertices) : vertices, progress);
+  const auto report = neuralmesh::finish(learnt, learntCloud(), own(wanted), beginning_->gaps,
+    hasAllVertices_ ? std::max(std::size_t(vertices_), vertices) : vertices, progress);
   return report ? std::optional(PatchMesh{ std::move(learnt.mesh), *report }) : std::nullopt;
 }
 

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -64,6 +65,9 @@ constexpr double MostDisorder = 5.;
 constexpr double MostDisorderAtAll = 40.;
 /// Share of the samples of a front: of a sheet that has two sides.
 constexpr double LeastInTwoLayers = 0.05;
+/// Of the area that a front has if it takes those for one sheet, for each of their share: with both sides
+/// it has so much more. It may have shown a part of them anyway.
+constexpr double LeastOfSecondLayer = 0.25;
 /// Of its samples: more lie in no layer where there are outliers in all of space.
 constexpr double MostScatter = 0.03;
 
@@ -263,9 +267,10 @@ public:
   /// Whether the points lie in two layers, with the mesh between them.
   bool isBetweenLayers() const { return fit_.distanceEvenness() > EvennessOfLayers; }
 
-  void openGaps(double bridgeWidth)
+  void openGaps(double bridgeWidth, double leastPiece)
   {
-    openDataGaps(cloud_, mesh_, fit_.places(), fit_.medianDistance(), bridgeWidth);
+    openDataGaps(
+      cloud_, mesh_, fit_.places(), fit_.medianDistance(), { bridgeWidth, true, leastPiece });
     mesh_.dropErased();
   }
 
@@ -277,7 +282,7 @@ private:
 
 /// One sheet of a skin, if there is one and the points lie on it.
 std::optional<FirstSurface> openSurface(const PointCloud& cloud, const FirstSurface& skin,
-  std::size_t mostVertices, Boundaries boundaries, const Progress& progress,
+  std::size_t mostVertices, Boundaries boundaries, double leastPiece, const Progress& progress,
   const Executor& executor)
 {
   FirstSurface result = skin;
@@ -294,7 +299,7 @@ std::optional<FirstSurface> openSurface(const PointCloud& cloud, const FirstSurf
   }
   if (boundaries == Boundaries::Keep)
   {
-    fit.openGaps(result.bridgeWidth);
+    fit.openGaps(result.bridgeWidth, leastPiece);
   }
   else
   {
@@ -320,8 +325,8 @@ struct Candidate
 /// The closed solid, fitted, and opened where there is no data if that is to be. Nothing if it has too
 /// many vertices, or the run was ended.
 std::optional<Candidate> solidCandidate(const PointCloud& cloud, const NearestPoints& nearest,
-  FirstSurface solid, std::size_t mostVertices, Boundaries boundaries, const Progress& progress,
-  const Executor& executor)
+  FirstSurface solid, std::size_t mostVertices, Boundaries boundaries, double leastPiece,
+  const Progress& progress, const Executor& executor)
 {
   simplify(solid.mesh, mostVertices);
   FirstFit fit(cloud, solid.mesh, executor);
@@ -332,7 +337,7 @@ std::optional<Candidate> solidCandidate(const PointCloud& cloud, const NearestPo
   const Evidence evidence = evidenceFor(cloud, nearest, solid.mesh);
   if (boundaries == Boundaries::Keep)
   {
-    fit.openGaps(solid.bridgeWidth);
+    fit.openGaps(solid.bridgeWidth, leastPiece);
   }
   if (!hasRightSize(solid, mostVertices))
   {
@@ -362,10 +367,10 @@ std::size_t pieceCount(const Mesh& mesh)
 
 /// One sheet of the skin, if that is one.
 std::optional<Candidate> sheetCandidate(const PointCloud& cloud, const NearestPoints& nearest,
-  const FirstSurface& skin, std::size_t mostVertices, Boundaries boundaries,
+  const FirstSurface& skin, std::size_t mostVertices, Boundaries boundaries, double leastPiece,
   const Progress& progress, const Executor& executor)
 {
-  auto sheet = openSurface(cloud, skin, mostVertices, boundaries, progress, executor);
+  auto sheet = openSurface(cloud, skin, mostVertices, boundaries, leastPiece, progress, executor);
   if (!sheet || !hasRightSize(*sheet, mostVertices))
   {
     return {};
@@ -389,11 +394,26 @@ std::optional<FirstSurface> thinSolid(const PointCloud& cloud, FirstSurface skin
                                                                : std::nullopt;
 }
 
-/// Whether a front shows the two sides of what another one takes for one sheet: then it has hardly more
-/// boundaries. Where views lie beside each other, each layer ends somewhere.
+double areaOf(const Mesh& mesh)
+{
+  double area = 0.;
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    {
+      const Vector4 first = mesh.position(a);
+      const Vector4 twice = cross(mesh.position(b) - first, mesh.position(c) - first);
+      area += 0.5 * std::sqrt(double(squaredNorm(twice)));
+    });
+  return area;
+}
+
+/// Whether a front shows the two sides of what another one takes for one sheet: then it has more area, and
+/// hardly more boundaries. Where views lie beside each other, each layer ends somewhere.
 bool showsBothLayers(const FrontSurface& apart, const FrontSurface& joined)
 {
+  const double least = 1. + LeastOfSecondLayer * joined.inOneOfTwo;
   return joined.inOneOfTwo >= LeastInTwoLayers && apart.disorder() < MostDisorder &&
+    areaOf(apart.mesh) >= least * areaOf(joined.mesh) &&
     BoundaryManager(apart.mesh).loopCount() <=
     BoundaryManager(joined.mesh).loopCount() + MostLoopsOfSheet;
 }
@@ -411,7 +431,12 @@ std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const Neares
   {
     auto front = frontSurface(cloud, nearest, samples, layers, SeedOfFront,
       partOf(progress, at, at + 0.5), leastPiece, mustBeCertain ? MostScatter : 1.);
-    if (front && (!best || front->disorder() < best->disorder() || showsBothLayers(*front, *best)))
+    const auto isBetter = [&]
+    {
+      return (best->disorder() >= MostDisorder && front->disorder() < best->disorder()) ||
+        showsBothLayers(*front, *best);
+    };
+    if (front && (!best || isBetter()))
     {
       best = std::move(front);
     }
@@ -460,12 +485,13 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
   std::optional<Candidate> grid;
   if (solid)
   {
-    grid =
-      solidCandidate(cloud, nearest, std::move(*solid), mostVertices, boundaries, ofGrid, executor);
+    grid = solidCandidate(
+      cloud, nearest, std::move(*solid), mostVertices, boundaries, leastPiece, ofGrid, executor);
   }
   else if (skin)
   {
-    grid = sheetCandidate(cloud, nearest, *skin, mostVertices, boundaries, ofGrid, executor);
+    grid =
+      sheetCandidate(cloud, nearest, *skin, mostVertices, boundaries, leastPiece, ofGrid, executor);
   }
   if (grid && grid->explains && progress(1.))
   {

@@ -17,12 +17,13 @@ namespace neuralmesh
 struct FirstSurface
 {
   Mesh mesh;
-  unsigned resolution = 0; ///< of the grid that it comes from
+  unsigned resolution =
+    0; ///< of the grid that it comes from; 0 for a front, open where it is to be
   long genus = 0;
   std::size_t components = 0;
   bool isOpen = false;
-  bool isCertain = false;  ///< whether the next coarser grid gives the same topology
-  double bridgeWidth = 0.; ///< gaps up to about that were closed; 0 if it is open where it is to be
+  bool isCertain = false;    ///< whether the next coarser grid gives the same topology
+  double bridgeWidth = 0.;   ///< gaps up to about that were closed
   float skinThickness = 0.f; ///< about, if it is a skin around points that enclose nothing
 };
 

@@ -31,11 +31,11 @@ std::vector<Triangle> gapsOf(const PointCloud& cloud, Mesh& mesh)
   return findDataGaps(cloud, mesh, fit.places(), fit.medianDistance());
 }
 
-OpenedGaps openedGaps(const PointCloud& cloud, Mesh& mesh, double bridgeWidth)
+OpenedGaps openedGaps(const PointCloud& cloud, Mesh& mesh, double bridgeWidth, bool mayOpen = true)
 {
   SurfaceFit fit(cloud, mesh, SamplesPerVertexOfGaps * mesh.vertexCount());
   EXPECT_TRUE(fit.findPlaces(goOn));
-  return openDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), bridgeWidth);
+  return openDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), { bridgeWidth, mayOpen });
 }
 
 /// Points of a unit sphere on circles around its axis, `spacing` apart, and by a part of that from
@@ -76,6 +76,43 @@ TEST(DataGaps, NoneOnAFullSphere)
         EXPECT_TRUE(gapsOf(cloud, mesh).empty());
       }
     }
+  }
+}
+
+// A small piece that is cut off stays where points lie on it, and goes where they do not. A mesh that began
+// with openings is not cut.
+TEST(DataGaps, PiecesWithPointsStay)
+{
+  constexpr unsigned Side = 160;
+  constexpr double EndOfSheet = 0.8, BeginOfPiece = 0.994;
+  for (const double height : { 0., 0.05 })
+  {
+    std::vector<Eigen::Vector3d> points;
+    Random random(1);
+    for (int i = 0; i < 400000; ++i)
+    {
+      const Eigen::Vector3d point(random.uniform(), random.uniform(), 0.);
+      if (point.x() < EndOfSheet)
+      {
+        points.push_back(point);
+      }
+      else if (point.x() > BeginOfPiece)
+      {
+        points.emplace_back(point.x(), point.y(), height);
+      }
+    }
+    const PointCloud cloud(points);
+    Mesh mesh = buildMesh(makeGrid(Side), cloud);
+    Mesh uncut = mesh;
+    EXPECT_GT(openedGaps(cloud, mesh, 0.01).triangles, 1000u);
+    mesh.dropErased();
+    const std::vector<Triangle> left = trianglesOf(mesh);
+    const bool isThere = std::any_of(left.begin(), left.end(),
+      [&](const Triangle& triangle)
+      { return cloud.toInput(mesh.position(triangle[0])).x() > BeginOfPiece - 0.5 / Side; });
+    EXPECT_EQ(isThere, height == 0.);
+    EXPECT_EQ(openedGaps(cloud, uncut, 0.01, false).triangles, 0u);
+    EXPECT_EQ(uncut.triangleCount(), 2u * Side * Side);
   }
 }
 

@@ -78,9 +78,9 @@ void expectOriginsInRange(const Mesh& mesh, VertexProperty<float> origin)
   }
 }
 
-FinishPlan planFor(std::size_t vertices, std::optional<double> bridgeWidth = BridgeWidth)
+FinishPlan planFor(std::size_t vertices, std::optional<GapPlan> gaps = GapPlan{ BridgeWidth })
 {
-  return { .bridgeWidth = bridgeWidth, .vertexCount = vertices };
+  return { .gaps = gaps, .vertexCount = vertices };
 }
 }
 
@@ -127,7 +127,8 @@ TEST(Finish, GapsAreOpened)
     Mesh mesh = before;
     const VertexProperty<float> origin = addOrigins(mesh);
     Finish finish(cloud, mesh,
-      planFor(mesh.vertexCount(), opensGaps ? std::optional(BridgeWidth) : std::nullopt));
+      planFor(
+        mesh.vertexCount(), opensGaps ? std::optional(GapPlan{ BridgeWidth }) : std::nullopt));
     ASSERT_TRUE(finish.run(goOn));
     EXPECT_EQ(mesh.vertexCount(), Vertices);
     EXPECT_EQ(mesh.indexEnd(), Vertices);

@@ -110,6 +110,28 @@ bool isSameToTheByte(const Mesh& a, const Mesh& b)
 }
 }
 
+// A corner of a sheet that lies folded on it comes off again, and not to rest on the edge that holds it.
+TEST(IntersectionRepair, CornersDoNotRestOnEdges)
+{
+  Mesh mesh = buildMesh(makeGrid(8), cleanSphere());
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    if (mesh.ring(v).size() == 2)
+    {
+      const Vector4 first = mesh.position(mesh.ring(v)[0]), last = mesh.position(mesh.ring(v)[1]);
+      mesh.setPosition(v, first + last - mesh.position(v) + Vector4(0.f, 0.f, 0.001f));
+    }
+  }
+  const Mesh repaired = expectRepaired(mesh);
+  for (const Triangle& triangle : trianglesOf(repaired))
+  {
+    const Vector4 a = repaired.position(triangle[0]);
+    EXPECT_GT(
+      squaredNorm(cross(repaired.position(triangle[1]) - a, repaired.position(triangle[2]) - a)),
+      1e-8f);
+  }
+}
+
 // A mesh without defects stays as it is, to the byte.
 TEST(IntersectionRepair, LeavesGoodMeshesAlone)
 {

@@ -27,6 +27,18 @@ float longestEdge(const Mesh& mesh)
   return std::sqrt(longest);
 }
 
+double areaOf(const Mesh& mesh)
+{
+  double area = 0.;
+  for (const Triangle& triangle : trianglesOf(mesh))
+  {
+    const Vector4 a = mesh.position(triangle[0]);
+    const Vector4 normal = cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a);
+    area += 0.5 * std::sqrt(double(squaredNorm(normal)));
+  }
+  return area;
+}
+
 /// Unit squares of so many quadrangles along a side each, beside each other.
 TriangleMesh makeGrids(const std::vector<unsigned>& sides)
 {
@@ -57,6 +69,23 @@ int squaredExcesses(const Mesh& mesh)
   }
   return sum;
 }
+}
+
+// Where edges are kept, the surface stays what it is, to the last fold: triangles are only halved.
+TEST(Refinement, KeepsTheSurfaceIfAsked)
+{
+  Random random(3);
+  for (const EdgesAfterSplit edges : { EdgesAfterSplit::Keep, EdgesAfterSplit::Flip })
+  {
+    Mesh mesh = makeRandomMesh(200, random);
+    const double before = areaOf(mesh);
+    EXPECT_TRUE(refine(
+      mesh, 500, [](double) { return true; }, edges));
+    EXPECT_EQ(mesh.vertexCount(), 500u);
+    EXPECT_EQ(defectOf(mesh), "");
+    const double change = std::abs(areaOf(mesh) / before - 1.);
+    EXPECT_EQ(change < 1e-5, edges == EdgesAfterSplit::Keep);
+  }
 }
 
 // The number of vertices is reached exactly, as a manifold of the same topology. With eight times
