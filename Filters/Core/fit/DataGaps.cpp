@@ -39,6 +39,8 @@ constexpr double LeastSpacingsIfEmpty = 1.5;
 constexpr double SparseGapSpacings = 2.;
 /// Of the distance between samples: so far away they lie on a piece, though it has no noise.
 constexpr double MostOfSpacing = 0.1;
+/// A piece that is cut off has so many times the samples of a small piece: crumbs of rims have fewer.
+constexpr double TimesForLeftOver = 5.;
 /// Holes in which there are points are filled with edges up to so many of the mesh on average.
 constexpr double WidestHole = 5.;
 /// ... if the surface around goes on there.
@@ -234,7 +236,7 @@ private:
 };
 
 /// Of the small pieces at cuts, those that explain no points: others are parts of the surface. These hold
-/// more than the part `leastPiece` of the samples, and half of theirs lie on them but for noise.
+/// some times the part `leastPiece` of the samples, and half of theirs lie on them but for noise.
 std::vector<Triangle> leftOverPieces(const Mesh& mesh, std::span<const PlaceOnMesh> places,
   std::span<const std::uint8_t> isAtCut, float medianDistance, double leastPiece)
 {
@@ -266,7 +268,7 @@ std::vector<Triangle> leftOverPieces(const Mesh& mesh, std::span<const PlaceOnMe
     const double most = std::max(LeastMedians * double(medianDistance), MostOfSpacing * spacing);
     onPiece[piece] += double(place.squaredDistance) <= most * most ? 1 : 0;
   }
-  const double least = leastPiece * double(places.size());
+  const double least = TimesForLeftOver * leastPiece * double(places.size());
   std::erase_if(small,
     [&](const Triangle& triangle)
     {

@@ -7,6 +7,7 @@
 #include "mesh/Refinement.h"
 #include "mesh/SelfIntersections.h"
 #include "mesh/SliverRemoval.h"
+#include "mesh/SmallPieces.h"
 
 #include <algorithm>
 #include <limits>
@@ -24,6 +25,8 @@ constexpr float LeastQuality = 0.1f;
 /// To take slivers away; each leaves more of them.
 constexpr int MostAttempts = 4;
 constexpr int TimesForSlivers = 2;
+/// A piece with less than this part of the area has shrunk to a point.
+constexpr double ShrunkPart = 1e-9;
 
 DefectCount countDefects(const Mesh& mesh)
 {
@@ -168,8 +171,21 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
   {
     return false;
   }
+  dropShrunkPieces();
   takeSliversAway(guard);
   return true;
+}
+
+/// Where no sample has its place on a piece, nothing keeps the fit and the repair from shrinking that to a
+/// point.
+void Finish::dropShrunkPieces()
+{
+  const std::size_t count = mesh_.vertexCount();
+  if (dropPieces(mesh_, ShrunkPart) > 0)
+  {
+    refine(
+      mesh_, count, [](double) { return true; }, EdgesAfterSplit::Keep);
+  }
 }
 
 /// The vertices that come in again halve slivers that are left, so there is a second time.

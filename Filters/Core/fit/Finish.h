@@ -64,6 +64,7 @@ private:
   bool fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   bool openGaps(const SurfaceFit& surfaceFit);
   bool closeHoles();
+  void dropShrunkPieces();
   void takeSliversAway(FitGuard& guard);
   bool takeSliversAwayOnce(FitGuard& guard);
   bool repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress);

@@ -50,9 +50,11 @@ constexpr float LeastSamplesOfLayers = 20.f;
 constexpr float LeastEvennessOfLayers = 0.92f;
 constexpr float LeastPartOfLayer = 0.2f;
 
-// The pull inwards at boundaries
+// The pull at boundaries
 /// Chance at which a strip along a boundary has no sample although there is data.
 constexpr double ChanceOfEmptyStrip = 0.05;
+/// Samples beyond a boundary count as that much farther away: as much again would bring it too far out.
+constexpr float PartBeyond = 0.8f;
 /// Where a whole triangle is without, how far its edge goes towards the corner within.
 constexpr double RetreatOfEmpty = 0.5;
 
@@ -193,6 +195,17 @@ void SurfaceFit::fillSystem()
   }
 }
 
+/// Samples beyond a boundary are on average half as far from it as the data goes: a step to where these
+/// end is twice as long, along the surface.
+Vector4 SurfaceFit::beyondBoundary(
+  const Vector4& sample, const PlaceOnMesh& place, const Vector4& normal) const
+{
+  const Vector4 away = sample - pointAt(place, mesh_.positions());
+  const float squared = squaredNorm(normal);
+  const Vector4 along = squared > 0.f ? away - (dot(away, normal) / squared) * normal : Vector4();
+  return sample + PartBeyond * along;
+}
+
 /// Each part goes through all samples for its rows: so these add up in the same order however many
 /// parts there are.
 template <typename Body>
@@ -215,10 +228,16 @@ void SurfaceFit::fillRows(const FitSystem::Rows& rows)
     const auto& [a, b, c] = place.triangle;
     if (isUsed(i) && (rows.has(a) || rows.has(b) || rows.has(c)))
     {
-      // Beyond a boundary the distance along the surface counts in full: there is no other place.
-      const Vector4 normal =
-        isOnBoundary(place, mesh_) ? Vector4() : normalAt(place, mesh_.positions());
-      system_->add(place, samples_[i], normal, weight(i), rows);
+      const Vector4 normal = normalAt(place, mesh_.positions());
+      if (isOnBoundary(place, mesh_))
+      {
+        // Beyond a boundary the distance along the surface counts in full: there is no other place.
+        system_->add(place, beyondBoundary(samples_[i], place, normal), Vector4(), weight(i), rows);
+      }
+      else
+      {
+        system_->add(place, samples_[i], normal, weight(i), rows);
+      }
     }
   }
 }

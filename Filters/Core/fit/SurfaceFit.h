@@ -89,6 +89,8 @@ private:
   template <typename Body>
   void forEachRows(const Body& body) const;
   void fillRows(const FitSystem::Rows& rows);
+  Vector4 beyondBoundary(
+    const Vector4& sample, const PlaceOnMesh& place, const Vector4& normal) const;
   void pullBoundariesIn();
   bool chooseSmoothness(const Progress& progress);
   double residualVariance(std::span<const Vector4> positions, double lambda) const;

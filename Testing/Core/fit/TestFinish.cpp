@@ -4,6 +4,7 @@
 #include "cloud/MeshBuilder.h"
 #include "fit/IntersectionRepair.h"
 #include "learn/Learner.h"
+#include "mesh/Pieces.h"
 #include "mesh/SurfaceReport.h"
 #include "MeshTools.h"
 #include "OpenShapes.h"
@@ -289,6 +290,31 @@ TEST(Finish, WhatCannotBeMendedIsCollapsed)
   }
   EXPECT_GT(leftByMoves, 0u);
   EXPECT_LT(left, leftByMoves);
+}
+
+// A piece that has shrunk to a point is none: it goes, and its vertices come in again elsewhere.
+TEST(Finish, PointsAreNoPieces)
+{
+  const PointCloud cloud = noisySphere(0., 0., false);
+  TriangleMesh triangles = makeSphere(8);
+  const std::size_t count = triangles.points.size();
+  TriangleMesh speck = makeSphere(1);
+  for (const Eigen::Vector3d& point : speck.points)
+  {
+    triangles.points.push_back(1e-6 * point);
+  }
+  for (const auto& [a, b, c] : speck.triangles)
+  {
+    triangles.triangles.push_back(
+      { std::uint32_t(a + count), std::uint32_t(b + count), std::uint32_t(c + count) });
+  }
+  Mesh mesh = buildMesh(std::move(triangles), cloud);
+  const std::size_t vertices = mesh.vertexCount();
+  ASSERT_EQ(findPieces(mesh).size(), 2u);
+  Finish finish(cloud, mesh, planFor(vertices));
+  ASSERT_TRUE(finish.run(goOn));
+  EXPECT_EQ(findPieces(mesh).size(), 1u);
+  EXPECT_EQ(mesh.vertexCount(), vertices);
 }
 
 // Ended anywhere, it leaves a valid mesh.

@@ -225,6 +225,28 @@ TEST(SurfaceFit, BoundariesEndWhereSamplesEnd)
   }
 }
 
+// A single round brings a boundary inside of the samples to where these end, but for a fifth of the way.
+TEST(SurfaceFit, BoundariesGetThereInOneRound)
+{
+  constexpr double Size = 0.97;
+  CloudOptions options;
+  options.count = 40000;
+  const TriangleMesh square = makeGrid(20);
+  const PointCloud cloud(generateCloud(square, options));
+  TriangleMesh scaled = square;
+  for (Eigen::Vector3d& point : scaled.points)
+  {
+    point = Size * (point - Eigen::Vector3d(0.5, 0.5, 0.)) + Eigen::Vector3d(0.5, 0.5, 0.);
+  }
+  Mesh mesh = buildMesh(std::move(scaled), cloud);
+  SurfaceFit fit(cloud, mesh, options.count);
+  ASSERT_TRUE(fit.findPlaces(goOn));
+  ASSERT_TRUE(fit.moveVertices(0., goOn));
+  const double area = reportSurface(trianglesOf(mesh, cloud)).area;
+  EXPECT_GT(area, 1. - 0.2 * (1. - Size * Size));
+  EXPECT_LT(area, 1.01);
+}
+
 // The places of samples lie on the triangles of the mesh, and the median distance is theirs.
 TEST(SurfaceFit, PlacesAreThoseOfSamples)
 {
