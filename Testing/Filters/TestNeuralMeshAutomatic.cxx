@@ -31,6 +31,7 @@ int TestNeuralMeshAutomatic(int, char*[])
   vtkNew<vtkNeuralMesh> filter;
   filter->SetInputData(cloud);
   filter->SetNumberOfVertices(4500);
+  filter->SetFitRounds(1); // too few
   CHECK(!filter->GetAutomatic());
   filter->Update();
   CHECK(!Words(filter, "ChosenParameters") && !Words(filter, "ReasonsOfChoice"));
@@ -41,12 +42,13 @@ int TestNeuralMeshAutomatic(int, char*[])
   vtkStringArray* chosen = Words(filter, "ChosenParameters");
   CHECK(chosen && chosen->GetNumberOfValues() > 0);
   CHECK(Words(filter, "ReasonsOfChoice")->GetNumberOfValues() >= chosen->GetNumberOfValues());
-  CHECK(filter->GetFitRounds() == 3 && filter->GetFitSmoothness() == 0.0);
+  CHECK(filter->GetFitRounds() == 1 && filter->GetFitSmoothness() == 0.0);
   CHECK(filter->GetChoiceTime() > 0.0);
 
   vtkNew<vtkNeuralMesh> byHand;
   byHand->SetInputData(cloud);
   byHand->SetNumberOfVertices(4500);
+  byHand->SetFitRounds(1);
   for (vtkIdType i = 0; i < chosen->GetNumberOfValues(); ++i)
   {
     const std::string text = chosen->GetValue(i);

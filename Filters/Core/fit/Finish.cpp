@@ -177,14 +177,18 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
 }
 
 /// Where no sample has its place on a piece, nothing keeps the fit and the repair from shrinking that to a
-/// point.
+/// point. It stays where its vertices cannot come in again: nothing is left that is not as thin.
 void Finish::dropShrunkPieces()
 {
-  const std::size_t count = mesh_.vertexCount();
+  const Mesh before = mesh_;
   if (dropPieces(mesh_, ShrunkPart) > 0)
   {
     refine(
-      mesh_, count, [](double) { return true; }, EdgesAfterSplit::Keep);
+      mesh_, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);
+    if (mesh_.vertexCount() != before.vertexCount())
+    {
+      mesh_ = before;
+    }
   }
 }
 

@@ -55,6 +55,8 @@ constexpr float LeastPartOfLayer = 0.2f;
 constexpr double ChanceOfEmptyStrip = 0.05;
 /// Samples beyond a boundary count as that much farther away: as much again would bring it too far out.
 constexpr float PartBeyond = 0.8f;
+/// In units of the cloud: less has no direction.
+constexpr float LeastNormal = 1e-15f;
 /// Where a whole triangle is without, how far its edge goes towards the corner within.
 constexpr double RetreatOfEmpty = 0.5;
 
@@ -201,9 +203,13 @@ Vector4 SurfaceFit::beyondBoundary(
   const Vector4& sample, const PlaceOnMesh& place, const Vector4& normal) const
 {
   const Vector4 away = sample - pointAt(place, mesh_.positions());
-  const float squared = squaredNorm(normal);
-  const Vector4 along = squared > 0.f ? away - (dot(away, normal) / squared) * normal : Vector4();
-  return sample + PartBeyond * along;
+  const float length = std::sqrt(squaredNorm(normal));
+  if (!(length > LeastNormal))
+  {
+    return sample;
+  }
+  const Vector4 unit = 1.f / length * normal;
+  return sample + PartBeyond * (away - dot(away, unit) * unit);
 }
 
 /// Each part goes through all samples for its rows: so these add up in the same order however many

@@ -44,4 +44,13 @@ void LearningCurve::add(const Learner& learner, double unit, double seconds)
     .regularRatio = regularRatio(learner.mesh()),
   });
 }
+
+void LearningCurve::endWith(const Mesh& simplified)
+{
+  if (!rows_.empty())
+  {
+    rows_.back().vertices = simplified.vertexCount();
+    rows_.back().regularRatio = regularRatio(simplified);
+  }
+}
 }

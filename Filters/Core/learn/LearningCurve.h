@@ -35,6 +35,9 @@ public:
   /// Adds a row, unless the last one is of this iteration.
   void add(const Learner& learner, double unit, double seconds);
 
+  /// The last row tells of what became of the mesh that was learnt, if it was simplified.
+  void endWith(const Mesh& simplified);
+
   const std::vector<Row>& rows() const { return rows_; }
 
   template <typename Archive>

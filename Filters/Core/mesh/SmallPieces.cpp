@@ -10,6 +10,10 @@ namespace neuralmesh
 namespace
 {
 constexpr double LeastPart = 0.02;
+/// Of the area: a piece with less is small, if it is one of a few. Where more than half of the vertices are
+/// in such pieces, it is the others that are odd.
+constexpr double SmallPart = 0.01;
+constexpr double MostOfVertices = 0.5;
 }
 
 std::vector<Triangle> findSmallPieces(const Mesh& mesh, std::span<const std::uint8_t> isAtCut)
@@ -68,17 +72,22 @@ std::size_t dropPieces(Mesh& mesh, double leastPart)
     largest = std::max(largest, piece.area);
   }
   std::vector<std::uint8_t> isDropped(mesh.indexEnd(), 0);
-  std::size_t dropped = 0;
+  std::size_t dropped = 0, vertices = 0;
   for (const Piece& piece : pieces)
   {
     if (piece.area < leastPart * all && piece.area < largest)
     {
       ++dropped;
+      vertices += piece.vertices.size();
       for (const VertexIndex v : piece.vertices)
       {
         isDropped[v] = 1;
       }
     }
+  }
+  if (leastPart<SmallPart&& double(vertices)> MostOfVertices * double(mesh.vertexCount()))
+  {
+    return 0;
   }
   if (dropped > 0)
   {

@@ -16,6 +16,7 @@ namespace neuralmesh
 std::vector<Triangle> findSmallPieces(const Mesh& mesh, std::span<const std::uint8_t> isAtCut = {});
 
 /// Drops all pieces with less than this part of the area of all, but the largest. No vertex may be erased,
-/// and none is in the end; properties follow. Returns how many were dropped.
+/// and none is in the end; properties follow. Where pieces with less than 1 % are most of the mesh, they stay.
+/// Returns how many were dropped.
 std::size_t dropPieces(Mesh& mesh, double leastPart);
 }

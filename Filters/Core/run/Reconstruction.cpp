@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/Reconstruction.h"
 
+#include "mesh/QuadricSimplification.h"
 #include "run/Stages.h"
 #include "run/Warnings.h"
 #include "start/OutlierClusters.h"
@@ -14,6 +15,10 @@ namespace
 /// With less the mesh would follow single points, not the surface.
 constexpr std::size_t PointsPerVertex = 2;
 constexpr std::size_t LeastLearnt = 100;
+/// A mesh of fewer vertices would lose what is narrower than its edges while it learns. So that many are
+/// learnt, if there are twenty points for each, and simplified.
+constexpr std::uint64_t LeastLearntToFit = 1000;
+constexpr std::uint64_t PointsToSimplify = 20;
 
 /// Learns until a stopping rule is met; returns which.
 StopReason learnAll(LearningState state, Checkpoint& checkpoint, const PointCloud& cloud,
@@ -40,6 +45,87 @@ StopReason learnAll(LearningState state, Checkpoint& checkpoint, const PointClou
       learner, rules, parameters, SamplesPerCheck, progress, [&recorder] { recorder.takeIfDue(); });
   }
 }
+
+/// As reconstruct(), but learns so many vertices at least, and simplifies the mesh if these are too many.
+Reconstruction learnAndFinish(std::uint64_t leastLearnt, const PointCloud& input,
+  const Parameters& requested, const Progress& report, const std::optional<Mesh>& first,
+  const GrowthWatch& watch, const CheckpointPlan& plan, const Executor& executor,
+  const OrientationHints& hints, bool explainsAll)
+{
+  Reconstruction result;
+  // Once the caller has ended the run, it is asked no more.
+  bool isCancelled = false;
+  const Progress progress = [&](double fraction)
+  { return !isCancelled && !(isCancelled = !report(fraction)); };
+  Checkpoint checkpoint(plan, input, requested);
+
+  result.times.enter(Phase::Start);
+  Parameters toLearn = requested;
+  toLearn.numberOfVertices = std::max(leastLearnt, requested.numberOfVertices);
+  const Parameters parameters = learnable(toLearn, input);
+  const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
+  const double startOfLearning = startsFromSpace ? StartOfLearning : 0.;
+  const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
+  const std::optional<PointCloud> cleaned = startsFromSpace ? withoutClusters(input) : std::nullopt;
+  const PointCloud& cloud = cleaned ? *cleaned : input;
+  Beginning beginning = first
+    ? Beginning{ first, {}, {} }
+    : begin(cloud, parameters, partOf(progress, 0., startOfLearning), executor);
+  const std::optional<GapPlan> gaps = beginning.gaps;
+
+  result.times.enter(Phase::Learning);
+  std::optional<Learner> learner(learnerFrom(std::move(beginning), cloud, parameters, executor));
+  StoppingRules rules(cloud, parameters, learner->mesh().vertexCount());
+  LearningState state{ *learner, rules, result.curve };
+  result.resumedIterations = checkpoint.resume(state, !isCancelled);
+  result.stopReason = learnAll(
+    state, checkpoint, cloud, parameters, watch, partOf(progress, startOfLearning, endOfLearning));
+  result.counts = learner->counts();
+  learner->compact();
+  LearntMesh learnt = learner->learntMesh();
+  learner.reset();
+  const bool isSimplified = !first && learnt.mesh.vertexCount() > requested.numberOfVertices;
+
+  result.times.enter(Phase::Finish);
+  const auto most = std::size_t(requested.numberOfVertices);
+  // A first mesh may have all vertices already: then it is fitted as it is.
+  if (parameters.fitRounds > 0 && result.isComplete() && (first || result.counts.iterations > 0))
+  {
+    const std::size_t there = learnt.mesh.vertexCount();
+    const std::size_t vertices = result.stopReason != StopReason::Vertices ? std::min(there, most)
+      : first                                                              ? std::max(there, most)
+                                                                           : most;
+    const Progress finishing = partOf(progress, endOfLearning, 1.);
+    result.finish = finish(
+      learnt, cloud, parameters, gaps, vertices,
+      [&](double fraction)
+      {
+        const bool isTimeOver =
+          parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
+        return finishing(fraction) && !isTimeOver;
+      },
+      executor);
+    if (!result.finish)
+    {
+      result.stopReason = isCancelled ? StopReason::Cancelled : StopReason::TimeLimit;
+    }
+  }
+  if (isSimplified)
+  {
+    simplifyByQuadrics(learnt.mesh, most); // If there was no time to finish it.
+    result.curve.endWith(learnt.mesh);
+  }
+  describe(std::move(learnt), cloud, result.stopReason == StopReason::Cancelled ? nullptr : &input,
+    hints, result, executor);
+  if (result.stopReason != StopReason::Cancelled)
+  {
+    explainPoints(
+      input, cleaned ? &*cleaned : nullptr, requested.keepPieces, explainsAll, result, executor);
+  }
+  result.warnings = warningsOf(result, input);
+  result.times.leave();
+  return result;
+}
 }
 
 Parameters learnable(Parameters parameters, const PointCloud& cloud)
@@ -62,68 +148,26 @@ Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
   const CheckpointPlan& plan, const Executor& executor, const OrientationHints& hints,
   bool explainsAll)
 {
-  Reconstruction result;
-  // Once the caller has ended the run, it is asked no more.
-  bool isCancelled = false;
-  const Progress progress = [&](double fraction)
-  { return !isCancelled && !(isCancelled = !report(fraction)); };
-  Checkpoint checkpoint(plan, input, requested);
-
-  result.times.enter(Phase::Start);
-  const Parameters parameters = learnable(requested, input);
-  const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
-  const double startOfLearning = startsFromSpace ? StartOfLearning : 0.;
-  const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
-  const std::optional<PointCloud> cleaned = startsFromSpace ? withoutClusters(input) : std::nullopt;
-  const PointCloud& cloud = cleaned ? *cleaned : input;
-  Beginning beginning = first
-    ? Beginning{ first, {}, {} }
-    : begin(cloud, parameters, partOf(progress, 0., startOfLearning), executor);
-  const std::optional<GapPlan> gaps = beginning.gaps;
-
-  result.times.enter(Phase::Learning);
-  std::optional<Learner> learner(learnerFrom(std::move(beginning), cloud, parameters, executor));
-  StoppingRules rules(cloud, parameters, learner->mesh().vertexCount());
-  LearningState state{ *learner, rules, result.curve };
-  result.resumedIterations = checkpoint.resume(state, !isCancelled);
-  result.stopReason = learnAll(
-    state, checkpoint, cloud, parameters, watch, partOf(progress, startOfLearning, endOfLearning));
-  result.counts = learner->counts();
-  learner->compact();
-  LearntMesh learnt = learner->learntMesh();
-  learner.reset();
-
-  result.times.enter(Phase::Finish);
-  // A first mesh may have all vertices already: then it is fitted as it is.
-  if (parameters.fitRounds > 0 && result.isComplete() && (first || result.counts.iterations > 0))
+  const std::uint64_t asked = requested.numberOfVertices;
+  const auto learn = [&](std::uint64_t least, const Progress& progress, const CheckpointPlan& there)
   {
-    const std::size_t vertices = result.stopReason == StopReason::Vertices
-      ? std::max(std::size_t(requested.numberOfVertices), learnt.mesh.vertexCount())
-      : learnt.mesh.vertexCount();
-    const Progress finishing = partOf(progress, endOfLearning, 1.);
-    result.finish = finish(
-      learnt, cloud, parameters, gaps, vertices,
-      [&](double fraction)
-      {
-        const bool isTimeOver =
-          parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
-        return finishing(fraction) && !isTimeOver;
-      },
-      executor);
-    if (!result.finish)
-    {
-      result.stopReason = isCancelled ? StopReason::Cancelled : StopReason::TimeLimit;
-    }
-  }
-  describe(std::move(learnt), cloud, result.stopReason == StopReason::Cancelled ? nullptr : &input,
-    hints, result, executor);
-  if (result.stopReason != StopReason::Cancelled)
+    return learnAndFinish(
+      least, input, requested, progress, first, watch, there, executor, hints, explainsAll);
+  };
+  const std::uint64_t least =
+    std::min<std::uint64_t>(LeastLearntToFit, input.differentCount() / PointsToSimplify);
+  const bool isSmall =
+    asked < least && requested.fitRounds > 0 && !first && !requested.topologyLearning;
+  if (!isSmall)
   {
-    explainPoints(
-      input, cleaned ? &*cleaned : nullptr, requested.keepPieces, explainsAll, result, executor);
+    return learn(asked, report, plan);
   }
-  result.warnings = warningsOf(result, input);
-  result.times.leave();
-  return result;
+  Reconstruction result = learn(least, report, plan);
+  // Handles and pieces may need more vertices than there are to be, and where many stop growing, few may not.
+  const std::size_t count = result.surface.vertexCount();
+  const bool isByRule =
+    result.stopReason != StopReason::Vertices && result.stopReason != StopReason::Stalled;
+  const bool isRight = !result.isComplete() || count == asked || (isByRule && count < asked);
+  return isRight ? result : learn(asked, partOf(report, 1., 1.), {});
 }
 }

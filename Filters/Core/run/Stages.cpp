@@ -2,6 +2,7 @@
 #include "run/Stages.h"
 
 #include "cloud/MeshBuilder.h"
+#include "mesh/QuadricSimplification.h"
 #include "mesh/SmallPieces.h"
 #include "run/MeshOrientation.h"
 #include "start/CurvatureDensity.h"
@@ -95,15 +96,38 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Parameters& parameters, const std::optional<GapPlan>& gaps, std::size_t vertexCount,
   const Progress& progress, const Executor& executor)
 {
-  const FinishPlan plan{ .rounds = parameters.fitRounds,
+  FinishPlan plan{ .rounds = parameters.fitRounds,
     .smoothness = parameters.fitSmoothness,
     .samplesPerVertex = parameters.fitSamples,
     .gaps = gaps,
     .closedOutline = parameters.closeHolesBelow / cloud.unit(),
-    .vertexCount = vertexCount };
+    .vertexCount = std::max(vertexCount, learnt.mesh.vertexCount()) };
   dropPieces(learnt.mesh, parameters.keepPieces);
+  const bool isSimplified = plan.vertexCount > vertexCount;
+  const double endOfFirst = isSimplified ? 0.5 : 1.;
   Finish finish(cloud, learnt.mesh, plan, executor);
-  return finish.run(progress) ? std::optional(finish.report()) : std::nullopt;
+  if (!finish.run(partOf(progress, 0., endOfFirst)))
+  {
+    return {};
+  }
+  if (!isSimplified)
+  {
+    return finish.report();
+  }
+  simplifyByQuadrics(learnt.mesh, vertexCount);
+  plan.gaps.reset();
+  plan.closedOutline = 0.;
+  plan.vertexCount = learnt.mesh.vertexCount();
+  Finish finishSimplified(cloud, learnt.mesh, plan, executor);
+  if (!finishSimplified.run(partOf(progress, endOfFirst, 1.)))
+  {
+    return {};
+  }
+  FinishReport report = finishSimplified.report();
+  report.gapTriangles = finish.report().gapTriangles;
+  // What is simplified lies close already: hardly any round makes it better.
+  report.roundsTakenBack = finish.report().roundsTakenBack;
+  return report;
 }
 
 void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,

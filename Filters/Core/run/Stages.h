@@ -47,7 +47,9 @@ inline constexpr std::uint64_t SamplesPerCheck = 4096;
 StopReason learn(Learner& learner, StoppingRules& rules, const Parameters& parameters,
   std::uint64_t samples, const Progress& progress, const std::function<void()>& afterBatch = {});
 
-/// Finishes what was learnt, for `vertexCount` vertices. Returns nothing if it was ended before.
+/// Finishes what was learnt, for `vertexCount` vertices: if it has more, it is simplified once it is
+/// finished, and finished again. Handles and pieces may need more vertices than those. Returns nothing if it
+/// was ended before.
 std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Parameters& parameters, const std::optional<GapPlan>& gaps, std::size_t vertexCount,
   const Progress& progress, const Executor& executor = Executor::sequential());

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/QuadricSimplification.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <tuple>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Of the squared edge, against the squared distance: on a plane short edges go first.
+constexpr double WeightOfLength = 1e-3;
+/// Of the angle by which a triangle may turn.
+constexpr float LeastCosineOfTurn = 0.2f;
+/// Of what draws a vertex to the middle of its edge, against the planes.
+constexpr double WeightOfNear = 1e-3;
+constexpr double Never = std::numeric_limits<double>::infinity();
+
+struct CheapEdge
+{
+  double cost;
+  VertexIndex removed;
+  VertexIndex kept;
+
+  friend bool operator>(const CheapEdge& x, const CheapEdge& y)
+  {
+    return std::tie(x.cost, x.removed, x.kept) > std::tie(y.cost, y.removed, y.kept);
+  }
+};
+
+/// The mean squared distance of a point from some planes, by their weights, as a quadratic form. Were it the
+/// sum, what is thin would go first: its planes have little area.
+class Quadric
+{
+public:
+  void addPlane(Vector4 point, Vector4 normal)
+  {
+    const Eigen::Vector3d direction = normal.toDouble();
+    const double weight = direction.norm();
+    if (weight > 0.)
+    {
+      Eigen::Vector4d plane;
+      plane << direction / weight, -direction.dot(point.toDouble()) / weight;
+      form_ += weight * plane * plane.transpose();
+      weight_ += weight;
+    }
+  }
+  void add(const Quadric& other)
+  {
+    form_ += other.form_;
+    weight_ += other.weight_;
+  }
+  /// Where it is least; on planes, and along lines, that is next to `near`.
+  Vector4 leastPlace(Vector4 near) const
+  {
+    const Eigen::Matrix3d form = form_.topLeftCorner<3, 3>();
+    const double toNear = WeightOfNear * form.trace();
+    if (!(toNear > 0.))
+    {
+      return near;
+    }
+    const Eigen::Matrix3d sum = form + toNear * Eigen::Matrix3d::Identity();
+    return Vector4(
+      sum.ldlt().solve(toNear * near.toDouble() - Eigen::Vector3d(form_.topRightCorner<3, 1>())));
+  }
+  double at(Vector4 point) const
+  {
+    Eigen::Vector4d place;
+    place << point.toDouble(), 1.;
+    return weight_ > 0. ? std::max(0., place.dot(form_ * place)) / weight_ : 0.;
+  }
+
+private:
+  Eigen::Matrix4d form_ = Eigen::Matrix4d::Zero();
+  double weight_ = 0.;
+};
+
+class QuadricSimplifier
+{
+public:
+  explicit QuadricSimplifier(Mesh& mesh)
+    : mesh_(mesh)
+    , quadrics_(mesh.indexEnd())
+  {
+    mesh.forEachTriangle(
+      [this](VertexIndex a, VertexIndex b, VertexIndex c)
+      {
+        const Vector4 normal = normalOf(a, b, c);
+        for (const VertexIndex v : { a, b, c })
+        {
+          quadrics_[v].addPlane(mesh_.position(v), normal);
+        }
+        for (const auto& [from, to] : { std::pair(a, b), std::pair(b, c), std::pair(c, a) })
+        {
+          if (mesh_.isBoundaryEdge(from, to))
+          {
+            addBoundary(from, to, normal);
+          }
+        }
+      });
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      pushCollapsesOf(v);
+    }
+  }
+
+  void simplify(std::size_t count)
+  {
+    while (mesh_.vertexCount() > count && !edges_.empty())
+    {
+      const CheapEdge edge = edges_.top();
+      edges_.pop();
+      if (mesh_.isAlive(edge.removed) && mesh_.ring(edge.removed).contains(edge.kept))
+      {
+        collapse(edge);
+      }
+    }
+  }
+
+private:
+  Vector4 normalOf(VertexIndex a, VertexIndex b, VertexIndex c) const
+  {
+    const Vector4 corner = mesh_.position(a);
+    return cross(mesh_.position(b) - corner, mesh_.position(c) - corner);
+  }
+
+  /// A plane that stands on the surface keeps the boundary where it is.
+  void addBoundary(VertexIndex from, VertexIndex to, Vector4 normal)
+  {
+    const float length = std::sqrt(squaredNorm(normal));
+    if (length > 0.f)
+    {
+      const Vector4 edge = mesh_.position(to) - mesh_.position(from);
+      const Vector4 out = std::sqrt(squaredNorm(edge)) / length * cross(edge, normal);
+      quadrics_[from].addPlane(mesh_.position(from), out);
+      quadrics_[to].addPlane(mesh_.position(to), out);
+    }
+  }
+
+  Quadric quadricOf(VertexIndex a, VertexIndex b) const
+  {
+    Quadric sum = quadrics_[a];
+    sum.add(quadrics_[b]);
+    return sum;
+  }
+
+  Vector4 placeOf(VertexIndex removed, VertexIndex kept) const
+  {
+    return quadricOf(removed, kept)
+      .leastPlace(0.5f * (mesh_.position(removed) + mesh_.position(kept)));
+  }
+
+  /// Never, where it may not be, or a triangle would turn over.
+  double costOf(VertexIndex removed, VertexIndex kept) const
+  {
+    const Vector4 place = placeOf(removed, kept);
+    if (!mesh_.canCollapse(removed, kept) || turnsOver(removed, kept, place) ||
+      turnsOver(kept, removed, place))
+    {
+      return Never;
+    }
+    const double squared = double(squaredNorm(mesh_.position(removed) - mesh_.position(kept)));
+    return quadricOf(removed, kept).at(place) + WeightOfLength * squared;
+  }
+
+  /// Whether a triangle of `v` does that is not at the edge.
+  bool turnsOver(VertexIndex v, VertexIndex other, Vector4 place) const
+  {
+    const Ring& ring = mesh_.ring(v);
+    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+    {
+      const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
+      if (b != other && c != other)
+      {
+        const Vector4 before = normalOf(v, b, c);
+        const Vector4 after = cross(mesh_.position(b) - place, mesh_.position(c) - place);
+        if (dot(before, after) <
+          LeastCosineOfTurn * std::sqrt(squaredNorm(before) * squaredNorm(after)))
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// What it costs has changed with what is around it, perhaps: then it has to wait.
+  void collapse(const CheapEdge& edge)
+  {
+    const double cost = costOf(edge.removed, edge.kept);
+    if (cost > edge.cost)
+    {
+      push(cost, edge.removed, edge.kept);
+      return;
+    }
+    const Vector4 place = placeOf(edge.removed, edge.kept);
+    quadrics_[edge.kept].add(quadrics_[edge.removed]);
+    mesh_.collapse(edge.removed, edge.kept);
+    mesh_.setPosition(edge.kept, place);
+    pushCollapsesOf(edge.kept);
+    for (const VertexIndex neighbor : mesh_.ring(edge.kept))
+    {
+      pushCollapsesOf(neighbor);
+    }
+  }
+
+  void pushCollapsesOf(VertexIndex v)
+  {
+    for (const VertexIndex neighbor : mesh_.ring(v))
+    {
+      push(costOf(v, neighbor), v, neighbor);
+    }
+  }
+
+  void push(double cost, VertexIndex removed, VertexIndex kept)
+  {
+    if (cost < Never)
+    {
+      edges_.push({ cost, removed, kept });
+    }
+  }
+
+  Mesh& mesh_;
+  std::vector<Quadric> quadrics_;
+  std::priority_queue<CheapEdge, std::vector<CheapEdge>, std::greater<>> edges_;
+};
+}
+
+void simplifyByQuadrics(Mesh& mesh, std::size_t count)
+{
+  if (mesh.vertexCount() > count)
+  {
+    QuadricSimplifier(mesh).simplify(count);
+    mesh.dropErased();
+  }
+}
+}

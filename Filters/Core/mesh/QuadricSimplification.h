@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/Mesh.h"
+
+#include <cstddef>
+
+namespace neuralmesh
+{
+/// Collapses the edge that moves the surface least, again and again, until no more than `count` vertices
+/// are left, or no collapse is legal any more: so what is thin stays longer than by simplify(). The
+/// vertex goes where it is nearest to the planes of the triangles that are gone (M. Garland and
+/// P. Heckbert, *Surface simplification using quadric error metrics*, 1997). Handles, boundaries and pieces
+/// stay. In the end, no vertex is erased.
+void simplifyByQuadrics(Mesh& mesh, std::size_t count);
+}
