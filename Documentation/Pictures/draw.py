@@ -140,7 +140,8 @@ def draw(path, renderers):
 
 def growth():
     points = clouds.sample(*bunny(), 200000)
-    meshes = [neuralmesh.reconstruct(points, n, variant="basic", start="tetrahedron") for n in (100, 500, 5000)]
+    meshes = [neuralmesh.reconstruct(points, n, variant="basic", start="tetrahedron", fit_rounds=0)
+              for n in (100, 500, 5000)]
     return [scene(mesh, "y", 30, 10) for mesh in meshes]
 
 
@@ -316,7 +317,7 @@ def failure_missing():
     angle = random.uniform(0, 2 * np.pi, 4000)
     rod = np.column_stack((0.04 * np.cos(angle), random.uniform(0.95, 2.15, 4000), 0.04 * np.sin(angle)))
     return failure(np.vstack((ball(40000), rod)), "y", 30, 10,
-                   meshes=({"vertices": 150}, {"vertices": 2000}))
+                   meshes=({"vertices": 40}, {"vertices": 2000}))
 
 
 def failure_thin():
