@@ -39,7 +39,7 @@ struct OpenedGaps
   bool any() const { return triangles + joined + filled > 0; }
 };
 
-/// Takes the gaps away, and small pieces that are left over: those that hold no more than the part
+/// Takes the gaps away, and small pieces that are left over: those that hold no more than five times the part
 /// `leastPiece` of the samples, or do not lie on theirs. Boundaries that face each other, on average closer
 /// than `bridgeWidth`, are joined: they are both sides of a web that lay across a handle. Slits narrower
 /// than that which are close to points all along are closed: webs lay in creases there. Some vertices may

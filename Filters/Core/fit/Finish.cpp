@@ -26,7 +26,7 @@ constexpr float LeastQuality = 0.1f;
 constexpr int MostAttempts = 4;
 constexpr int TimesForSlivers = 2;
 /// A piece with less than this part of the area has shrunk to a point.
-constexpr double ShrunkPart = 1e-9;
+constexpr double ShrunkPart = 1e-14;
 
 DefectCount countDefects(const Mesh& mesh)
 {
@@ -146,6 +146,10 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
       }
       beginAnew();
     }
+    if (isLast && round > 0)
+    {
+      surfaceFit->reachTheEnd();
+    }
     if (!fit(*surfaceFit, smoothness,
           partOf(progress, double(round) / rounds, double(round + 1) / rounds)))
     {
@@ -189,6 +193,7 @@ void Finish::dropShrunkPieces()
     {
       mesh_ = before;
     }
+    report_.left = countDefects(mesh_);
   }
 }
 

@@ -204,7 +204,7 @@ Vector4 SurfaceFit::beyondBoundary(
 {
   const Vector4 away = sample - pointAt(place, mesh_.positions());
   const float length = std::sqrt(squaredNorm(normal));
-  if (!(length > LeastNormal))
+  if (!reachesTheEnd_ || !(length > LeastNormal))
   {
     return sample;
   }

@@ -39,6 +39,10 @@ public:
   SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount,
     const Executor& executor = Executor::sequential());
 
+  /// From now on a round brings boundaries all the way to the end of the samples, not half of it. Not before
+  /// holes are filled in which there are samples: their sides would run into each other.
+  void reachTheEnd() { reachesTheEnd_ = true; }
+
   bool hasPlaces() const { return hasPlaces_; }
   /// Finds the places of the samples on the mesh as it is now. Returns false if it was ended before.
   bool findPlaces(const Progress& progress);
@@ -107,6 +111,7 @@ private:
   std::vector<std::uint8_t> isUsed_;
   std::vector<VertexIndex> opposite_; ///< of each vertex, see OppositeLayer.h
   bool hasPlaces_ = false;
+  bool reachesTheEnd_ = false;
   std::optional<LocalSpacing> spacing_; ///< at the last findPlaces()
   std::size_t usedCount_ = 0;
   std::size_t heldCount_ = 0;

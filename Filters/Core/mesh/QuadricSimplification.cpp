@@ -10,6 +10,7 @@
 #include <limits>
 #include <queue>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace neuralmesh
@@ -182,8 +183,9 @@ private:
       {
         const Vector4 before = normalOf(v, b, c);
         const Vector4 after = cross(mesh_.position(b) - place, mesh_.position(c) - place);
-        if (dot(before, after) <
-          LeastCosineOfTurn * std::sqrt(squaredNorm(before) * squaredNorm(after)))
+        const float lengths = std::sqrt(squaredNorm(before) * squaredNorm(after));
+        const bool isLine = lengths == 0.f && squaredNorm(before) > 0.f;
+        if (isLine || dot(before, after) < LeastCosineOfTurn * lengths)
         {
           return true;
         }
@@ -217,6 +219,7 @@ private:
     for (const VertexIndex neighbor : mesh_.ring(v))
     {
       push(costOf(v, neighbor), v, neighbor);
+      push(costOf(neighbor, v), neighbor, v);
     }
   }
 

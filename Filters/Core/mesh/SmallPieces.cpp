@@ -85,7 +85,9 @@ std::size_t dropPieces(Mesh& mesh, double leastPart)
       }
     }
   }
-  if (leastPart<SmallPart&& double(vertices)> MostOfVertices * double(mesh.vertexCount()))
+  const bool areSmall = leastPart < SmallPart;
+  const bool areMost = double(vertices) > MostOfVertices * double(mesh.vertexCount());
+  if (areSmall && areMost)
   {
     return 0;
   }

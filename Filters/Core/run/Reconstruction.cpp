@@ -92,7 +92,7 @@ Reconstruction learnAndFinish(std::uint64_t leastLearnt, const PointCloud& input
   if (parameters.fitRounds > 0 && result.isComplete() && (first || result.counts.iterations > 0))
   {
     const std::size_t there = learnt.mesh.vertexCount();
-    const std::size_t vertices = result.stopReason != StopReason::Vertices ? std::min(there, most)
+    const std::size_t vertices = result.stopReason != StopReason::Vertices ? there
       : first                                                              ? std::max(there, most)
                                                                            : most;
     const Progress finishing = partOf(progress, endOfLearning, 1.);
@@ -126,6 +126,23 @@ Reconstruction learnAndFinish(std::uint64_t leastLearnt, const PointCloud& input
   result.times.leave();
   return result;
 }
+
+/// Not where rules end the run that are meant for the mesh as it learns.
+bool mayBeSimplified(const Parameters& parameters)
+{
+  return parameters.fitRounds > 0 && !parameters.topologyLearning && parameters.timeLimit == 0. &&
+    parameters.maximumIterations == 0 && parameters.targetSampleDistance == 0. &&
+    parameters.targetCloudDistance == 0. && parameters.targetNormalChange == 0.;
+}
+
+/// Handles and pieces may need more vertices than there are to be, or so many that the rest is too coarse, and
+/// where many stop growing, few may not.
+bool isRight(const Reconstruction& simplified, std::uint64_t vertices)
+{
+  return simplified.stopReason == StopReason::Vertices &&
+    simplified.surface.vertexCount() == vertices && simplified.finish &&
+    simplified.finish->left.total() == 0;
+}
 }
 
 Parameters learnable(Parameters parameters, const PointCloud& cloud)
@@ -149,25 +166,27 @@ Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
   bool explainsAll)
 {
   const std::uint64_t asked = requested.numberOfVertices;
-  const auto learn = [&](std::uint64_t least, const Progress& progress, const CheckpointPlan& there)
+  const auto learn = [&](std::uint64_t least, const Progress& progress, const GrowthWatch& growth,
+                       const CheckpointPlan& there)
   {
     return learnAndFinish(
-      least, input, requested, progress, first, watch, there, executor, hints, explainsAll);
+      least, input, requested, progress, first, growth, there, executor, hints, explainsAll);
   };
   const std::uint64_t least =
     std::min<std::uint64_t>(LeastLearntToFit, input.differentCount() / PointsToSimplify);
-  const bool isSmall =
-    asked < least && requested.fitRounds > 0 && !first && !requested.topologyLearning;
-  if (!isSmall)
+  if (first || asked >= least || !mayBeSimplified(requested))
   {
-    return learn(asked, report, plan);
+    return learn(asked, report, watch, plan);
   }
-  Reconstruction result = learn(least, report, plan);
-  // Handles and pieces may need more vertices than there are to be, and where many stop growing, few may not.
-  const std::size_t count = result.surface.vertexCount();
-  const bool isByRule =
-    result.stopReason != StopReason::Vertices && result.stopReason != StopReason::Stalled;
-  const bool isRight = !result.isComplete() || count == asked || (isByRule && count < asked);
-  return isRight ? result : learn(asked, partOf(report, 1., 1.), {});
+  Reconstruction result = learn(least, report, watch, plan);
+  if (!result.isComplete() || isRight(result, asked))
+  {
+    return result;
+  }
+  Reconstruction direct = learn(asked, partOf(report, 1., 1.), {}, {});
+  direct.resumedIterations = result.resumedIterations;
+  const bool isComparable =
+    result.surface.vertexCount() == asked && direct.quality && result.quality;
+  return isComparable && result.quality->residual < direct.quality->residual ? result : direct;
 }
 }

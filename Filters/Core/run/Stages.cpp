@@ -123,10 +123,11 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   {
     return {};
   }
-  FinishReport report = finishSimplified.report();
-  report.gapTriangles = finish.report().gapTriangles;
-  // What is simplified lies close already: hardly any round makes it better.
-  report.roundsTakenBack = finish.report().roundsTakenBack;
+  // What is simplified lies close already, and is often left as it is: the fit is that of before.
+  FinishReport report = finish.report();
+  report.repaired = finishSimplified.report().repaired;
+  report.left = finishSimplified.report().left;
+  report.heldVertices = finishSimplified.report().heldVertices;
   return report;
 }
 
