@@ -5,6 +5,7 @@
 #include "fit/IntersectionRepair.h"
 #include "learn/Learner.h"
 #include "mesh/Pieces.h"
+#include "mesh/SmallPieces.h"
 #include "mesh/SurfaceReport.h"
 #include "MeshTools.h"
 #include "OpenShapes.h"
@@ -290,6 +291,33 @@ TEST(Finish, WhatCannotBeMendedIsCollapsed)
   }
   EXPECT_GT(leftByMoves, 0u);
   EXPECT_LT(left, leftByMoves);
+}
+
+// Small pieces go, but not where they are most of the mesh, and one is large for no good reason.
+TEST(Finish, ManySmallPiecesStay)
+{
+  const PointCloud cloud = noisySphere(0., 0., false);
+  for (const int count : { 1, 20 })
+  {
+    TriangleMesh triangles = makeSphere(4);
+    for (int i = 0; i < count; ++i)
+    {
+      const std::size_t first = triangles.points.size();
+      const TriangleMesh speck = makeSphere(2);
+      for (const Eigen::Vector3d& point : speck.points)
+      {
+        triangles.points.emplace_back(1e-3 * point + Eigen::Vector3d(0., 0., 0.01 * i));
+      }
+      for (const auto& [a, b, c] : speck.triangles)
+      {
+        triangles.triangles.push_back(
+          { std::uint32_t(a + first), std::uint32_t(b + first), std::uint32_t(c + first) });
+      }
+    }
+    Mesh mesh = buildMesh(std::move(triangles), cloud);
+    EXPECT_EQ(dropPieces(mesh, 0.0005), count == 1 ? 1u : 0u);
+    EXPECT_EQ(dropPieces(mesh, 0.1), count == 1 ? 0u : 20u);
+  }
 }
 
 // A piece that has shrunk to a point is none: it goes, and its vertices come in again elsewhere.
