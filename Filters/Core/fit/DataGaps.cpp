@@ -38,7 +38,7 @@ constexpr double LeastSpacingsIfEmpty = 1.5;
 /// that counts, and triangles may be too small there.
 constexpr double SparseGapSpacings = 2.;
 /// Of the distance between samples: so far away they lie on a piece, though it has no noise.
-constexpr double MostOfSpacing = 0.1;
+constexpr double MostOffPiece = 0.1;
 /// A piece that is cut off has so many times the samples of a small piece: crumbs of rims have fewer.
 constexpr double TimesForLeftOver = 5.;
 /// Holes in which there are points are filled with edges up to so many of the mesh on average.
@@ -54,7 +54,7 @@ double areaOf(const Mesh& mesh, const Triangle& triangle)
       double(squaredNorm(cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a))));
 }
 
-double areaOf(const Mesh& mesh)
+double areaOfAll(const Mesh& mesh)
 {
   double area = 0.;
   mesh.forEachTriangle(
@@ -265,7 +265,7 @@ std::vector<Triangle> leftOverPieces(const Mesh& mesh, std::span<const PlaceOnMe
   {
     const std::size_t piece = pieces.root(place.triangle[0]);
     const double spacing = std::sqrt(areas[piece] / double(samples[piece]));
-    const double most = std::max(LeastMedians * double(medianDistance), MostOfSpacing * spacing);
+    const double most = std::max(LeastMedians * double(medianDistance), MostOffPiece * spacing);
     onPiece[piece] += double(place.squaredDistance) <= most * most ? 1 : 0;
   }
   const double least = TimesForLeftOver * leastPiece * double(places.size());
@@ -308,7 +308,7 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
       distance(t) <= LeastSpacingsIfEmpty * spacing;
   };
   const bool isFine = places.size() < LeastSamplesPerTriangle * triangles.all().size();
-  const double meanDensity = isFine ? double(places.size()) / areaOf(mesh) : 0.;
+  const double meanDensity = isFine ? double(places.size()) / areaOfAll(mesh) : 0.;
   const double meanSpacing = isFine ? 1. / std::sqrt(meanDensity) : 0.;
   std::vector<bool> isEmpty(samples.size());
   for (std::uint32_t t = 0; t < samples.size(); ++t)
@@ -364,7 +364,7 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   }
   result.joined = mergeBoundaries(mesh, boundaries, plan.bridgeWidth, LoopDistance::Mean);
   const SomePoints points(cloud, places.size());
-  const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
+  const double spacing = std::sqrt(areaOfAll(mesh) / double(places.size()));
   const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
   // A bridge may be wide; what goes on where points are is filled anyway.
   result.filled = fillBoundaries(

@@ -20,7 +20,7 @@ namespace
 /// Of the squared edge, against the squared distance: on a plane short edges go first.
 constexpr double WeightOfLength = 1e-3;
 /// Of the angle by which a triangle may turn.
-constexpr float LeastCosineOfTurn = 0.2f;
+constexpr float LeastCosineOfCollapse = 0.2f;
 /// Of what draws a vertex to the middle of its edge, against the planes.
 constexpr double WeightOfNear = 1e-3;
 constexpr double Never = std::numeric_limits<double>::infinity();
@@ -185,7 +185,7 @@ private:
         const Vector4 after = cross(mesh_.position(b) - place, mesh_.position(c) - place);
         const float lengths = std::sqrt(squaredNorm(before) * squaredNorm(after));
         const bool isLine = lengths == 0.f && squaredNorm(before) > 0.f;
-        if (isLine || dot(before, after) < LeastCosineOfTurn * lengths)
+        if (isLine || dot(before, after) < LeastCosineOfCollapse * lengths)
         {
           return true;
         }

@@ -12,7 +12,7 @@ namespace
 constexpr double LeastPart = 0.02;
 /// Of the area: a piece with less is small, if it is one of a few. Where more than half of the vertices are
 /// in such pieces, it is the others that are odd.
-constexpr double SmallPart = 0.01;
+constexpr double PartOfSmallPiece = 0.01;
 constexpr double MostOfVertices = 0.5;
 }
 
@@ -85,7 +85,7 @@ std::size_t dropPieces(Mesh& mesh, double leastPart)
       }
     }
   }
-  const bool areSmall = leastPart < SmallPart;
+  const bool areSmall = leastPart < PartOfSmallPiece;
   const bool areMost = double(vertices) > MostOfVertices * double(mesh.vertexCount());
   if (areSmall && areMost)
   {
