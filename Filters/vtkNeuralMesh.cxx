@@ -9,7 +9,6 @@
 #include "run/Tuning.h"
 #include "vtkExplainedPoints.h"
 #include "vtkFilePoints.h"
-#include "vtkMeshArrays.h"
 #include "vtkNeuralMeshGrowth.h"
 #include "vtkNeuralMeshOrientation.h"
 #include "vtkNeuralMeshParameters.h"
@@ -48,22 +47,6 @@ constexpr double EndOfChoice = 0.3;
 /// shape.
 constexpr vtkIdType PointsPerVertex = 50;
 constexpr vtkIdType FewestPoints = 1000000;
-
-/// Enough of a cloud to tell where it lies.
-constexpr std::size_t PointsToLookAt = 10000;
-
-/// Whether floats hold a mesh of so many vertices where the points lie.
-bool FitsFloats(const neuralmesh::PointCloud& cloud, vtkIdType vertices)
-{
-  const std::size_t step = 1 + cloud.points().size() / PointsToLookAt;
-  std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < cloud.points().size(); i += step)
-  {
-    points.push_back(cloud.toInput(cloud.points()[i]));
-  }
-  return neuralmesh::CoordinateRange(points).fitsFloats(
-    static_cast<std::size_t>(vertices), Eigen::Vector3d::Zero());
-}
 }
 
 vtkNeuralMesh::vtkNeuralMesh()
@@ -386,7 +369,8 @@ int vtkNeuralMesh::RequestData(
   collector.ReleasePoints();
   std::vector<double>().swap(weights);
 
-  const bool needsDoubles = !FitsFloats(cloud, this->NumberOfVertices);
+  const bool needsDoubles = !neuralmesh::rangeOf(cloud).fitsFloats(
+    static_cast<std::size_t>(this->NumberOfVertices), Eigen::Vector3d::Zero());
   vtkNeuralMeshRun run{ cloud, {},
     this->GetUsedPrecision(collector.HasDoublePoints() || needsDoubles),
     vtkNeuralMeshProgress(this), {}, executor, {}, carries ? EndOfMesh : 1.0, hints };
@@ -510,13 +494,11 @@ bool vtkNeuralMesh::BeginRun(
 /// Chooses parameters, if that is asked for, and learns. False if the checkpoint does not go with it.
 bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& result)
 {
-  const neuralmesh::Progress progress = [&run](double fraction)
-  { return run.Progress.Report(fraction); };
   if (this->Automatic)
   {
     this->Times->enter(neuralmesh::Phase::Choice);
     run.Tuning = neuralmesh::tune(
-      run.Cloud, run.Parameters, neuralmesh::partOf(progress, 0.0, EndOfChoice), run.Executor);
+      run.Cloud, run.Parameters, run.Progress.GetPart(0.0, EndOfChoice), run.Executor);
     run.AreParametersChosen = run.Tuning.has_value();
     if (!run.Tuning)
     {
@@ -530,9 +512,9 @@ bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& res
   try
   {
     result = neuralmesh::reconstruct(run.Cloud, run.Parameters,
-      neuralmesh::partOf(progress, this->Automatic ? EndOfChoice : 0.0, run.EndOfMesh),
-      run.FirstMesh, this->WatchGrowth(run.PointsPrecision), this->PlanCheckpoint(run),
-      run.Executor, run.Hints, this->ExplainPoints);
+      run.Progress.GetPart(this->Automatic ? EndOfChoice : 0.0, run.EndOfMesh), run.FirstMesh,
+      this->WatchGrowth(run.PointsPrecision), this->PlanCheckpoint(run), run.Executor, run.Hints,
+      this->ExplainPoints);
   }
   catch (const std::runtime_error& error)
   {
@@ -579,9 +561,7 @@ void vtkNeuralMesh::FillOutput(const vtkNeuralMeshRun& run,
 bool vtkNeuralMesh::Carry(vtkNeuralMeshRun& run, const neuralmesh::Reconstruction& result,
   const vtkPointDataCarrier& carrier, vtkPolyData* output)
 {
-  const neuralmesh::Progress progress = [&run](double fraction)
-  { return run.Progress.Report(fraction); };
-  const neuralmesh::Progress carrying = neuralmesh::partOf(progress, run.EndOfMesh, 1.0);
+  const neuralmesh::Progress carrying = run.Progress.GetPart(run.EndOfMesh, 1.0);
   const neuralmesh::CloudPlaces places(
     run.Cloud, result.surface, neuralmesh::partOf(carrying, 0.0, 0.5), run.Executor);
   carrier.Carry(

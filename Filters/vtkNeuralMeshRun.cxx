@@ -48,6 +48,12 @@ bool vtkNeuralMeshProgress::Report(double fraction)
   return !this->Filter->GetAbortExecute();
 }
 
+neuralmesh::Progress vtkNeuralMeshProgress::GetPart(double begin, double end)
+{
+  return [this, begin, end](double fraction)
+  { return this->Report(begin + fraction * (end - begin)); };
+}
+
 void vtkNeuralMeshProgress::Abort() { this->Filter->SetAbortExecute(1); }
 
 double vtkNeuralMeshProgress::GetSeconds() const

@@ -10,6 +10,7 @@
 #define vtkNeuralMeshRun_h
 
 #include "base/Executor.h"
+#include "base/Progress.h"
 #include "cloud/OrientationHints.h"
 #include "cloud/PointCloud.h"
 #include "learn/Parameters.h"
@@ -40,6 +41,8 @@ public:
   void EnterPart(double begin, double end, const char* text);
   /** How much of the part is done, 0 to 1. Returns false if the filter was told to abort. */
   bool Report(double fraction);
+  /** What the core reports to within this part of the whole; not to be kept longer than this object. */
+  neuralmesh::Progress GetPart(double begin, double end);
   /** Has the filter abort, as another process was told to. */
   void Abort();
   /** Since the start. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/CoordinateRange.h"
 
+#include "cloud/PointCloud.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +14,8 @@ namespace
 {
 constexpr std::size_t OneOutOf = 100; ///< are taken for outliers at each end
 constexpr double StepsInAnEdge = 100.;
+/// Enough of a cloud to tell where it lies.
+constexpr std::size_t PointsToLookAt = 10000;
 }
 
 CoordinateRange::CoordinateRange(std::span<const Eigen::Vector3d> points)
@@ -83,5 +87,16 @@ Eigen::Vector3d CoordinateRange::roundShift(std::size_t vertices) const
     return exponent < 0. ? std::round(number * power) / power : std::round(number / power) * power;
   };
   return box_.center().unaryExpr(rounded);
+}
+
+CoordinateRange rangeOf(const PointCloud& cloud)
+{
+  const std::size_t step = 1 + cloud.points().size() / PointsToLookAt;
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < cloud.points().size(); i += step)
+  {
+    points.push_back(cloud.toInput(cloud.points()[i]));
+  }
+  return CoordinateRange(points);
 }
 }

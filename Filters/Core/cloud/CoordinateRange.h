@@ -8,6 +8,8 @@
 
 namespace neuralmesh
 {
+class PointCloud;
+
 /// Where points lie, as against the digits that a float has.
 class CoordinateRange
 {
@@ -30,4 +32,7 @@ public:
 private:
   Eigen::AlignedBox3d box_;
 };
+
+/// By some thousand points of a cloud, in the coordinates of the input.
+CoordinateRange rangeOf(const PointCloud& cloud);
 }

@@ -8,6 +8,7 @@
 #include "mesh/BoundaryManager.h"
 #include "mesh/BoundaryMerging.h"
 #include "mesh/NumberedTriangles.h"
+#include "mesh/Pieces.h"
 #include "mesh/SmallPieces.h"
 
 #include <algorithm>
@@ -52,16 +53,6 @@ double areaOf(const Mesh& mesh, const Triangle& triangle)
   return 0.5 *
     std::sqrt(
       double(squaredNorm(cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a))));
-}
-
-double areaOfAll(const Mesh& mesh)
-{
-  double area = 0.;
-  mesh.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
-      area += areaOf(mesh, { a, b, c });
-    });
-  return area;
 }
 
 Vector4 centerOf(const Mesh& mesh, const Triangle& triangle)
@@ -308,7 +299,7 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
       distance(t) <= LeastSpacingsIfEmpty * spacing;
   };
   const bool isFine = places.size() < LeastSamplesPerTriangle * triangles.all().size();
-  const double meanDensity = isFine ? double(places.size()) / areaOfAll(mesh) : 0.;
+  const double meanDensity = isFine ? double(places.size()) / areaOf(mesh) : 0.;
   const double meanSpacing = isFine ? 1. / std::sqrt(meanDensity) : 0.;
   std::vector<bool> isEmpty(samples.size());
   for (std::uint32_t t = 0; t < samples.size(); ++t)
@@ -364,7 +355,7 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   }
   result.joined = mergeBoundaries(mesh, boundaries, plan.bridgeWidth, LoopDistance::Mean);
   const SomePoints points(cloud, places.size());
-  const double spacing = std::sqrt(areaOfAll(mesh) / double(places.size()));
+  const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
   const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
   // A bridge may be wide; what goes on where points are is filled anyway.
   result.filled = fillBoundaries(

@@ -37,7 +37,8 @@ struct GrowthWatch
 
 /// Takes the snapshots of a run. The numbers of vertices of the first one, of all others and of the
 /// result form a geometric series, as far as the batches of the learner and whole numbers let them;
-/// they always rise. A run that ends early has fewer.
+/// they always rise, but for a result that was simplified to fewer vertices than were learnt. A run that
+/// ends early has fewer.
 class GrowthRecorder
 {
 public:

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
+
 namespace neuralmesh
 {
 namespace
@@ -108,5 +110,18 @@ std::vector<Piece> findPieces(const Mesh& mesh)
     measure.closeLoops(isClosed);
   }
   return pieces;
+}
+
+double areaOf(const Mesh& mesh)
+{
+  double area = 0.;
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    {
+      const Vector4 first = mesh.position(a);
+      const Vector4 twice = cross(mesh.position(b) - first, mesh.position(c) - first);
+      area += 0.5 * std::sqrt(double(squaredNorm(twice)));
+    });
+  return area;
 }
 }

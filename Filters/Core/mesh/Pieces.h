@@ -21,4 +21,7 @@ struct Piece
 
 /// The pieces of a mesh, in the order of their lowest vertices.
 std::vector<Piece> findPieces(const Mesh& mesh);
+
+/// Of all triangles.
+double areaOf(const Mesh& mesh);
 }

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/QuadricSimplification.h"
 
+#include "mesh/EdgeQueue.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -24,18 +23,6 @@ constexpr float LeastCosineOfCollapse = 0.2f;
 /// Of what draws a vertex to the middle of its edge, against the planes.
 constexpr double WeightOfNear = 1e-3;
 constexpr double Never = std::numeric_limits<double>::infinity();
-
-struct CheapEdge
-{
-  double cost;
-  VertexIndex removed;
-  VertexIndex kept;
-
-  friend bool operator>(const CheapEdge& x, const CheapEdge& y)
-  {
-    return std::tie(x.cost, x.removed, x.kept) > std::tie(y.cost, y.removed, y.kept);
-  }
-};
 
 /// The mean squared distance of a point from some planes, by their weights, as a quadratic form. Were it the
 /// sum, what is thin would go first: its planes have little area.
@@ -117,11 +104,11 @@ public:
   {
     while (mesh_.vertexCount() > count && !edges_.empty())
     {
-      const CheapEdge edge = edges_.top();
+      const auto [cost, removed, kept] = edges_.top();
       edges_.pop();
-      if (mesh_.isAlive(edge.removed) && mesh_.ring(edge.removed).contains(edge.kept))
+      if (mesh_.isAlive(removed) && mesh_.ring(removed).contains(kept))
       {
-        collapse(edge);
+        collapse(removed, kept, cost);
       }
     }
   }
@@ -195,20 +182,20 @@ private:
   }
 
   /// What it costs has changed with what is around it, perhaps: then it has to wait.
-  void collapse(const CheapEdge& edge)
+  void collapse(VertexIndex removed, VertexIndex kept, double expected)
   {
-    const double cost = costOf(edge.removed, edge.kept);
-    if (cost > edge.cost)
+    const double cost = costOf(removed, kept);
+    if (cost > expected)
     {
-      push(cost, edge.removed, edge.kept);
+      push(cost, removed, kept);
       return;
     }
-    const Vector4 place = placeOf(edge.removed, edge.kept);
-    quadrics_[edge.kept].add(quadrics_[edge.removed]);
-    mesh_.collapse(edge.removed, edge.kept);
-    mesh_.setPosition(edge.kept, place);
-    pushCollapsesOf(edge.kept);
-    for (const VertexIndex neighbor : mesh_.ring(edge.kept))
+    const Vector4 place = placeOf(removed, kept);
+    quadrics_[kept].add(quadrics_[removed]);
+    mesh_.collapse(removed, kept);
+    mesh_.setPosition(kept, place);
+    pushCollapsesOf(kept);
+    for (const VertexIndex neighbor : mesh_.ring(kept))
     {
       pushCollapsesOf(neighbor);
     }
@@ -233,7 +220,7 @@ private:
 
   Mesh& mesh_;
   std::vector<Quadric> quadrics_;
-  std::priority_queue<CheapEdge, std::vector<CheapEdge>, std::greater<>> edges_;
+  EdgeQueue<double> edges_; ///< that vanish with their first vertex
 };
 }
 

@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/Simplification.h"
 
+#include "mesh/EdgeQueue.h"
 #include "mesh/HalfEdgeCollapse.h"
-
-#include <functional>
-#include <queue>
-#include <tuple>
-#include <vector>
 
 namespace neuralmesh
 {
 namespace
 {
-struct ShortEdge
-{
-  float squaredLength;
-  VertexIndex a;
-  VertexIndex b;
-
-  friend bool operator>(const ShortEdge& x, const ShortEdge& y)
-  {
-    return std::tie(x.squaredLength, x.a, x.b) > std::tie(y.squaredLength, y.a, y.b);
-  }
-};
-
 class Simplifier
 {
 public:
@@ -46,7 +30,7 @@ public:
   {
     while (mesh_.vertexCount() > count && !edges_.empty())
     {
-      const ShortEdge edge = edges_.top();
+      const WaitingEdge edge = edges_.top();
       edges_.pop();
       // Vertices do not move, so an edge that is there has its length.
       if (mesh_.isAlive(edge.a) && mesh_.ring(edge.a).contains(edge.b))
@@ -89,7 +73,7 @@ private:
   }
 
   Mesh& mesh_;
-  std::priority_queue<ShortEdge, std::vector<ShortEdge>, std::greater<>> edges_;
+  EdgeQueue<float> edges_; ///< their squared lengths
 };
 }
 

@@ -7,6 +7,7 @@
 #include "fit/SurfaceFit.h"
 #include "mesh/BoundaryFilling.h"
 #include "mesh/EdgeFlips.h"
+#include "mesh/Pieces.h"
 #include "mesh/Simplification.h"
 #include "start/Evidence.h"
 #include "start/FrontSurface.h"
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -392,19 +392,6 @@ std::optional<FirstSurface> thinSolid(const PointCloud& cloud, FirstSurface skin
   FirstFit fit(cloud, skin.mesh, executor);
   return hasRightSize(skin, mostVertices) && fit.run(progress) ? std::optional(std::move(skin))
                                                                : std::nullopt;
-}
-
-double areaOf(const Mesh& mesh)
-{
-  double area = 0.;
-  mesh.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c)
-    {
-      const Vector4 first = mesh.position(a);
-      const Vector4 twice = cross(mesh.position(b) - first, mesh.position(c) - first);
-      area += 0.5 * std::sqrt(double(squaredNorm(twice)));
-    });
-  return area;
 }
 
 /// Whether a front shows the two sides of what another one takes for one sheet: then it has more area, and

@@ -2,6 +2,7 @@
 #include "mesh/Refinement.h"
 
 #include "mesh/EdgeFlips.h"
+#include "mesh/Pieces.h"
 #include "mesh/SmallPieces.h"
 #include "mesh/SurfaceReport.h"
 #include "MeshTools.h"
@@ -25,18 +26,6 @@ float longestEdge(const Mesh& mesh)
     }
   }
   return std::sqrt(longest);
-}
-
-double areaOf(const Mesh& mesh)
-{
-  double area = 0.;
-  for (const Triangle& triangle : trianglesOf(mesh))
-  {
-    const Vector4 a = mesh.position(triangle[0]);
-    const Vector4 normal = cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a);
-    area += 0.5 * std::sqrt(double(squaredNorm(normal)));
-  }
-  return area;
 }
 
 /// Unit squares of so many quadrangles along a side each, beside each other.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "learn/WinGain.h"
 #include "mesh/VertexMove.h"
+
+#include "mesh/Pieces.h"
 #include "MeshTools.h"
 
 #include <gtest/gtest.h>
@@ -11,20 +13,6 @@ namespace neuralmesh::testing
 {
 namespace
 {
-double areaOf(const Mesh& mesh)
-{
-  double area = 0.;
-  for (const Triangle& triangle : trianglesOf(mesh))
-  {
-    const Eigen::Vector3d a = mesh.position(triangle[0]).toDouble();
-    area += 0.5 *
-      (mesh.position(triangle[1]).toDouble() - a)
-        .cross(mesh.position(triangle[2]).toDouble() - a)
-        .norm();
-  }
-  return area;
-}
-
 /// The normal at a vertex, its triangles weighted by the sine over the lengths of their edges: one
 /// weighted by areas does not change when its vertex moves.
 Eigen::Vector3d normalAt(const Mesh& mesh, VertexIndex v)
