@@ -3,6 +3,7 @@
 
 #include "cloud/OrientationVote.h"
 #include "cloud/PieceAgreement.h"
+#include "mesh/OpeningSides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +66,7 @@ OrientationReport orientMesh(
   const bool areNormalsMute = hints.normalOf && addSides(vote.byNormals(), sides);
   std::transform(pieces.begin(), pieces.end(), byVolume.begin(), sideByVolume);
   addSides(sidesOfBodies(pieces, byVolume), sides);
+  addSides(sidesByOpenings(mesh, pieces, sides), sides);
   addSides(sidesByNeighbors(mesh, pieces, sides), sides);
   addSides(byVolume, sides);
   makePiecesAgree(mesh, pieces, sides);

@@ -417,6 +417,38 @@ TEST(MeshOrientation, SmallPiecesFollowBodies)
   EXPECT_EQ(scene.facing(outwards), 1.);
 }
 
+// A base that bulges inwards closes the body in whose opening it lies, in its plane or within the body, though
+// the body's rim faces away from it there; what lies below the body beside its opening does not.
+TEST(MeshOrientation, BasesCloseBodies)
+{
+  const double angle = 40. * std::numbers::pi / 180.;
+  const TriangleMesh dome = partOf(makeSphere(40),
+    [angle](const Eigen::Vector3d& centroid) { return centroid.z() > std::cos(angle); });
+  for (const double height : { 0., 0.05 })
+  {
+    for (const bool isTurned : { false, true })
+    {
+      SCOPED_TRACE(height);
+      const TriangleMesh base = placed(
+        dome, Eigen::Matrix3d::Identity(), { 0., 0., (1. - 0.4) * std::cos(angle) + height }, 0.4);
+      TriangleMesh body = dome;
+      append(isTurned ? turned(base) : base, body);
+      Scene scene(body);
+      const OrientationReport report = scene.orient();
+      EXPECT_EQ(report.unknownPieces, 0u);
+      EXPECT_GT(report.share(SideEvidence::Neighbors), 0.1);
+      const auto outwards = [](const Eigen::Vector3d& at)
+      { return at.norm() < 0.97 ? Eigen::Vector3d(0., 0., -1.) : at; };
+      EXPECT_EQ(scene.facing(outwards), 1.);
+    }
+  }
+  const TriangleMesh beside = placed(makeGrid(8), Eigen::Matrix3d::Identity(), { 1.8, -0.5, 0.5 });
+  TriangleMesh scenery = dome;
+  append(beside, scenery);
+  Scene scene(scenery);
+  EXPECT_EQ(scene.orient().unknownPieces, 1u);
+}
+
 // Sheets one over the other, and those that are far apart, say nothing of each other.
 TEST(MeshOrientation, StrangersStayAsTheyAre)
 {
