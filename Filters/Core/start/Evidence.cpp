@@ -13,17 +13,17 @@ namespace neuralmesh
 {
 namespace
 {
-constexpr std::size_t PointsAsked = 4000;
 /// Of those off the mesh, so many are looked at closely.
 constexpr std::size_t MostLookedAt = 200;
 constexpr float SpacingsOff = 3.f;
 }
 
-Evidence evidenceFor(const PointCloud& cloud, const NearestPoints& nearest, const Mesh& mesh)
+Evidence evidenceFor(const PointCloud& cloud, const NearestPoints& nearest, const Mesh& mesh,
+  std::size_t pointsAsked)
 {
   const VertexGrid grid = gridOf(mesh, cloud);
   const std::span<const Vector4> points = cloud.points();
-  const std::size_t asked = std::min(points.size(), PointsAsked);
+  const std::size_t asked = std::min(points.size(), pointsAsked);
   std::vector<float> distances(asked);
   std::vector<std::uint32_t> indices(asked);
   for (std::size_t i = 0; i < asked; ++i)

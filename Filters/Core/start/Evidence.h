@@ -6,6 +6,8 @@
 #include "cloud/PointCloud.h"
 #include "mesh/Mesh.h"
 
+#include <cstddef>
+
 namespace neuralmesh
 {
 /// What the points say of a mesh that is to explain them.
@@ -20,6 +22,9 @@ struct Evidence
   double medianInEdges = 1.;
 };
 
-/// Asks some points, evenly picked.
-Evidence evidenceFor(const PointCloud& cloud, const NearestPoints& nearest, const Mesh& mesh);
+constexpr std::size_t UsuallyAsked = 4000;
+
+/// Asks so many points, evenly picked.
+Evidence evidenceFor(const PointCloud& cloud, const NearestPoints& nearest, const Mesh& mesh,
+  std::size_t pointsAsked = UsuallyAsked);
 }

@@ -34,7 +34,7 @@ constexpr int SmoothingSteps = 4;
 /// Gaps of so many are closed by a grid.
 constexpr double ClosedVoxels = 2.;
 
-/// For the skin around an open surface, at least so many in an occupied voxel: with less, it is torn.
+/// At least so many in an occupied voxel: with less, surfaces are torn.
 constexpr double LeastPointsPerVoxel = 2.;
 /// Of a skin, in voxels.
 constexpr double SkinThickness = 1.5;
@@ -49,6 +49,10 @@ constexpr double EvennessOfLayers = 0.88;
 
 /// A closed solid that leaves so many points unexplained is not what they lie on.
 constexpr double LeastUnexplained = 0.005;
+/// The same of one around gaps, for which a finer grid is leaky: it may have lost what is narrow. So few are
+/// found among more points.
+constexpr double LeastUnexplainedIfLeaky = 0.001;
+constexpr std::size_t AskedIfLeaky = 16000;
 /// The same of one sheet, which may have lost what is thin.
 constexpr double LeastUnexplainedBySheet = 0.002;
 /// Of a sheet, in edges: with more it lies between layers.
@@ -148,6 +152,11 @@ Mesh meshOf(TriangleMesh surface, const PointCloud& cloud)
   return mesh;
 }
 
+bool isDenseFor(const OccupiedSolid& solid, const PointCloud& cloud)
+{
+  return double(cloud.points().size()) >= LeastPointsPerVoxel * double(solid.occupiedCount);
+}
+
 struct Skin
 {
   unsigned resolution;
@@ -157,10 +166,8 @@ struct Skin
 /// A thin closed skin around the points: of the finest grid that the points are dense enough for.
 std::optional<FirstSurface> finestSkin(const PointCloud& cloud, std::span<const Skin> skins)
 {
-  const auto isDense = [&](const Skin& skin) {
-    return double(cloud.points().size()) >= LeastPointsPerVoxel * double(skin.solid.occupiedCount);
-  };
-  const auto finest = std::find_if(skins.rbegin(), skins.rend(), isDense);
+  const auto finest = std::find_if(skins.rbegin(), skins.rend(),
+    [&](const Skin& skin) { return isDenseFor(skin.solid, cloud); });
   if (finest == skins.rend())
   {
     return {};
@@ -182,6 +189,7 @@ std::optional<FirstSurface> closedSurface(
   const PointCloud& cloud, std::vector<Skin>& skins, const Progress& progress)
 {
   std::vector<SurfaceCandidate> candidates;
+  bool isLeaky = false;
   for (const unsigned resolution : Resolutions)
   {
     if (!progress(double(resolution) / FinestResolutions.back()))
@@ -189,13 +197,15 @@ std::optional<FirstSurface> closedSurface(
       break;
     }
     OccupiedSolid solid = occupiedSolid(cloud, resolution);
-    const bool isLeaky = !candidates.empty() && solid.interiorCount < candidates.back().interior;
-    if (solid.enclosesSomething() && !isLeaky)
+    const bool enclosesLess =
+      !candidates.empty() && solid.interiorCount < candidates.back().interior;
+    if (solid.enclosesSomething() && !enclosesLess)
     {
       candidates.push_back(candidate(solid, resolution));
     }
     else if (!candidates.empty())
     {
+      isLeaky = isDenseFor(solid, cloud);
       break;
     }
     else
@@ -227,7 +237,7 @@ std::optional<FirstSurface> closedSurface(
   const bool isCertain = confirmed != candidates.rend();
   SurfaceCandidate& best = isCertain ? *confirmed : candidates.back();
   return FirstSurface{ meshOf(std::move(best.surface), cloud), best.resolution, best.genus,
-    best.components, false, isCertain, best.bridgeWidth };
+    best.components, false, isCertain, best.bridgeWidth, isLeaky };
 }
 
 void closeBoundaries(Mesh& mesh)
@@ -334,7 +344,6 @@ std::optional<Candidate> solidCandidate(const PointCloud& cloud, const NearestPo
   {
     return {};
   }
-  const Evidence evidence = evidenceFor(cloud, nearest, solid.mesh);
   if (boundaries == Boundaries::Keep)
   {
     fit.openGaps(solid.bridgeWidth, leastPiece);
@@ -343,7 +352,10 @@ std::optional<Candidate> solidCandidate(const PointCloud& cloud, const NearestPo
   {
     return {};
   }
-  const bool explains = solid.isCertain && evidence.unexplained < LeastUnexplained;
+  const Evidence evidence =
+    evidenceFor(cloud, nearest, solid.mesh, solid.isLeaky ? AskedIfLeaky : UsuallyAsked);
+  const bool explains = solid.isCertain &&
+    evidence.unexplained < (solid.isLeaky ? LeastUnexplainedIfLeaky : LeastUnexplained);
   return Candidate{ std::move(solid), evidence, explains };
 }
 

@@ -24,6 +24,7 @@ struct FirstSurface
   bool isOpen = false;
   bool isCertain = false;    ///< whether the next coarser grid gives the same topology
   double bridgeWidth = 0.;   ///< gaps up to about that were closed
+  bool isLeaky = false;      ///< whether finer grids leak though the points are dense enough for them
   float skinThickness = 0.f; ///< about, if it is a skin around points that enclose nothing
 };
 

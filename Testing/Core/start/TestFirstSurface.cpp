@@ -309,6 +309,39 @@ TEST(FirstSurface, HolesStayOrAreClosed)
   }
 }
 
+// Where gaps in the data let only coarse grids enclose something, what these are too coarse for is there all
+// the same: here a bore of which few points are.
+TEST(FirstSurface, WhatIsNarrowIsThereBesideGaps)
+{
+  constexpr double Bore = 0.05, Depth = 0.3, Gap = 0.06;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), {});
+  std::erase_if(points,
+    [](const Eigen::Vector3d& point)
+    {
+      return std::abs(point.z()) < Gap || (point.z() > 0. && std::hypot(point.x(), point.y()) < Bore);
+    });
+  for (int ring = 0; ring <= 40; ++ring)
+  {
+    for (int step = 0; step < 20; ++step)
+    {
+      const double angle = std::numbers::pi * (step + 0.5 * ring) / 10.;
+      points.emplace_back(
+        Bore * std::cos(angle), Bore * std::sin(angle), 1. - Depth * double(ring) / 40.);
+    }
+  }
+  const PointCloud cloud(points);
+  const auto first = firstSurface(cloud, 20000, 20000, Boundaries::Keep, goOn);
+  ASSERT_TRUE(first.has_value());
+  EXPECT_EQ(reportOf(first->mesh).defect, "");
+  double closest = 1.;
+  for (const Vector4& position : first->mesh.positions())
+  {
+    const Eigen::Vector3d bottom(0., 0., 1. - Depth);
+    closest = std::min(closest, (cloud.toInput(position) - bottom).norm());
+  }
+  EXPECT_LT(closest, 1.5 * Bore);
+}
+
 // Open scans, too, are closed if that is asked for.
 TEST(FirstSurface, OpenScansAreClosed)
 {
