@@ -4,6 +4,7 @@
 #include "base/Median.h"
 #include "cloud/PlaceOnMesh.h"
 #include "fit/HeldOutPoints.h"
+#include "mesh/TurnedParts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,8 @@ MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const Tria
   quality.residual = weights > 0. ? cloud.unit() * std::sqrt(sum / weights) : 0.;
   quality.outlierShare = double(outliers) / double(points.size());
   quality.surface = reportSurface(triangles);
+  // What is closed has one inside.
+  quality.turnedShare = quality.surface.boundaryLoops > 0 ? turnedShare(triangles) : 0.;
   return quality;
 }
 }

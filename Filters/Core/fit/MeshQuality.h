@@ -15,6 +15,8 @@ struct MeshQuality
   double residual = 0.;
   double outlierShare = 0.; ///< of these points
   SurfaceReport surface;
+  /// Of the area: what looks inwards though most of its piece looks outwards, or the other way round.
+  double turnedShare = 0.;
 };
 
 /// `triangles` are those of the mesh. Of very many points only some are measured.

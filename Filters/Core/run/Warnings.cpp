@@ -17,6 +17,8 @@ constexpr double MostUnexplained = 0.03;
 constexpr double MostBetweenLayers = 0.1;
 /// Of the area: less is not worth a word.
 constexpr double LeastUnknownSide = 0.001;
+/// Of the area.
+constexpr double MostTurned = 0.005;
 constexpr double WholeArea = 0.999;
 /// Named in one sentence; the others are counted.
 constexpr std::size_t MostPiecesNamed = 2;
@@ -146,6 +148,17 @@ void warnOfDefects(const Reconstruction& result, std::vector<std::string>& warni
   }
 }
 
+void warnOfTurnedParts(double share, std::vector<std::string>& warnings)
+{
+  if (share > MostTurned)
+  {
+    warnings.push_back(percent(share) +
+      " of the surface is inside out: it hangs on to the rest by the wrong side, as bodies do that "
+      "touch each other. More vertices or another seed may part them, and so does a cloud for each "
+      "body.");
+  }
+}
+
 void warnOfVertices(
   const Reconstruction& result, const PointCloud& cloud, std::vector<std::string>& warnings)
 {
@@ -209,6 +222,7 @@ std::vector<std::string> warningsOf(const Reconstruction& result, const PointClo
   if (result.quality)
   {
     warnOfDefects(result, warnings);
+    warnOfTurnedParts(result.quality->turnedShare, warnings);
     warnOfVertices(result, cloud, warnings);
   }
   warnOfSides(result.orientation, warnings);

@@ -18,8 +18,8 @@ constexpr std::size_t MostLookedAt = 200;
 constexpr float SpacingsOff = 3.f;
 }
 
-Evidence evidenceFor(const PointCloud& cloud, const NearestPoints& nearest, const Mesh& mesh,
-  std::size_t pointsAsked)
+Evidence evidenceFor(
+  const PointCloud& cloud, const NearestPoints& nearest, const Mesh& mesh, std::size_t pointsAsked)
 {
   const VertexGrid grid = gridOf(mesh, cloud);
   const std::span<const Vector4> points = cloud.points();

@@ -166,8 +166,8 @@ struct Skin
 /// A thin closed skin around the points: of the finest grid that the points are dense enough for.
 std::optional<FirstSurface> finestSkin(const PointCloud& cloud, std::span<const Skin> skins)
 {
-  const auto finest = std::find_if(skins.rbegin(), skins.rend(),
-    [&](const Skin& skin) { return isDenseFor(skin.solid, cloud); });
+  const auto finest = std::find_if(
+    skins.rbegin(), skins.rend(), [&](const Skin& skin) { return isDenseFor(skin.solid, cloud); });
   if (finest == skins.rend())
   {
     return {};

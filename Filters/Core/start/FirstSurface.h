@@ -22,9 +22,9 @@ struct FirstSurface
   long genus = 0;
   std::size_t components = 0;
   bool isOpen = false;
-  bool isCertain = false;    ///< whether the next coarser grid gives the same topology
-  double bridgeWidth = 0.;   ///< gaps up to about that were closed
-  bool isLeaky = false;      ///< whether finer grids leak though the points are dense enough for them
+  bool isCertain = false;  ///< whether the next coarser grid gives the same topology
+  double bridgeWidth = 0.; ///< gaps up to about that were closed
+  bool isLeaky = false;    ///< whether finer grids leak though the points are dense enough for them
   float skinThickness = 0.f; ///< about, if it is a skin around points that enclose nothing
 };
 

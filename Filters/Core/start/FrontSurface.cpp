@@ -7,10 +7,13 @@
 #include "mesh/CrossingRemoval.h"
 #include "mesh/FanSplitting.h"
 #include "mesh/SelfIntersections.h"
+#include "mesh/TurnedParts.h"
 #include "start/AdvancingFront.h"
 #include "start/WideTriangles.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -20,6 +23,8 @@ namespace
 {
 /// A piece with less is none, however few there are; unless all are to be kept.
 constexpr std::size_t LeastTriangles = 12;
+/// So near to a point lies what fills a cut.
+constexpr double PartOfEdge = 1.0;
 // Of the time.
 constexpr double PartOfSamples = 0.7;
 constexpr double PartOfLayers = 0.9;
@@ -42,6 +47,24 @@ void dropSmallPieces(TriangleMesh& mesh, double leastPiece)
     : 0;
   std::erase_if(
     mesh.triangles, [&](const auto& triangle) { return sizes[sets.root(triangle[0])] < least; });
+}
+
+/// The holes that were cut into the layers of parts that hung together: there are points on what fills them.
+void fillCuts(Mesh& mesh, const NearestPoints& nearest)
+{
+  const double most = PartOfEdge * mesh.meanEdge();
+  BoundaryManager boundaries(mesh);
+  fillBoundaries(
+    mesh, boundaries, std::numeric_limits<double>::max(),
+    [&](const Triangle& triangle)
+    {
+      const Vector4 center = 1.f / 3.f *
+        (mesh.position(triangle[0]) + mesh.position(triangle[1]) + mesh.position(triangle[2]));
+      std::array<NearPoint, 1> closest;
+      nearest.find(center, closest);
+      return double(closest[0].squaredDistance) <= most * most;
+    },
+    std::numeric_limits<std::size_t>::max(), CosineOfOutline);
 }
 }
 
@@ -67,6 +90,11 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestP
     return {};
   }
   splitFans(triangles);
+  const std::size_t turnedParts = separateTurnedParts(triangles);
+  if (turnedParts > 0)
+  {
+    splitFans(triangles);
+  }
   dropSmallPieces(triangles, leastPiece);
   if (triangles.triangles.empty())
   {
@@ -85,6 +113,10 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestP
   }
   result.mesh.removeTriangles(findWideTriangles(result.mesh, samples));
   fillSmallGaps(result.mesh);
+  if (turnedParts > 0)
+  {
+    fillCuts(result.mesh, nearest);
+  }
   if (layers == Layers::Apart)
   {
     // Along the rims of plates.

@@ -78,6 +78,39 @@ TEST(Robustness, Clusters)
   }
 }
 
+// Bodies that touch each other look outwards all around: none hangs on to the other one by the wrong side.
+TEST(Robustness, TouchingBodies)
+{
+  for (const std::uint64_t seed : { 1u, 2u })
+  {
+    SCOPED_TRACE(seed);
+    CloudOptions options;
+    options.count = 30000;
+    options.seed = seed;
+    options.noise = 0.0005;
+    std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
+    const std::size_t count = points.size();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const Eigen::Vector3d point = points[i];
+      points.emplace_back(2. - point.x(), point.y(), point.z());
+    }
+    const Reconstruction result = reconstruct(PointCloud(points), defaults(5000), goOn);
+    const TriangleMesh& mesh = result.mesh;
+    EXPECT_EQ(checkManifold(mesh.points.size(), mesh.triangles).defect, "");
+    std::size_t turned = 0;
+    for (const auto& [a, b, c] : mesh.triangles)
+    {
+      const Eigen::Vector3d from = mesh.points[a],
+                            normal = (mesh.points[b] - from).cross(mesh.points[c] - from);
+      const Eigen::Vector3d center(from.x() < 1. ? 0. : 2., 0., 0.);
+      turned += normal.dot(from - center) < 0. ? 1 : 0;
+    }
+    EXPECT_LT(turned, mesh.triangles.size() / 100);
+    EXPECT_TRUE(result.warnings.empty());
+  }
+}
+
 // Where points are ten times as dense at one end as at the other, the mesh is near the surface
 // everywhere, and the surface near the mesh.
 TEST(Robustness, DensityGradients)

@@ -318,7 +318,8 @@ TEST(FirstSurface, WhatIsNarrowIsThereBesideGaps)
   std::erase_if(points,
     [](const Eigen::Vector3d& point)
     {
-      return std::abs(point.z()) < Gap || (point.z() > 0. && std::hypot(point.x(), point.y()) < Bore);
+      return std::abs(point.z()) < Gap ||
+        (point.z() > 0. && std::hypot(point.x(), point.y()) < Bore);
     });
   for (int ring = 0; ring <= 40; ++ring)
   {
