@@ -2,6 +2,7 @@
 #include "fit/FitSystem.h"
 
 #include "MeshTools.h"
+#include "mesh/Pieces.h"
 #include "SphereRuns.h"
 
 #include <Eigen/Dense>
@@ -109,11 +110,15 @@ Eigen::VectorXd denseSolution(
   }
   const Eigen::MatrixXd laplacian = denseLaplacian(mesh);
   Eigen::VectorXd smoothness(n);
-  for (Eigen::Index v = 0; v < n; ++v)
+  for (const Piece& piece : findPieces(mesh))
   {
-    smoothness[v] = mesh.isBoundary(VertexIndex(v))
-      ? std::min(lambda, FitSystem::MostBoundarySmoothness)
-      : lambda;
+    const auto size = double(piece.vertices.size());
+    const double inner = std::min(lambda, FitSystem::PieceSmoothness * size * size);
+    for (const VertexIndex v : piece.vertices)
+    {
+      smoothness[Eigen::Index(v)] =
+        mesh.isBoundary(v) ? std::min(inner, FitSystem::MostBoundarySmoothness) : inner;
+    }
   }
   const Eigen::MatrixXd squared = laplacian.transpose() * smoothness.asDiagonal() * laplacian;
   for (Eigen::Index i = 0; i < n; ++i)
