@@ -41,22 +41,18 @@ struct NearestPoints::Search
   std::span<NearPoint> nearest;
   std::size_t count = 0;
 
-  float squaredReach() const
+  bool takes(NearPoint found) const
   {
-    return count < nearest.size() ? std::numeric_limits<float>::infinity()
-                                  : nearest[count - 1].squaredDistance;
+    return count < nearest.size() || found < nearest[count - 1];
   }
 
   void take(NearPoint found)
   {
-    if (count == nearest.size())
+    if (!takes(found))
     {
-      if (!(found < nearest[count - 1]))
-      {
-        return;
-      }
-      --count;
+      return;
     }
+    count -= count == nearest.size() ? 1 : 0;
     std::size_t at = count++;
     for (; at > 0 && found < nearest[at - 1]; --at)
     {
@@ -86,7 +82,9 @@ void NearestPoints::visit(
   for (std::size_t i = 0; i < count; ++i)
   {
     const auto [squared, index] = order[i];
-    if (squared > search.squaredReach())
+    // Of many points on one spot, only the first are looked at.
+    const auto firstPoint = std::uint32_t(std::size_t(index) << BitsPerLevel * (level + 1));
+    if (!search.takes({ squared, firstPoint }))
     {
       return;
     }

@@ -54,7 +54,8 @@ public:
   }
 
 private:
-  static constexpr std::size_t Fan = 8;
+  static constexpr unsigned BitsPerLevel = 3;
+  static constexpr std::size_t Fan = std::size_t(1) << BitsPerLevel;
 
   static float squaredDistance(const Box& box, Vector4 point)
   {
