@@ -4,6 +4,7 @@
 #include "base/BucketOrder.h"
 #include "base/Morton.h"
 #include "base/OrderStatistics.h"
+#include "mesh/BoxTree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +31,44 @@ int bucketBits(std::size_t points)
     ++bitsPerAxis;
   }
   return 3 * bitsPerAxis;
+}
+
+/// A key along a Morton curve, and the place of a point.
+using KeyAndPlace = std::pair<std::uint64_t, std::uint32_t>;
+/// Where more points share a cell of the curve, they follow a finer one.
+constexpr std::size_t MostInCell = 64;
+
+/// Sorts by keys, and what is crowded into one cell by those of a curve through the box around it: with
+/// most of a cloud in one place, its neighbours in space would be anywhere in that cell.
+void sortAlongCurve(std::span<KeyAndPlace> order, std::span<const Vector4> points)
+{
+  std::sort(order.begin(), order.end());
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end)
+  {
+    while (end < order.size() && order[end].first == order[begin].first)
+    {
+      ++end;
+    }
+    if (end - begin <= MostInCell)
+    {
+      continue;
+    }
+    const std::span<KeyAndPlace> crowd = order.subspan(begin, end - begin);
+    Box box;
+    for (const KeyAndPlace& at : crowd)
+    {
+      box.extend(points[at.second]);
+    }
+    const MortonCurve finer(box.low, box.high);
+    if (finer.key(box.low) < finer.key(box.high))
+    {
+      for (KeyAndPlace& at : crowd)
+      {
+        at.first = finer.key(points[at.second]);
+      }
+      sortAlongCurve(crowd, points);
+    }
+  }
 }
 }
 
@@ -221,7 +260,7 @@ void PointCloud::takePoints(const Input& input, bool keepsOrigins, const Executo
     {
       const std::span<const std::uint32_t> items = buckets.items(bucket);
       std::vector<Vector4> points;
-      std::vector<std::pair<std::uint64_t, std::uint32_t>> order; // key and place
+      std::vector<KeyAndPlace> order;
       points.reserve(items.size());
       order.reserve(items.size());
       for (std::size_t i = 0; i < items.size(); ++i)
@@ -233,7 +272,7 @@ void PointCloud::takePoints(const Input& input, bool keepsOrigins, const Executo
         points.push_back(fromInput(input.points[items[i]]));
         order.emplace_back(curve.key(points.back()), std::uint32_t(order.size()));
       }
-      std::sort(order.begin(), order.end());
+      sortAlongCurve(order, points);
       std::size_t next = buckets.begin(bucket);
       for (const auto& [key, place] : order)
       {

@@ -239,6 +239,28 @@ TEST(PointCloud, NeighborsInOrderAreNeighborsInSpace)
   EXPECT_LT(steps / double(cloud.points().size()), 0.08);
 }
 
+// They do where most points are in a place so small that all else is far away.
+TEST(PointCloud, NeighborsInACrowdAreNeighborsInSpace)
+{
+  constexpr double Width = 1e-5;
+  std::vector<Eigen::Vector3d> points = cube(200, 6);
+  for (const Eigen::Vector3d& point : cube(8000, 4))
+  {
+    points.emplace_back(Width * point);
+  }
+  const PointCloud cloud(points);
+  double steps = 0., crowd = 0.;
+  for (std::size_t i = 0; i + 1 < cloud.points().size(); ++i)
+  {
+    const double step =
+      (cloud.toInput(cloud.points()[i + 1]) - cloud.toInput(cloud.points()[i])).norm();
+    steps += step < 2. * Width ? step : 0.;
+    crowd += step < 2. * Width ? 1. : 0.;
+  }
+  EXPECT_GT(crowd, 7900.);
+  EXPECT_LT(steps / crowd, 0.2 * Width);
+}
+
 // A cloud that keeps origins knows where each point comes from; it is the same cloud all the same.
 TEST(PointCloud, Origins)
 {
