@@ -41,10 +41,7 @@ struct NearestPoints::Search
   std::span<NearPoint> nearest;
   std::size_t count = 0;
 
-  bool takes(NearPoint found) const
-  {
-    return count < nearest.size() || found < nearest[count - 1];
-  }
+  bool takes(NearPoint found) const { return count < nearest.size() || found < nearest[count - 1]; }
 
   void take(NearPoint found)
   {

@@ -24,9 +24,9 @@ public:
   /// Held any smoother, boundaries would shrink: nothing but their own samples holds them out.
   static constexpr double MostBoundarySmoothness = 20.;
   /// Held any smoother, small pieces would shrink: a sphere of n vertices with s samples each by the part
-  /// 53 lambda / (s n^2), so with five of them by a twentieth at most. From 1,414 vertices on, that is more
+  /// 53 lambda / (s n^2), so with five of them by a fifth at most. From 708 vertices on, that is more
   /// than any lambda that is chosen by the data.
-  static constexpr double PieceSmoothness = 0.005;
+  static constexpr double PieceSmoothness = 0.02;
 
   /// How much a sample weighs along the normal of its triangle is 1; along the triangle, `slip`: if
   /// it is below 1, the surface may slide below its samples. Mesh and executor must outlive the

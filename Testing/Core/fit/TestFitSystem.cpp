@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/FitSystem.h"
 
-#include "MeshTools.h"
 #include "mesh/Pieces.h"
+#include "MeshTools.h"
 #include "SphereRuns.h"
 
 #include <Eigen/Dense>

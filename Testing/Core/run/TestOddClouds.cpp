@@ -107,7 +107,10 @@ Points islands(int along, int pointsOfEach, double radius, Random& random)
 }
 
 /// From its nearest place with whole coordinates.
-double fromCenter(const Eigen::Vector3d& point) { return (point - point.array().round().matrix()).norm(); }
+double fromCenter(const Eigen::Vector3d& point)
+{
+  return (point - point.array().round().matrix()).norm();
+}
 
 /// Within a sphere, and on it.
 const std::array<Eigen::Vector3d, 2> Places{ Eigen::Vector3d(0.3, 0.2, 0.1),
@@ -129,7 +132,8 @@ double areaOf(const TriangleMesh& mesh)
   double sum = 0.;
   for (const auto& [a, b, c] : mesh.triangles)
   {
-    const Eigen::Vector3d ab = mesh.points[b] - mesh.points[a], ac = mesh.points[c] - mesh.points[a];
+    const Eigen::Vector3d ab = mesh.points[b] - mesh.points[a];
+    const Eigen::Vector3d ac = mesh.points[c] - mesh.points[a];
     sum += 0.5 * ab.cross(ac).norm();
   }
   return sum;
@@ -190,8 +194,7 @@ TEST(OddClouds, TwoSheets)
     const TriangleMesh& mesh = run.result.mesh;
     const auto isInTheMiddle = [&](const Eigen::Vector3d& point)
     { return std::abs(point.z() - 0.5 * height) < 0.25 * height; };
-    const auto inTheMiddle =
-      std::count_if(mesh.points.begin(), mesh.points.end(), isInTheMiddle);
+    const auto inTheMiddle = std::count_if(mesh.points.begin(), mesh.points.end(), isInTheMiddle);
     EXPECT_EQ(2 * std::size_t(inTheMiddle) > mesh.points.size(), isOne);
   }
 }
