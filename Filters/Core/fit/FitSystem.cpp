@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/FitSystem.h"
 
-#include "base/DisjointSets.h"
 #include "mesh/UmbrellaLaplacian.h"
 
 #include <Eigen/LU>
@@ -20,29 +19,6 @@ constexpr float LeastSquaredNormal = 1e-30f;
 
 /// A part for the executor.
 constexpr std::size_t RowsPerRange = 4096;
-
-/// How many vertices the piece of each has.
-std::vector<std::uint32_t> pieceSizes(const Mesh& mesh)
-{
-  DisjointSets sets(mesh.indexEnd());
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    for (const VertexIndex neighbor : mesh.ring(v))
-    {
-      sets.join(v, neighbor);
-    }
-  }
-  std::vector<std::uint32_t> counts(mesh.indexEnd()), sizes(mesh.indexEnd());
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    ++counts[sets.root(v)];
-  }
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    sizes[v] = counts[sets.root(v)];
-  }
-  return sizes;
-}
 }
 
 FitSystem::FitSystem(const Mesh& mesh, double slip, const Executor& executor)
@@ -61,14 +37,6 @@ FitSystem::FitSystem(const Mesh& mesh, double slip, const Executor& executor)
     rowBegin_.push_back(rowBegin_.back() + mesh.valence(v));
   }
   others_.resize(rowBegin_.back());
-  mostSmoothness_.reserve(mesh.indexEnd());
-  const std::vector<std::uint32_t> sizes = pieceSizes(mesh);
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    const double ofPiece = PieceSmoothness * double(sizes[v]) * double(sizes[v]);
-    mostSmoothness_.push_back(
-      float(mesh.isBoundary(v) ? std::min(MostBoundarySmoothness, ofPiece) : ofPiece));
-  }
 }
 
 void FitSystem::add(
@@ -113,32 +81,23 @@ float FitSystem::weight(VertexIndex vertex, VertexIndex neighbor) const
   return inner > 0.f ? inner : umbrellaWeight<float>(mesh_.ring(vertex), neighbor);
 }
 
-std::vector<float> FitSystem::partsOf(double lambda) const
+float FitSystem::boundaryPart(double lambda)
 {
-  const auto isAll = [lambda](float most) { return double(most) >= lambda; };
-  std::vector<float> parts;
-  if (!std::all_of(mostSmoothness_.begin(), mostSmoothness_.end(), isAll))
-  {
-    parts.reserve(mostSmoothness_.size());
-    for (const float most : mostSmoothness_)
-    {
-      parts.push_back(float(std::min(1., double(most) / lambda)));
-    }
-  }
-  return parts;
+  return float(std::min(1., MostBoundarySmoothness / lambda));
 }
 
-void FitSystem::apply(double lambda, std::span<const float> parts, std::span<const Vector4> x,
-  std::span<Vector4> laplacian, std::span<Vector4> result) const
+void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vector4> laplacian,
+  std::span<Vector4> result) const
 {
   const auto smooth = float(lambda);
+  const float onBoundary = boundaryPart(lambda);
   executor_.forEachRange(x.size(), RowsPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       applyUmbrella<float>(mesh_, x, laplacian, begin, end);
-      for (std::size_t v = begin; v < end && !parts.empty(); ++v)
+      for (auto v = VertexIndex(begin); v < end && onBoundary < 1.f; ++v)
       {
-        laplacian[v] = parts[v] * laplacian[v];
+        laplacian[v] = mesh_.isBoundary(v) ? onBoundary * laplacian[v] : laplacian[v];
       }
     });
   const auto applyRow = [&](VertexIndex v)
@@ -173,11 +132,11 @@ FitSystem::Block FitSystem::Block::inverse() const
     Vector4(Eigen::Vector3d(inverse(0, 1), inverse(1, 2), inverse(2, 0))) };
 }
 
-std::vector<FitSystem::Block> FitSystem::inverseDiagonal(
-  double lambda, std::span<const float> parts) const
+std::vector<FitSystem::Block> FitSystem::inverseDiagonal(double lambda) const
 {
   std::vector<Block> result = diagonal_;
-  const auto part = [&](VertexIndex v) { return parts.empty() ? 1.f : parts[v]; };
+  const float onBoundary = boundaryPart(lambda);
+  const auto part = [&](VertexIndex v) { return mesh_.isBoundary(v) ? onBoundary : 1.f; };
   const auto invert = [&](VertexIndex v)
   {
     float squares = part(v);
@@ -206,11 +165,10 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
 {
   const std::size_t n = x.size();
   // Across the surface the system is stiff, along it not: a whole block tells these apart.
-  const std::vector<float> parts = partsOf(lambda);
-  const std::vector<Block> inverse = inverseDiagonal(lambda, parts);
+  const std::vector<Block> inverse = inverseDiagonal(lambda);
   std::vector<Vector4> residual(n), direction(n), product(n), laplacian(n);
   const auto sumOver = [&](const auto& term) { return executor_.sum(n, RowsPerRange, term); };
-  apply(lambda, parts, x, laplacian, product);
+  apply(lambda, x, laplacian, product);
   double squared = sumOver(
     [&](std::size_t v)
     {
@@ -229,7 +187,7 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
     {
       return false;
     }
-    apply(lambda, parts, direction, laplacian, product);
+    apply(lambda, direction, laplacian, product);
     const double curvature = sumOver([&](std::size_t v) { return dot(direction[v], product[v]); });
     if (!(curvature > 0.))
     {

@@ -15,18 +15,13 @@ namespace neuralmesh
 /// The linear system of a fit, (B^T W B + lambda L^T L) x = B^T W p, for the positions x of all
 /// vertices of a mesh: B are the barycentric coordinates of the places of samples p, W how much they
 /// weigh in each direction, L is the umbrella Laplacian (of a vertex on a boundary, that along it, for
-/// which lambda is at most MostBoundarySmoothness; of a piece of n vertices, at most n * n times
-/// PieceSmoothness).
-/// Solved by conjugate gradients; the matrices are kept beside the rings. About 340 bytes a vertex.
+/// which lambda is at most MostBoundarySmoothness).
+/// Solved by conjugate gradients; the matrices are kept beside the rings. About 330 bytes a vertex.
 class FitSystem
 {
 public:
   /// Held any smoother, boundaries would shrink: nothing but their own samples holds them out.
   static constexpr double MostBoundarySmoothness = 20.;
-  /// Held any smoother, small pieces would shrink: a sphere of n vertices with s samples each by the part
-  /// 53 lambda / (s n^2), so with five of them by a fifth at most. From 708 vertices on, that is more
-  /// than any lambda that is chosen by the data.
-  static constexpr double PieceSmoothness = 0.02;
 
   /// How much a sample weighs along the normal of its triangle is 1; along the triangle, `slip`: if
   /// it is below 1, the surface may slide below its samples. Mesh and executor must outlive the
@@ -79,11 +74,11 @@ private:
     }
   };
 
-  /// How much of lambda counts at each vertex; empty if all of it does everywhere.
-  std::vector<float> partsOf(double lambda) const;
-  void apply(double lambda, std::span<const float> parts, std::span<const Vector4> x,
-    std::span<Vector4> laplacian, std::span<Vector4> result) const;
-  std::vector<Block> inverseDiagonal(double lambda, std::span<const float> parts) const;
+  void apply(double lambda, std::span<const Vector4> x, std::span<Vector4> laplacian,
+    std::span<Vector4> result) const;
+  /// Of lambda, for the vertices on boundaries.
+  static float boundaryPart(double lambda);
+  std::vector<Block> inverseDiagonal(double lambda) const;
   /// As umbrellaWeight(), without a look at the ring where there is no boundary.
   float weight(VertexIndex vertex, VertexIndex neighbor) const;
 
@@ -94,7 +89,6 @@ private:
   std::vector<Block> diagonal_;
   std::vector<Block> others_; ///< for each slot of the ring of each vertex
   std::vector<Vector4> rightSide_;
-  std::vector<float> innerWeights_;   ///< umbrella weights at inner vertices; 0 at others
-  std::vector<float> mostSmoothness_; ///< for each vertex
+  std::vector<float> innerWeights_; ///< umbrella weights at inner vertices; 0 at others
 };
 }

@@ -68,6 +68,10 @@ constexpr double SmoothnessFactor = 1.1;
 constexpr int MostChoices = 8;
 /// It is found if it changes by no more than that.
 constexpr double NearPart = 0.85;
+/// A learnt mesh follows noise, so the surface is farther from the samples, but not so many times. Beyond,
+/// what is narrow has shrunk, and passes for noise: then lambda is a tenth at most.
+constexpr double MostGrowthByNoise = 2.;
+constexpr double PartIfShrunk = 0.1;
 /// Of the time of moveVertices().
 constexpr double PartOfChoice = 0.6;
 
@@ -446,6 +450,8 @@ std::size_t SurfaceFit::holdAgainst(const Mesh& before)
 bool SurfaceFit::chooseSmoothness(const Progress& progress)
 {
   smoothness_ = FirstSmoothness;
+  double most = MostSmoothness;
+  const double mostVariance = MostGrowthByNoise * MostGrowthByNoise * meanSquaredDistance();
   std::vector<Vector4> positions(mesh_.positions().begin(), mesh_.positions().end());
   for (int i = 0; i < MostChoices; ++i)
   {
@@ -456,20 +462,29 @@ bool SurfaceFit::chooseSmoothness(const Progress& progress)
       return false;
     }
     const double rough = roughness(positions);
-    const double ratio =
-      rough > 0. ? residualVariance(positions, smoothness_) / rough : MostSmoothness;
+    const double variance = residualVariance(positions, smoothness_);
+    const double ratio = rough > 0. ? variance / rough : MostSmoothness;
     const double before = smoothness_;
     const double next = SmoothnessFactor * ratio;
     const bool isNear = next > NearPart * before;
+    const bool isShrunk = isNear && variance > mostVariance && before > LeastSmoothness;
+    most = isShrunk ? std::max(PartIfShrunk * before, LeastSmoothness) : most;
     // From far away it falls further yet.
     smoothness_ =
-      std::clamp(isNear ? next : next * std::sqrt(next / before), LeastSmoothness, MostSmoothness);
-    if (isNear)
+      std::clamp(isNear ? next : next * std::sqrt(next / before), LeastSmoothness, most);
+    if (isNear && !isShrunk)
     {
       break;
     }
   }
   return true;
+}
+
+double SurfaceFit::meanSquaredDistance() const
+{
+  const double sum = executor_.sum(samples_.size(), FitSamplesPerRange,
+    [this](std::size_t i) { return isUsed(i) ? double(places_[i].squaredDistance) : 0.; });
+  return sum / double(std::max<std::size_t>(1, usedCount_));
 }
 
 double SurfaceFit::residualVariance(std::span<const Vector4> positions, double lambda) const

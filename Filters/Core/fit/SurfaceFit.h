@@ -97,6 +97,7 @@ private:
     const Vector4& sample, const PlaceOnMesh& place, const Vector4& normal) const;
   void pullBoundariesIn();
   bool chooseSmoothness(const Progress& progress);
+  double meanSquaredDistance() const;
   double residualVariance(std::span<const Vector4> positions, double lambda) const;
   double roughness(std::span<const Vector4> positions) const;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/FitSystem.h"
 
-#include "mesh/Pieces.h"
 #include "MeshTools.h"
 #include "SphereRuns.h"
 
@@ -110,15 +109,11 @@ Eigen::VectorXd denseSolution(
   }
   const Eigen::MatrixXd laplacian = denseLaplacian(mesh);
   Eigen::VectorXd smoothness(n);
-  for (const Piece& piece : findPieces(mesh))
+  for (Eigen::Index v = 0; v < n; ++v)
   {
-    const auto size = double(piece.vertices.size());
-    const double inner = std::min(lambda, FitSystem::PieceSmoothness * size * size);
-    for (const VertexIndex v : piece.vertices)
-    {
-      smoothness[Eigen::Index(v)] =
-        mesh.isBoundary(v) ? std::min(inner, FitSystem::MostBoundarySmoothness) : inner;
-    }
+    smoothness[v] = mesh.isBoundary(VertexIndex(v))
+      ? std::min(lambda, FitSystem::MostBoundarySmoothness)
+      : lambda;
   }
   const Eigen::MatrixXd squared = laplacian.transpose() * smoothness.asDiagonal() * laplacian;
   for (Eigen::Index i = 0; i < n; ++i)

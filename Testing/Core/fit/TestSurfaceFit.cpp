@@ -136,20 +136,6 @@ TEST(SurfaceFit, ChoiceIsBetterThanNone)
     0.7 * rmsDistance(sphere, trianglesOf(rough, cloud)));
 }
 
-// A piece of few vertices keeps its size, however smooth the fit is to be: points are near it.
-TEST(SurfaceFit, SmallPiecesDoNotShrink)
-{
-  const TrueSurface sphere = trueSphere();
-  const PointCloud cloud = noisySphere(0.);
-  for (const double lambda : { 0., 1000. })
-  {
-    Mesh mesh = roughSphere(cloud, 0.01, 2);
-    EXPECT_LT(mesh.vertexCount(), 50u);
-    fitted(cloud, mesh, lambda);
-    EXPECT_LT(largestDistance(sphere, trianglesOf(mesh, cloud)), 0.1 * sphere.diagonal);
-  }
-}
-
 // A smoothness that is asked for is used.
 TEST(SurfaceFit, TakesTheGivenSmoothness)
 {

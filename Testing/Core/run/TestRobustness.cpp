@@ -78,6 +78,30 @@ TEST(Robustness, Clusters)
   }
 }
 
+// A thin ring of few points keeps its size in the fit: what shrinks does not pass for noise.
+TEST(Robustness, ThinRings)
+{
+  constexpr double Tube = 0.2, Noise = 0.005;
+  for (const std::uint64_t seed : { 1u, 2u, 3u })
+  {
+    SCOPED_TRACE(seed);
+    CloudOptions options;
+    options.count = 2000;
+    options.noise = Noise;
+    options.seed = seed;
+    const PointCloud cloud(generateCloud(makeTorus(Tube), options));
+    Parameters parameters = defaults(1000);
+    parameters.seed = seed;
+    const Reconstruction result = reconstruct(cloud, parameters, goOn);
+    EXPECT_LT(result.quality->residual, 6. * Noise);
+    for (const Eigen::Vector3d& point : result.mesh.points)
+    {
+      const double fromMiddle = std::hypot(std::hypot(point.x(), point.y()) - 1., point.z());
+      ASSERT_GT(fromMiddle, 0.8 * Tube);
+    }
+  }
+}
+
 // Bodies that touch each other look outwards all around: none hangs on to the other one by the wrong side.
 TEST(Robustness, TouchingBodies)
 {
