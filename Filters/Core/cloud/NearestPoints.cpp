@@ -7,6 +7,9 @@ namespace
 {
 /// Then points are spread so unevenly that the radius tells nothing.
 constexpr int TriesWithin = 4;
+/// Where points coincide so many times as many are looked at, up to so many.
+constexpr std::size_t MoreForPlaces = 4;
+constexpr std::size_t MostForPlaces = 256;
 }
 
 NearestPoints::NearestPoints(std::span<const Vector4> points)
@@ -107,6 +110,33 @@ std::size_t NearestPoints::find(Vector4 point, std::span<NearPoint> nearest) con
     visit(search, levels_.size() - 1, 0, levels_.back().size());
   }
   return search.count;
+}
+
+std::size_t NearestPoints::findPlaces(Vector4 point, std::span<NearPoint> nearest) const
+{
+  std::vector<NearPoint> found;
+  std::size_t places = 0;
+  for (std::size_t wanted = nearest.size() + 1; places < nearest.size(); wanted *= MoreForPlaces)
+  {
+    found.resize(std::min(wanted, points_.size()));
+    found.resize(find(point, found));
+    places = 0;
+    for (std::size_t i = 0; i < found.size() && places < nearest.size(); ++i)
+    {
+      const auto isThere = [&](const NearPoint& other)
+      { return squaredNorm(points_[found[i].index] - points_[other.index]) == 0.f; };
+      if (found[i].squaredDistance > 0.f &&
+        std::none_of(nearest.begin(), nearest.begin() + std::ptrdiff_t(places), isThere))
+      {
+        nearest[places++] = found[i];
+      }
+    }
+    if (wanted >= std::min(MostForPlaces, points_.size()))
+    {
+      break;
+    }
+  }
+  return places;
 }
 
 std::size_t NearestPoints::findWithin(

@@ -38,7 +38,11 @@ public:
   /// index. Returns how many there are: less only if there are not so many points.
   std::size_t find(Vector4 point, std::span<NearPoint> nearest) const;
 
-  /// The same for many, faster where they are expected within about `radius`.
+  /// The same for places other than `point`, each once, though many points may lie there. Of places at which
+  /// very many points are it may find fewer than there are.
+  std::size_t findPlaces(Vector4 point, std::span<NearPoint> nearest) const;
+
+  /// The same as find() for many, faster where they are expected within about `radius`.
   std::size_t findWithin(Vector4 point, float radius, std::span<NearPoint> nearest,
     std::vector<NearPoint>& buffer) const;
 

@@ -44,14 +44,13 @@ PointSpacing::PointSpacing(const PointCloud& cloud, const Executor& executor)
 
 float PointSpacing::at(Vector4 point) const
 {
-  std::array<NearPoint, Neighbors + 1> near;
-  const std::size_t found = nearest_.find(point, near);
+  std::array<NearPoint, Neighbors> near;
+  const std::size_t found = nearest_.findPlaces(point, near);
   float sum = 0.f;
-  // The first is the point itself.
-  for (std::size_t i = 1; i < found; ++i)
+  for (std::size_t i = 0; i < found; ++i)
   {
     sum += std::sqrt(near[i].squaredDistance);
   }
-  return found > 1 ? scale_ * sum / float(found - 1) : 0.f;
+  return found > 0 ? scale_ * sum / float(found) : 0.f;
 }
 }

@@ -11,7 +11,7 @@
 namespace neuralmesh
 {
 /// How far the points of a cloud are from each other, at any place of it: the mean distance to the
-/// six nearest. O(n) to make, and a query takes O(log n) however unevenly the points are spread. Of
+/// six nearest places with points. O(n) to make, and a query takes O(log n) however unevenly the points are spread. Of
 /// more than a million points it takes so many, evenly picked; 21 bytes for each.
 class PointSpacing
 {
@@ -22,8 +22,8 @@ public:
   PointSpacing(const PointSpacing&) = delete;
   PointSpacing& operator=(const PointSpacing&) = delete;
 
-  /// Around a point of the cloud, which does not count itself; in units of the cloud. Less where
-  /// points coincide, 0 where seven do. If there are fewer points than six others, of those.
+  /// Around a point of the cloud, which does not count itself; in units of the cloud. Points that coincide count
+  /// as one; 0 where hundreds do. If there are fewer places than six others, of those.
   float at(Vector4 point) const;
 
 private:

@@ -72,7 +72,7 @@ constexpr double MostInNoLayer = 0.25;
 /// It is sure that there are more than are allowed beyond so many deviations of chance.
 constexpr double DeviationsOfSure = 4.;
 
-/// How far points are from each other around one.
+/// How far points are from each other around one; those that coincide count as one.
 struct Spacing
 {
   float mean;
@@ -81,15 +81,15 @@ struct Spacing
 
 Spacing spacingAt(const NearestPoints& nearest, std::uint32_t point)
 {
-  std::array<NearPoint, Neighbors + 1> found;
-  const std::size_t count = nearest.find(nearest.points()[point], found);
+  std::array<NearPoint, Neighbors> found;
+  const std::size_t count = nearest.findPlaces(nearest.points()[point], found);
   float sum = 0.f;
-  for (std::size_t i = 1; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i)
   {
     sum += std::sqrt(found[i].squaredDistance);
   }
-  return { count > 1 ? sum / float(count - 1) : 0.f,
-    count > 1 ? std::sqrt(found[count - 1].squaredDistance) : 0.f };
+  return { count > 0 ? sum / float(count) : 0.f,
+    count > 0 ? std::sqrt(found[count - 1].squaredDistance) : 0.f };
 }
 
 /// The radius of the disk that a sample has to itself.

@@ -24,7 +24,7 @@ struct LayerSample
   float error = 0.f;  ///< about how far it lies off the surface because of that
 };
 
-/// Mean distance of a point to its nearest neighbours.
+/// Mean distance of a point to its nearest neighbours; those that coincide count as one.
 float pointSpacing(const NearestPoints& nearest, std::uint32_t point);
 /// Where a point lies on the layer that it forms with its neighbours; nothing if these lie anywhere.
 std::optional<Vector4> placeInLayer(const NearestPoints& nearest, std::uint32_t point);

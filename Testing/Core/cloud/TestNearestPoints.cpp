@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace neuralmesh::testing
@@ -61,6 +62,33 @@ TEST(NearestPoints, AreThoseOfALookAtAll)
       EXPECT_EQ(found, expected);
     }
   }
+}
+
+// Keeps the promise: other places with points, each once however many lie there.
+TEST(NearestPoints, PlacesCountOnce)
+{
+  Random random(1);
+  std::vector<Vector4> places, points;
+  for (int i = 0; i < 500; ++i)
+  {
+    places.push_back(anywhere(random));
+    points.insert(points.end(), 1 + std::size_t(i) % 9, places.back());
+  }
+  const NearestPoints nearest(points);
+  for (const Vector4& place : places)
+  {
+    std::array<NearPoint, 6> found;
+    ASSERT_EQ(nearest.findPlaces(place, found), found.size());
+    const std::vector<NearPoint> expected = byHand(places, place);
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      // The first is the place itself.
+      ASSERT_EQ(points[found[i].index][0], places[expected[i + 1].index][0]);
+    }
+  }
+  std::array<NearPoint, 6> found;
+  EXPECT_EQ(NearestPoints(std::vector<Vector4>(1000, places[0])).findPlaces(places[0], found), 0u);
+  EXPECT_EQ(nearest.findPlaces(places[0], {}), 0u);
 }
 
 // Keeps the promise: all points within a radius, each once.
