@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -21,15 +22,16 @@ namespace neuralmesh
 namespace
 {
 /// A triangle has a side beyond that winding number, see WindingNumber::atTriangle().
-constexpr float LeastWinding = 0.35f;
+constexpr double LeastWinding = 0.35;
 /// So large a part of its piece is one.
 constexpr double LeastPart = 0.03;
-/// What it hangs by is narrow if the square of its length is less than so many of its areas.
-constexpr double MostSquaredSeam = 1.;
+/// What it hangs by is narrow if the square of its length is less than that part of its area: of bodies that touch
+/// it is a tenth at most.
+constexpr double MostSquaredSeam = 0.25;
 /// A piece with fewer triangles has no parts.
 constexpr std::size_t LeastTriangles = 100;
-/// Asked for the share, of all pieces.
-constexpr std::size_t TrianglesAsked = 4000;
+/// Of a mesh, or of each piece, whether anything is turned.
+constexpr std::size_t TrianglesAsked = 1000;
 constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 
 double areaOf(const TriangleMesh& mesh, std::uint32_t triangle)
@@ -61,6 +63,30 @@ std::vector<std::vector<std::uint32_t>> piecesOf(const TriangleMesh& mesh)
     pieces[piece].push_back(t);
   }
   return pieces;
+}
+
+/// The area of a piece that shows either side, of some triangles.
+struct SidesShown
+{
+  double outer = 0.;
+  double inner = 0.;
+  double asked = 0.;
+
+  double less() const { return std::min(outer, inner); }
+};
+
+SidesShown sidesShown(const TriangleMesh& mesh, const std::vector<std::uint32_t>& piece,
+  const WindingNumber& winding, std::size_t step)
+{
+  SidesShown result;
+  for (std::size_t i = std::min(step / 2, piece.size() - 1); i < piece.size(); i += step)
+  {
+    const double area = areaOf(mesh, piece[i]), number = winding.atTriangle(piece[i]);
+    result.asked += area;
+    result.outer += number >= LeastWinding ? area : 0.;
+    result.inner += number <= -LeastWinding ? area : 0.;
+  }
+  return result;
 }
 
 /// The triangles across the three sides of each, or None.
@@ -104,12 +130,12 @@ Neighbors neighborsIn(const TriangleMesh& mesh)
 
 /// Which side each triangle of a piece shows, 1 or -1: those that tell, and what is nearer to these than to
 /// others. From the clearest ones on, so that they meet where nothing tells.
-void spreadSides(const std::vector<std::uint32_t>& piece, const std::vector<float>& winding,
+void spreadSides(const std::vector<std::uint32_t>& piece, const std::vector<double>& winding,
   const Neighbors& neighbors, std::vector<std::int8_t>& sides)
 {
   struct Step
   {
-    float clearness;
+    double clearness;
     std::uint32_t triangle;
     std::int8_t side;
 
@@ -123,7 +149,7 @@ void spreadSides(const std::vector<std::uint32_t>& piece, const std::vector<floa
   {
     if (std::abs(winding[t]) >= LeastWinding)
     {
-      steps.push({ 1.f, t, std::int8_t(winding[t] > 0.f ? 1 : -1) });
+      steps.push({ 1., t, std::int8_t(winding[t] > 0. ? 1 : -1) });
     }
   }
   while (!steps.empty())
@@ -162,13 +188,18 @@ public:
     , neighbors_(neighborsIn(mesh))
     , sides_(mesh.triangles.size(), 0)
     , isOff_(mesh.triangles.size(), 0)
+    , numbers_(mesh.triangles.size(), 0.)
   {
   }
 
   /// Returns how many there are in a piece.
-  std::size_t add(const std::vector<std::uint32_t>& piece, const std::vector<float>& winding)
+  std::size_t add(const std::vector<std::uint32_t>& piece, const WindingNumber& winding)
   {
-    spreadSides(piece, winding, neighbors_, sides_);
+    for (const std::uint32_t t : piece)
+    {
+      numbers_[t] = winding.atTriangle(t);
+    }
+    spreadSides(piece, numbers_, neighbors_, sides_);
     DisjointSets sets(mesh_.triangles.size());
     for (const std::uint32_t t : piece)
     {
@@ -256,6 +287,7 @@ private:
   Neighbors neighbors_;
   std::vector<std::int8_t> sides_;
   std::vector<std::uint8_t> isOff_;
+  std::vector<double> numbers_; ///< see WindingNumber::atTriangle()
 };
 }
 
@@ -265,26 +297,16 @@ double turnedShare(const TriangleMesh& mesh)
   double turned = 0., all = 0.;
   for (const std::vector<std::uint32_t>& piece : piecesOf(mesh))
   {
-    const WindingNumber winding(mesh, piece);
-    std::array<double, 2> areaOfSide{ 0., 0. };
-    for (std::size_t i = step / 2; i < piece.size(); i += step)
-    {
-      const double area = areaOf(mesh, piece[i]), number = winding.atTriangle(piece[i]);
-      all += area;
-      if (std::abs(number) >= double(LeastWinding))
-      {
-        areaOfSide[number > 0. ? 0 : 1] += area;
-      }
-    }
-    turned += std::min(areaOfSide[0], areaOfSide[1]);
+    const SidesShown sides = sidesShown(mesh, piece, WindingNumber(mesh, piece), step);
+    turned += sides.less();
+    all += sides.asked;
   }
   return all > 0. ? turned / all : 0.;
 }
 
 std::size_t separateTurnedParts(TriangleMesh& mesh)
 {
-  TurnedParts parts(mesh);
-  std::vector<float> numbers(mesh.triangles.size(), 0.f);
+  std::optional<TurnedParts> parts;
   std::size_t count = 0;
   for (const std::vector<std::uint32_t>& piece : piecesOf(mesh))
   {
@@ -292,25 +314,22 @@ std::size_t separateTurnedParts(TriangleMesh& mesh)
     {
       continue;
     }
-    const WindingNumber winding(mesh, piece);
-    std::array<double, 2> areaOfSide{ 0., 0. };
-    for (const std::uint32_t t : piece)
-    {
-      numbers[t] = float(winding.atTriangle(t));
-      if (std::abs(numbers[t]) >= LeastWinding)
-      {
-        areaOfSide[numbers[t] > 0.f ? 0 : 1] += areaOf(mesh, t);
-      }
-    }
     // Where nothing is turned, there is nothing more to do.
-    if (std::min(areaOfSide[0], areaOfSide[1]) > LeastPart * (areaOfSide[0] + areaOfSide[1]))
+    const WindingNumber winding(mesh, piece);
+    const std::size_t step = std::max<std::size_t>(1, piece.size() / TrianglesAsked);
+    const SidesShown sides = sidesShown(mesh, piece, winding, step);
+    if (sides.less() > LeastPart * sides.asked)
     {
-      count += parts.add(piece, numbers);
+      if (!parts)
+      {
+        parts.emplace(mesh);
+      }
+      count += parts->add(piece, winding);
     }
   }
   if (count > 0)
   {
-    mesh = parts.cut();
+    mesh = parts->cut();
   }
   return count;
 }

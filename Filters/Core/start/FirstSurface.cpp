@@ -72,6 +72,8 @@ constexpr double LeastInTwoLayers = 0.05;
 /// Of the area that a front has if it takes those for one sheet, for each of their share: with both sides
 /// it has so much more. It may have shown a part of them anyway.
 constexpr double LeastOfSecondLayer = 0.25;
+/// Of the area of another front, one of the same surface has so much.
+constexpr double AreaOfSame = 0.99;
 /// Of its samples: more lie in no layer where there are outliers in all of space.
 constexpr double MostScatter = 0.03;
 
@@ -417,6 +419,14 @@ bool showsBothLayers(const FrontSurface& apart, const FrontSurface& joined)
     BoundaryManager(joined.mesh).loopCount() + MostLoopsOfSheet;
 }
 
+/// Whether a front with layers apart closes what the other one left open, and is no less in order for that.
+bool closesMore(const FrontSurface& apart, const FrontSurface& joined)
+{
+  return apart.disorder() <= joined.disorder() &&
+    areaOf(apart.mesh) >= AreaOfSame * areaOf(joined.mesh) &&
+    BoundaryManager(apart.mesh).loopCount() < BoundaryManager(joined.mesh).loopCount();
+}
+
 /// The front of the candidates that agrees best with itself, if any does. Where there is a closed solid
 /// already, only one that is certain counts.
 std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const NearestPoints& nearest,
@@ -433,7 +443,7 @@ std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const Neares
     const auto isBetter = [&]
     {
       return (best->disorder() >= MostDisorder && front->disorder() < best->disorder()) ||
-        showsBothLayers(*front, *best);
+        showsBothLayers(*front, *best) || closesMore(*front, *best);
     };
     if (front && (!best || isBetter()))
     {
@@ -501,8 +511,10 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
         surfaceOfFront(cloud, nearest, mostOfFront, boundaries, ofFront, leastPiece, isClosed))
   {
     const double left = grid ? grid->evidence.unexplained : 1.;
+    // What the grid gave does not explain the points for another reason, if not for this.
+    const double most = front->isCertain ? std::max(left, LeastUnexplainedBySheet) : left;
     if ((front->isCertain || !isClosed) &&
-      evidenceFor(cloud, nearest, front->mesh).unexplained <= left)
+      evidenceFor(cloud, nearest, front->mesh).unexplained <= most)
     {
       return front;
     }
