@@ -25,9 +25,12 @@ namespace
 constexpr double LeastWinding = 0.35;
 /// So large a part of its piece is one.
 constexpr double LeastPart = 0.03;
-/// What it hangs by is narrow if the square of its length is less than that part of its area: of bodies that touch
-/// it is a tenth at most.
+/// What a part hangs by is narrow if the square of its length is less than that many of its areas; more of what
+/// is closed but for that.
 constexpr double MostSquaredSeam = 0.25;
+constexpr double MostSquaredSeamIfClosed = 1.;
+/// The winding number of that on average.
+constexpr double WindingIfClosed = 0.45;
 /// A piece with fewer triangles has no parts.
 constexpr std::size_t LeastTriangles = 100;
 /// Of a mesh, or of each piece, whether anything is turned.
@@ -175,8 +178,15 @@ void spreadSides(const std::vector<std::uint32_t>& piece, const std::vector<doub
 struct Part
 {
   double area = 0.;
-  double seam = 0.; ///< length of the edges to parts that show the other side
+  double winding = 0.; ///< the size of the winding number, times the area
+  double seam = 0.;    ///< length of the edges to parts that show the other side
   std::int8_t side = 0;
+
+  bool hangsByLittle() const
+  {
+    const bool isClosed = winding >= WindingIfClosed * area;
+    return seam * seam < (isClosed ? MostSquaredSeamIfClosed : MostSquaredSeam) * area;
+  }
 };
 
 /// Parts of all pieces that are to be cut off.
@@ -218,6 +228,7 @@ public:
       Part& part = parts[sets.root(t)];
       part.side = sides_[t];
       part.area += areaOf(mesh_, t);
+      part.winding += std::abs(numbers_[t]) * areaOf(mesh_, t);
       areaOfSide[sides_[t] > 0 ? 0 : 1] += areaOf(mesh_, t);
       for (std::size_t side = 0; side < 3; ++side)
       {
@@ -232,10 +243,7 @@ public:
     const std::int8_t turned = areaOfSide[0] < areaOfSide[1] ? 1 : -1;
     const double least = LeastPart * (areaOfSide[0] + areaOfSide[1]);
     const auto isCutOff = [&](const Part& part)
-    {
-      return part.side == turned && part.area >= least &&
-        part.seam * part.seam < MostSquaredSeam * part.area;
-    };
+    { return part.side == turned && part.area >= least && part.hangsByLittle(); };
     for (const std::uint32_t t : piece)
     {
       isOff_[t] = isCutOff(parts[sets.root(t)]) ? 1 : 0;
