@@ -12,6 +12,19 @@ struct Vector4
 {
   using Lanes = float __attribute__((vector_size(16)));
 
+  /// The compiler must not look through what has become of doubles: where it sees them read back, GCC 12.2
+  /// gives them unrounded.
+  static void keepRounded(Lanes& lanes)
+  {
+#if defined(__x86_64__)
+    asm("" : "+x"(lanes));
+#elif defined(__aarch64__)
+    asm("" : "+w"(lanes));
+#else
+    asm("" : "+m"(lanes));
+#endif
+  }
+
   Lanes lanes{};
 
   Vector4() = default;
@@ -26,6 +39,7 @@ struct Vector4
   explicit Vector4(const Eigen::Vector3d& v)
     : lanes{ float(v.x()), float(v.y()), float(v.z()), 0.f }
   {
+    keepRounded(lanes);
   }
 
   float operator[](int axis) const { return lanes[axis]; }
