@@ -14,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <queue>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -29,11 +30,16 @@ constexpr double LeastPart = 0.03;
 /// is closed but for that.
 constexpr double MostSquaredSeam = 0.25;
 constexpr double MostSquaredSeamIfClosed = 1.;
-/// The winding number of that on average.
+/// ... and so many for the boundary loops that it touches. The outline of a sheet is longer: its ends may roll up
+/// to either side.
+constexpr double MostSquaredLoops = 10.;
+/// Where a piece has so many handles it is no sheet, whatever its outline.
+constexpr long HandlesOfNoSheet = 2;
+/// The winding number of what is closed, on average.
 constexpr double WindingIfClosed = 0.45;
 /// A piece with fewer triangles has no parts.
 constexpr std::size_t LeastTriangles = 100;
-/// Of a mesh, or of each piece, whether anything is turned.
+/// Of each piece, whether anything is turned.
 constexpr std::size_t TrianglesAsked = 1000;
 constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 
@@ -174,18 +180,64 @@ void spreadSides(const std::vector<std::uint32_t>& piece, const std::vector<doub
   }
 }
 
+/// The boundary loops of a mesh, each with its length.
+class BoundaryLengths
+{
+public:
+  BoundaryLengths(const TriangleMesh& mesh, const Neighbors& neighbors)
+    : loops_(mesh.points.size())
+    , lengths_(mesh.points.size(), 0.)
+    , isBoundary_(mesh.points.size(), 0)
+  {
+    const auto forEachEdge = [&](const auto& use)
+    {
+      for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+      {
+        for (std::size_t side = 0; side < 3; ++side)
+        {
+          if (neighbors[t][side] == None)
+          {
+            use(mesh.triangles[t][side], mesh.triangles[t][(side + 1) % 3]);
+          }
+        }
+      }
+    };
+    forEachEdge(
+      [&](std::uint32_t from, std::uint32_t to)
+      {
+        loops_.join(from, to);
+        isBoundary_[from] = isBoundary_[to] = 1;
+      });
+    forEachEdge([&](std::uint32_t from, std::uint32_t to)
+      { lengths_[loops_.root(from)] += (mesh.points[to] - mesh.points[from]).norm(); });
+  }
+
+  bool has(std::uint32_t point) const { return isBoundary_[point] != 0; }
+  std::size_t loopAt(std::uint32_t point) { return loops_.root(point); }
+  double length(std::size_t loop) const { return lengths_[loop]; }
+
+private:
+  DisjointSets loops_;
+  std::vector<double> lengths_;
+  std::vector<std::uint8_t> isBoundary_;
+};
+
 /// A part of a piece that shows one side.
 struct Part
 {
   double area = 0.;
-  double winding = 0.; ///< the size of the winding number, times the area
-  double seam = 0.;    ///< length of the edges to parts that show the other side
+  double winding = 0.;    ///< the size of the winding number, times the area
+  double seam = 0.;       ///< length of the edges to parts that show the other side
+  double loopLength = 0.; ///< of the boundary loops that these touch
+  std::set<std::size_t> loops;
   std::int8_t side = 0;
 
+  bool isOfSheet() const { return loopLength * loopLength >= MostSquaredLoops * area; }
   bool hangsByLittle() const
   {
     const bool isClosed = winding >= WindingIfClosed * area;
-    return seam * seam < (isClosed ? MostSquaredSeamIfClosed : MostSquaredSeam) * area;
+    return !isOfSheet() &&
+      seam * seam < (isClosed ? MostSquaredSeamIfClosed : MostSquaredSeam) * area;
   }
 };
 
@@ -196,6 +248,7 @@ public:
   explicit TurnedParts(const TriangleMesh& mesh)
     : mesh_(mesh)
     , neighbors_(neighborsIn(mesh))
+    , boundaries_(mesh, neighbors_)
     , sides_(mesh.triangles.size(), 0)
     , isOff_(mesh.triangles.size(), 0)
     , numbers_(mesh.triangles.size(), 0.)
@@ -234,16 +287,20 @@ public:
       {
         if (isSeam(t, side))
         {
-          part.seam += (mesh_.points[mesh_.triangles[t][(side + 1) % 3]] -
-            mesh_.points[mesh_.triangles[t][side]])
-                         .norm();
+          addSeam(part, mesh_.triangles[t][side], mesh_.triangles[t][(side + 1) % 3]);
         }
       }
     }
     const std::int8_t turned = areaOfSide[0] < areaOfSide[1] ? 1 : -1;
     const double least = LeastPart * (areaOfSide[0] + areaOfSide[1]);
-    const auto isCutOff = [&](const Part& part)
-    { return part.side == turned && part.area >= least && part.hangsByLittle(); };
+    const auto isTurned = [&](const Part& part)
+    { return part.side == turned && part.area >= least; };
+    const auto isCutOff = [&](const Part& part) { return isTurned(part) && part.hangsByLittle(); };
+    const bool isNoSheet = handlesOf(piece) >= HandlesOfNoSheet;
+    for (const auto& [root, part] : parts)
+    {
+      turnedArea_ += isTurned(part) && (isNoSheet || !part.isOfSheet()) ? part.area : 0.;
+    }
     for (const std::uint32_t t : piece)
     {
       isOff_[t] = isCutOff(parts[sets.root(t)]) ? 1 : 0;
@@ -251,6 +308,9 @@ public:
     return std::size_t(std::count_if(
       parts.begin(), parts.end(), [&](const auto& part) { return isCutOff(part.second); }));
   }
+
+  /// Of what has been added, cut off or not; but for parts of sheets.
+  double turnedArea() const { return turnedArea_; }
 
   /// The mesh without the triangles at the seams.
   TriangleMesh cut() const
@@ -291,30 +351,52 @@ private:
     return other != None && sides_[other] != sides_[triangle];
   }
 
+  long handlesOf(const std::vector<std::uint32_t>& piece)
+  {
+    std::set<std::uint32_t> points;
+    std::set<std::size_t> loops;
+    long sides = 0;
+    for (const std::uint32_t t : piece)
+    {
+      for (std::size_t side = 0; side < 3; ++side)
+      {
+        const std::uint32_t point = mesh_.triangles[t][side];
+        points.insert(point);
+        sides += neighbors_[t][side] == None ? 2 : 1;
+        if (boundaries_.has(point))
+        {
+          loops.insert(boundaries_.loopAt(point));
+        }
+      }
+    }
+    const long euler = long(points.size()) - sides / 2 + long(piece.size());
+    return (2 - long(loops.size()) - euler) / 2;
+  }
+
+  void addSeam(Part& part, std::uint32_t from, std::uint32_t to)
+  {
+    part.seam += (mesh_.points[to] - mesh_.points[from]).norm();
+    for (const std::uint32_t point : { from, to })
+    {
+      if (boundaries_.has(point) && part.loops.insert(boundaries_.loopAt(point)).second)
+      {
+        part.loopLength += boundaries_.length(boundaries_.loopAt(point));
+      }
+    }
+  }
+
   const TriangleMesh& mesh_;
   Neighbors neighbors_;
+  BoundaryLengths boundaries_;
   std::vector<std::int8_t> sides_;
   std::vector<std::uint8_t> isOff_;
   std::vector<double> numbers_; ///< see WindingNumber::atTriangle()
+  double turnedArea_ = 0.;
 };
-}
 
-double turnedShare(const TriangleMesh& mesh)
+/// Adds the parts of those pieces that show both sides. Returns how many are to be cut off.
+std::size_t addParts(const TriangleMesh& mesh, std::optional<TurnedParts>& parts)
 {
-  const std::size_t step = std::max<std::size_t>(1, mesh.triangles.size() / TrianglesAsked);
-  double turned = 0., all = 0.;
-  for (const std::vector<std::uint32_t>& piece : piecesOf(mesh))
-  {
-    const SidesShown sides = sidesShown(mesh, piece, WindingNumber(mesh, piece), step);
-    turned += sides.less();
-    all += sides.asked;
-  }
-  return all > 0. ? turned / all : 0.;
-}
-
-std::size_t separateTurnedParts(TriangleMesh& mesh)
-{
-  std::optional<TurnedParts> parts;
   std::size_t count = 0;
   for (const std::vector<std::uint32_t>& piece : piecesOf(mesh))
   {
@@ -335,6 +417,26 @@ std::size_t separateTurnedParts(TriangleMesh& mesh)
       count += parts->add(piece, winding);
     }
   }
+  return count;
+}
+}
+
+double turnedShare(const TriangleMesh& mesh)
+{
+  std::optional<TurnedParts> parts;
+  addParts(mesh, parts);
+  double area = 0.;
+  for (std::uint32_t t = 0; parts && t < mesh.triangles.size(); ++t)
+  {
+    area += areaOf(mesh, t);
+  }
+  return area > 0. ? parts->turnedArea() / area : 0.;
+}
+
+std::size_t separateTurnedParts(TriangleMesh& mesh)
+{
+  std::optional<TurnedParts> parts;
+  const std::size_t count = addParts(mesh, parts);
   if (count > 0)
   {
     mesh = parts->cut();

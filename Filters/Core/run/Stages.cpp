@@ -2,6 +2,7 @@
 #include "run/Stages.h"
 
 #include "cloud/MeshBuilder.h"
+#include "cloud/RepeatedPoints.h"
 #include "mesh/QuadricSimplification.h"
 #include "mesh/SmallPieces.h"
 #include "run/MeshOrientation.h"
@@ -46,7 +47,8 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
   {
     return result;
   }
-  auto surface = firstSurface(cloud, firstVertices(parameters.numberOfVertices),
+  const std::optional<PointCloud> once = withoutRepetitions(cloud);
+  auto surface = firstSurface(once ? *once : cloud, firstVertices(parameters.numberOfVertices),
     std::size_t(PartOfFront * double(parameters.numberOfVertices)), parameters.boundaries, progress,
     executor, parameters.keepPieces);
   if (!surface)
@@ -105,7 +107,9 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   dropPieces(learnt.mesh, parameters.keepPieces);
   const bool isSimplified = plan.vertexCount > vertexCount;
   const double endOfFirst = isSimplified ? 0.5 : 1.;
-  Finish finish(cloud, learnt.mesh, plan, executor);
+  const std::optional<PointCloud> once = withoutRepetitions(cloud);
+  const PointCloud& fitted = once ? *once : cloud;
+  Finish finish(fitted, learnt.mesh, plan, executor);
   if (!finish.run(partOf(progress, 0., endOfFirst)))
   {
     return {};
@@ -118,7 +122,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   plan.gaps.reset();
   plan.closedOutline = 0.;
   plan.vertexCount = learnt.mesh.vertexCount();
-  Finish finishSimplified(cloud, learnt.mesh, plan, executor);
+  Finish finishSimplified(fitted, learnt.mesh, plan, executor);
   if (!finishSimplified.run(partOf(progress, endOfFirst, 1.)))
   {
     return {};

@@ -17,7 +17,6 @@ constexpr double MostUnexplained = 0.03;
 constexpr double MostBetweenLayers = 0.1;
 /// Of the area: less is not worth a word.
 constexpr double LeastUnknownSide = 0.001;
-/// Of the area.
 constexpr double MostTurned = 0.005;
 constexpr double WholeArea = 0.999;
 /// Named in one sentence; the others are counted.

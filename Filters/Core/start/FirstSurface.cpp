@@ -379,6 +379,19 @@ std::size_t pieceCount(const Mesh& mesh)
   return count;
 }
 
+/// Handles of all pieces together.
+long genusOf(const Mesh& mesh)
+{
+  const auto pieces = long(pieceCount(mesh)), loops = long(BoundaryManager(mesh).loopCount());
+  long sides = 0; // of the edges
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    sides += long(mesh.valence(v));
+  }
+  const long euler = long(mesh.vertexCount()) - sides / 2 + long(mesh.triangleCount());
+  return (2 * pieces - loops - euler) / 2;
+}
+
 /// One sheet of the skin, if that is one.
 std::optional<Candidate> sheetCandidate(const PointCloud& cloud, const NearestPoints& nearest,
   const FirstSurface& skin, std::size_t mostVertices, Boundaries boundaries, double leastPiece,
@@ -513,7 +526,10 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
     const double left = grid ? grid->evidence.unexplained : 1.;
     // What the grid gave does not explain the points for another reason, if not for this.
     const double most = front->isCertain ? std::max(left, LeastUnexplainedBySheet) : left;
-    if ((front->isCertain || !isClosed) &&
+    // Of a closed solid that explains nearly all points the handles are known.
+    const bool hasMoreHandles = isClosed && grid->evidence.unexplained < LeastUnexplained &&
+      genusOf(front->mesh) > genusOf(grid->surface.mesh);
+    if ((front->isCertain || !isClosed) && !hasMoreHandles &&
       evidenceFor(cloud, nearest, front->mesh).unexplained <= most)
     {
       return front;

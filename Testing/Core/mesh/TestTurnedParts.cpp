@@ -156,8 +156,23 @@ TEST(TurnedParts, AreCutOffAndTurned)
   }
 }
 
-// Bodies that hang together by the right side stay as they are, and so does a sheet that is folded like an S:
-// one half of it encloses as much from the other side.
+/// A sheet that rolls up to either side, more than once around.
+TriangleMesh scroll()
+{
+  TriangleMesh mesh = makeGrid(120);
+  for (Eigen::Vector3d& point : mesh.points)
+  {
+    const double along = 2. * point.x() - 1., rolled = std::max(0., std::abs(along) - 0.2);
+    const double angle = 8. * rolled, radius = 0.12 - 0.04 * rolled;
+    const double side = along > 0. ? 1. : -1.;
+    point.x() = side * (std::min(std::abs(along), 0.2) + radius * std::sin(angle));
+    point.z() = side * (0.12 - radius * std::cos(angle));
+  }
+  return mesh;
+}
+
+// Bodies that hang together by the right side stay as they are, and so do sheets that are folded like an S or
+// roll up to either side: one half of them encloses as much from the other side.
 TEST(TurnedParts, AreNoneOfOneSide)
 {
   TriangleMesh folded = makeGrid(48);
@@ -168,7 +183,7 @@ TEST(TurnedParts, AreNoneOfOneSide)
     point.x() = side * 0.2 * (1. - std::cos(along));
     point.z() = 0.2 * std::sin(along);
   }
-  for (TriangleMesh mesh : { joinedSpheres(false), folded })
+  for (TriangleMesh mesh : { joinedSpheres(false), folded, scroll() })
   {
     const std::vector<std::array<std::uint32_t, 3>> before = mesh.triangles;
     EXPECT_LT(turnedShare(mesh), 0.001);

@@ -102,6 +102,26 @@ TEST(Robustness, ThinRings)
   }
 }
 
+// Where each point is there several times the mesh is whole and right, and nothing is warned of.
+TEST(Robustness, RepeatedPoints)
+{
+  for (const TrueSurface& shape : { trueSphere(), trueTorus() })
+  {
+    SCOPED_TRACE(shape.name);
+    CloudOptions options;
+    options.count = 15000;
+    const std::vector<Eigen::Vector3d> once = generateCloud(shape.triangles, options);
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 5; ++i)
+    {
+      points.insert(points.end(), once.begin(), once.end());
+    }
+    const Reconstruction result = reconstruct(PointCloud(points), defaults(3000), goOn);
+    expectRight(shape, result.mesh);
+    EXPECT_TRUE(result.warnings.empty());
+  }
+}
+
 // Bodies that touch each other look outwards all around: none hangs on to the other one by the wrong side.
 TEST(Robustness, TouchingBodies)
 {
