@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/RepeatedPoints.h"
 
+#include <cstddef>
+
 namespace neuralmesh
 {
 namespace
 {
 /// Of all points: fewer repetitions change little.
-constexpr double LeastPart = 1. / 3.;
+constexpr double LeastRepeatedPart = 1. / 3.;
+/// With fewer places there is no surface to tell of.
+constexpr std::size_t LeastPlaces = 500;
 }
 
 std::optional<PointCloud> withoutRepetitions(const PointCloud& cloud)
 {
-  const auto all = double(cloud.points().size());
-  if (!cloud.weights().empty() || double(cloud.differentCount()) > (1. - LeastPart) * all)
+  const std::size_t places = cloud.weights().empty() ? cloud.differentCount() : 0;
+  if (places < LeastPlaces ||
+    double(places) > (1. - LeastRepeatedPart) * double(cloud.points().size()))
   {
     return {};
   }

@@ -23,7 +23,7 @@ constexpr double LeastCosine = 0.5;
 constexpr double FarthestOff = 2.;
 /// Vertices that are looked at: of all pieces, and of each.
 constexpr std::size_t VerticesOfAll = 1000;
-constexpr std::size_t LeastVertices = 4;
+constexpr std::size_t LeastVerticesOfPiece = 4;
 
 /// A loop, run through so that a surface that closes it would look outwards.
 class Opening
@@ -179,7 +179,7 @@ std::vector<Side> sidesByOpenings(
     return result;
   }
   const std::vector<Opening> openings = openingsOf(mesh, pieces, sides);
-  const std::size_t count = std::max(LeastVertices, VerticesOfAll / unknown);
+  const std::size_t count = std::max(LeastVerticesOfPiece, VerticesOfAll / unknown);
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
     if (!sides[i].isKnown())

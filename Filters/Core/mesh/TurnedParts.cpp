@@ -25,7 +25,7 @@ namespace
 /// A triangle has a side beyond that winding number, see WindingNumber::atTriangle().
 constexpr double LeastWinding = 0.35;
 /// So large a part of its piece is one.
-constexpr double LeastPart = 0.03;
+constexpr double LeastTurnedPart = 0.03;
 /// What a part hangs by is narrow if the square of its length is less than that many of its areas; more of what
 /// is closed but for that.
 constexpr double MostSquaredSeam = 0.25;
@@ -38,10 +38,10 @@ constexpr long HandlesOfNoSheet = 2;
 /// The winding number of what is closed, on average.
 constexpr double WindingIfClosed = 0.45;
 /// A piece with fewer triangles has no parts.
-constexpr std::size_t LeastTriangles = 100;
+constexpr std::size_t LeastTrianglesOfPiece = 100;
 /// Of each piece, whether anything is turned.
 constexpr std::size_t TrianglesAsked = 1000;
-constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t NoTriangle = std::numeric_limits<std::uint32_t>::max();
 
 double areaOf(const TriangleMesh& mesh, std::uint32_t triangle)
 {
@@ -59,12 +59,12 @@ std::vector<std::vector<std::uint32_t>> piecesOf(const TriangleMesh& mesh)
     sets.join(a, b);
     sets.join(b, c);
   }
-  std::vector<std::uint32_t> pieceOf(mesh.points.size(), None);
+  std::vector<std::uint32_t> pieceOf(mesh.points.size(), NoTriangle);
   std::vector<std::vector<std::uint32_t>> pieces;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
   {
     std::uint32_t& piece = pieceOf[sets.root(mesh.triangles[t][0])];
-    if (piece == None)
+    if (piece == NoTriangle)
     {
       piece = std::uint32_t(pieces.size());
       pieces.emplace_back();
@@ -98,10 +98,10 @@ SidesShown sidesShown(const TriangleMesh& mesh, const std::vector<std::uint32_t>
   return result;
 }
 
-/// The triangles across the three sides of each, or None.
-using Neighbors = std::vector<std::array<std::uint32_t, 3>>;
+/// The triangles across the three sides of each, or NoTriangle.
+using TriangleNeighbors = std::vector<std::array<std::uint32_t, 3>>;
 
-Neighbors neighborsIn(const TriangleMesh& mesh)
+TriangleNeighbors neighborsIn(const TriangleMesh& mesh)
 {
   struct HalfEdge
   {
@@ -123,7 +123,7 @@ Neighbors neighborsIn(const TriangleMesh& mesh)
   }
   std::sort(halfEdges.begin(), halfEdges.end(),
     [](const HalfEdge& a, const HalfEdge& b) { return a.key < b.key; });
-  Neighbors result(mesh.triangles.size(), { None, None, None });
+  TriangleNeighbors result(mesh.triangles.size(), { NoTriangle, NoTriangle, NoTriangle });
   for (const HalfEdge& edge : halfEdges)
   {
     const std::uint64_t back = edge.key << 32 | edge.key >> 32;
@@ -140,7 +140,7 @@ Neighbors neighborsIn(const TriangleMesh& mesh)
 /// Which side each triangle of a piece shows, 1 or -1: those that tell, and what is nearer to these than to
 /// others. From the clearest ones on, so that they meet where nothing tells.
 void spreadSides(const std::vector<std::uint32_t>& piece, const std::vector<double>& winding,
-  const Neighbors& neighbors, std::vector<std::int8_t>& sides)
+  const TriangleNeighbors& neighbors, std::vector<std::int8_t>& sides)
 {
   struct Step
   {
@@ -172,7 +172,7 @@ void spreadSides(const std::vector<std::uint32_t>& piece, const std::vector<doub
     sides[step.triangle] = step.side;
     for (const std::uint32_t other : neighbors[step.triangle])
     {
-      if (other != None && sides[other] == 0)
+      if (other != NoTriangle && sides[other] == 0)
       {
         steps.push({ std::min(std::abs(winding[other]), LeastWinding), other, step.side });
       }
@@ -184,7 +184,7 @@ void spreadSides(const std::vector<std::uint32_t>& piece, const std::vector<doub
 class BoundaryLengths
 {
 public:
-  BoundaryLengths(const TriangleMesh& mesh, const Neighbors& neighbors)
+  BoundaryLengths(const TriangleMesh& mesh, const TriangleNeighbors& neighbors)
     : loops_(mesh.points.size())
     , lengths_(mesh.points.size(), 0.)
     , isBoundary_(mesh.points.size(), 0)
@@ -195,7 +195,7 @@ public:
       {
         for (std::size_t side = 0; side < 3; ++side)
         {
-          if (neighbors[t][side] == None)
+          if (neighbors[t][side] == NoTriangle)
           {
             use(mesh.triangles[t][side], mesh.triangles[t][(side + 1) % 3]);
           }
@@ -268,7 +268,7 @@ public:
     {
       for (const std::uint32_t other : neighbors_[t])
       {
-        if (other != None && sides_[other] == sides_[t])
+        if (other != NoTriangle && sides_[other] == sides_[t])
         {
           sets.join(t, other);
         }
@@ -292,7 +292,7 @@ public:
       }
     }
     const std::int8_t turned = areaOfSide[0] < areaOfSide[1] ? 1 : -1;
-    const double least = LeastPart * (areaOfSide[0] + areaOfSide[1]);
+    const double least = LeastTurnedPart * (areaOfSide[0] + areaOfSide[1]);
     const auto isTurned = [&](const Part& part)
     { return part.side == turned && part.area >= least; };
     const auto isCutOff = [&](const Part& part) { return isTurned(part) && part.hangsByLittle(); };
@@ -321,7 +321,7 @@ public:
       for (std::size_t side = 0; side < 3; ++side)
       {
         const std::uint32_t other = neighbors_[t][side];
-        if (other != None && isOff_[other] != isOff_[t])
+        if (other != NoTriangle && isOff_[other] != isOff_[t])
         {
           isAtSeam[mesh_.triangles[t][side]] = isAtSeam[mesh_.triangles[t][(side + 1) % 3]] = 1;
         }
@@ -348,7 +348,7 @@ private:
   bool isSeam(std::uint32_t triangle, std::size_t side) const
   {
     const std::uint32_t other = neighbors_[triangle][side];
-    return other != None && sides_[other] != sides_[triangle];
+    return other != NoTriangle && sides_[other] != sides_[triangle];
   }
 
   long handlesOf(const std::vector<std::uint32_t>& piece)
@@ -362,7 +362,7 @@ private:
       {
         const std::uint32_t point = mesh_.triangles[t][side];
         points.insert(point);
-        sides += neighbors_[t][side] == None ? 2 : 1;
+        sides += neighbors_[t][side] == NoTriangle ? 2 : 1;
         if (boundaries_.has(point))
         {
           loops.insert(boundaries_.loopAt(point));
@@ -386,7 +386,7 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  Neighbors neighbors_;
+  TriangleNeighbors neighbors_;
   BoundaryLengths boundaries_;
   std::vector<std::int8_t> sides_;
   std::vector<std::uint8_t> isOff_;
@@ -400,7 +400,7 @@ std::size_t addParts(const TriangleMesh& mesh, std::optional<TurnedParts>& parts
   std::size_t count = 0;
   for (const std::vector<std::uint32_t>& piece : piecesOf(mesh))
   {
-    if (piece.size() < LeastTriangles)
+    if (piece.size() < LeastTrianglesOfPiece)
     {
       continue;
     }
@@ -408,7 +408,7 @@ std::size_t addParts(const TriangleMesh& mesh, std::optional<TurnedParts>& parts
     const WindingNumber winding(mesh, piece);
     const std::size_t step = std::max<std::size_t>(1, piece.size() / TrianglesAsked);
     const SidesShown sides = sidesShown(mesh, piece, winding, step);
-    if (sides.less() > LeastPart * sides.asked)
+    if (sides.less() > LeastTurnedPart * sides.asked)
     {
       if (!parts)
       {
