@@ -221,7 +221,8 @@ int CheckCase(const Case& input, int type, int variant, int preset)
     { "are unexplained", "A part of the cloud is missing",
       "The mesh ends, or is open, where there are points", "coarser than its cloud",
       "between two layers of points" });
-  const int ofSides = FilterTesting::Count(messages->AllText, { "the outer one is unknown" });
+  const int ofSides = FilterTesting::Count(
+    messages->AllText, { "the outer one is unknown", "of the surface is inside out" });
   CHECK(messages->Warnings == input.Warnings + isStalled + ofDefects + ofPoints + ofSides);
   if (input.Expected == Outcome::Mesh || input.Expected == Outcome::Sheet)
   {
