@@ -40,7 +40,7 @@ constexpr double WindingIfClosed = 0.45;
 /// A piece with fewer triangles has no parts.
 constexpr std::size_t LeastTrianglesOfPiece = 100;
 /// Of each piece, whether anything is turned.
-constexpr std::size_t TrianglesAsked = 1000;
+constexpr std::size_t TrianglesAsked = 500;
 constexpr std::uint32_t NoTriangle = std::numeric_limits<std::uint32_t>::max();
 
 double areaOf(const TriangleMesh& mesh, std::uint32_t triangle)

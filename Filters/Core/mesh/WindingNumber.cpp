@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace neuralmesh
 {
@@ -17,13 +16,17 @@ constexpr std::uint32_t MostInLeaf = 8;
 constexpr double FarRadii = 3.;
 }
 
-WindingNumber::WindingNumber(const TriangleMesh& mesh, std::vector<std::uint32_t> triangles)
+WindingNumber::WindingNumber(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles)
   : mesh_(mesh)
-  , triangles_(std::move(triangles))
 {
-  if (!triangles_.empty())
+  items_.reserve(triangles.size());
+  for (const std::uint32_t triangle : triangles)
   {
-    build(0, std::uint32_t(triangles_.size()));
+    items_.push_back({ centroid(triangle), triangle });
+  }
+  if (!items_.empty())
+  {
+    build(0, std::uint32_t(items_.size()));
   }
 }
 
@@ -56,11 +59,11 @@ void WindingNumber::build(std::uint32_t begin, std::uint32_t end)
   Node node;
   node.begin = begin;
   node.end = end;
-  Eigen::Vector3d low = centroid(triangles_[begin]), high = low;
+  Eigen::Vector3d low = items_[begin].centroid, high = low;
   double area = 0.;
   for (std::uint32_t i = begin; i < end; ++i)
   {
-    const Eigen::Vector3d at = centroid(triangles_[i]), vector = areaVector(triangles_[i]);
+    const Eigen::Vector3d at = items_[i].centroid, vector = areaVector(items_[i].triangle);
     low = low.cwiseMin(at);
     high = high.cwiseMax(at);
     node.area += vector;
@@ -71,7 +74,7 @@ void WindingNumber::build(std::uint32_t begin, std::uint32_t end)
     area > 0. ? Eigen::Vector3d(node.center / area) : Eigen::Vector3d((low + high) / 2.);
   for (std::uint32_t i = begin; i < end; ++i)
   {
-    for (const std::uint32_t corner : mesh_.triangles[triangles_[i]])
+    for (const std::uint32_t corner : mesh_.triangles[items_[i].triangle])
     {
       node.radius = std::max(node.radius, (mesh_.points[corner] - node.center).norm());
     }
@@ -81,12 +84,11 @@ void WindingNumber::build(std::uint32_t begin, std::uint32_t end)
     Eigen::Index axis = 0;
     (high - low).maxCoeff(&axis);
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle,
-      triangles_.begin() + end,
-      [&](std::uint32_t a, std::uint32_t b)
+    std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
+      [axis](const Item& a, const Item& b)
       {
-        const double atA = centroid(a)[axis], atB = centroid(b)[axis];
-        return atA < atB || (atA == atB && a < b);
+        return a.centroid[axis] != b.centroid[axis] ? a.centroid[axis] < b.centroid[axis]
+                                                    : a.triangle < b.triangle;
       });
     build(begin, middle);
     build(middle, end);
@@ -113,7 +115,8 @@ double WindingNumber::atTriangle(std::uint32_t triangle) const
     }
     for (std::uint32_t i = node.begin; isLeaf && i < node.end; ++i)
     {
-      angle += triangles_[i] == triangle ? 0. : solidAngle(triangles_[i], place);
+      const std::uint32_t other = items_[i].triangle;
+      angle += other == triangle ? 0. : solidAngle(other, place);
     }
     ++index;
   }

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -19,7 +20,7 @@ class WindingNumber
 {
 public:
   /// Of triangles of the mesh, which must outlive it.
-  WindingNumber(const TriangleMesh& mesh, std::vector<std::uint32_t> triangles);
+  WindingNumber(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles);
 
   /// At the centroid of one of the triangles, which is left out. So it is 1/2 where a closed surface looks
   /// outwards, -1/2 where it looks inwards, and 0 on what is flat.
@@ -37,13 +38,19 @@ private:
     std::uint32_t next = 0; ///< behind it and all below it: the following one for a leaf
   };
 
+  struct Item
+  {
+    Eigen::Vector3d centroid;
+    std::uint32_t triangle;
+  };
+
   Eigen::Vector3d centroid(std::uint32_t triangle) const;
   Eigen::Vector3d areaVector(std::uint32_t triangle) const;
   double solidAngle(std::uint32_t triangle, const Eigen::Vector3d& place) const;
   void build(std::uint32_t begin, std::uint32_t end);
 
   const TriangleMesh& mesh_;
-  std::vector<std::uint32_t> triangles_; ///< in the order of the leaves
+  std::vector<Item> items_; ///< in the order of the leaves
   std::vector<Node> nodes_;
 };
 }
