@@ -11,8 +11,8 @@
 namespace neuralmesh
 {
 /// How far the points of a cloud are from each other, at any place of it: the mean distance to the
-/// six nearest places with points. O(n) to make, and a query takes O(log n) however unevenly the points are spread. Of
-/// more than a million points it takes so many, evenly picked; 21 bytes for each.
+/// six nearest places with points. O(n) to make, and a query takes O(log n) however unevenly the
+/// points are spread. Of more than a million points it takes so many, evenly picked; 21 bytes for each.
 class PointSpacing
 {
 public:
