@@ -2,6 +2,7 @@
 #include "CompareCommand.h"
 
 #include "ErrorCollector.h"
+#include "JSON.h"
 #include "MeshReader.h"
 
 #include "vtkNeuralMeshComparison.h"
@@ -11,7 +12,6 @@
 #include "vtkPolyData.h"
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InfoCommand.h"
 
+#include "JSON.h"
 #include "MeshReader.h"
 
 #include "mesh/SurfaceReport.h"
@@ -9,7 +10,6 @@
 #include "vtkPolyData.h"
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <iostream>

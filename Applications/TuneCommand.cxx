@@ -2,6 +2,7 @@
 #include "TuneCommand.h"
 
 #include "FileArguments.h"
+#include "JSON.h"
 #include "PointReader.h"
 #include "PropertyOptions.h"
 
@@ -16,7 +17,6 @@
 #include "vtkPointSet.h"
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <cstdio>

@@ -11,6 +11,7 @@ install(
   FILES
     "${CMAKE_BINARY_DIR}/${cmake_destination}/NeuralMeshConfig.cmake"
     "${CMAKE_BINARY_DIR}/${cmake_destination}/NeuralMeshConfigVersion.cmake"
+    "${CMAKE_CURRENT_LIST_DIR}/NeuralMeshDebianPython.cmake"
   DESTINATION "${cmake_destination}"
   COMPONENT development)
 

@@ -19,7 +19,11 @@ set(NEURALMESH_VTK_COMPONENTS
 find_program(Python3_EXECUTABLE NAMES python3 HINTS /usr/bin)
 set(NEURALMESH_VTK_PYTHON_COMPONENTS Python WrappingPythonCore)
 
-find_package(ParaView 5.10 QUIET COMPONENTS RemotingCore WrapClientServer ProcessXML)
+include(NeuralMeshDebianPython)
+# Not looked for where it is not wanted: on Debian 13 a paraview-dev without python3-paraview is an error.
+if (NEURALMESH_USE_PARAVIEW OR NOT DEFINED NEURALMESH_USE_PARAVIEW)
+  find_package(ParaView 5.10 QUIET COMPONENTS RemotingCore WrapClientServer ProcessXML)
+endif ()
 option(NEURALMESH_USE_PARAVIEW "Build against ParaView's VTK" "${ParaView_FOUND}")
 if (NEURALMESH_USE_PARAVIEW)
   find_package(ParaView 5.10 REQUIRED COMPONENTS RemotingCore WrapClientServer ProcessXML)

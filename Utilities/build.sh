@@ -5,9 +5,9 @@
 # For what is drawn where there is no screen.
 screen_packages=(xvfb xauth libgl1-mesa-dri)
 if [ "${NEURALMESH_VTK:-paraview}" = plain ]; then
-  vtk_packages=(libvtk9-dev python3-vtk9 libeigen3-dev)
+  vtk_packages=(libvtk9-dev python3-vtk9 libpython3-dev libeigen3-dev)
 else
-  vtk_packages=(paraview-dev python3-paraview libopenmpi-dev openmpi-bin)
+  vtk_packages=(paraview-dev python3-paraview libpython3-dev libopenmpi-dev openmpi-bin)
 fi
 # For the Debian package; for pip, manual pages and completions, which tests try.
 package_packages=(dpkg-dev file)

@@ -52,9 +52,27 @@ def method_stub(method):
     return "\n".join(ast.unparse(ast.fix_missing_locations(function)) for function in found)
 
 
-def member_stub(name, member):
+def property_stub(name, member, wrapped):
+    """The stub of what VTK, from 9.4 on, makes of a getter and a setter: its docstring names them."""
+    access, methods = re.match(r"(\S+), Calls (\S+)", member.__doc__).groups()
+    found = list(signatures(getattr(wrapped, methods.split("/")[0])))
+    if not found:
+        kind = ast.Name("Any")
+    elif access == "write-only":
+        kind = found[0].args.args[-1].annotation
+    else:
+        kind = found[0].returns
+    kind = ast.unparse(ast.fix_missing_locations(kind))
+    if access == "read-only":
+        return f"@property\ndef {name}(self) -> {kind}: ..."
+    return f"{name}: {kind}"
+
+
+def member_stub(name, member, wrapped):
     if inspect.isclass(member):
         return f"class {name}(int): ..."
+    if inspect.isgetsetdescriptor(member):
+        return property_stub(name, member, wrapped)
     if isinstance(member, int):
         return f"{name}: {type(member).__name__}"
     return method_stub(member)
@@ -64,7 +82,7 @@ def class_stub(wrapped):
     members = [(name, member) for name, member in vars(wrapped).items() if not name.startswith("_")]
     # Enumerations first, for their constants name them.
     members.sort(key=lambda item: (not inspect.isclass(item[1]), not isinstance(item[1], int)))
-    stubs = [member_stub(name, member) for name, member in members]
+    stubs = [member_stub(name, member, wrapped) for name, member in members]
     body = "\n".join(stub for stub in stubs if stub) or "..."
     indented = "\n".join("    " + line for line in body.splitlines())
     return f"class {wrapped.__name__}({wrapped.__base__.__name__}):\n{indented}\n"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The 3D view of the gallery in a browser, opened from the disk."""
 
+import shutil
 import time
 import unittest
 
@@ -9,6 +10,7 @@ import support
 from batch_testing import BatchTest, write_scan
 from neuralmesh.batch.meshes import write_mesh
 from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
@@ -33,7 +35,8 @@ def start_browser(folder):
     for argument in (*ARGUMENTS, f"--user-data-dir={folder}"):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(options=options)
+    # Debian's Selenium cannot look for the driver itself.
+    return webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
 
 
 def red_cloud(far_away):
