@@ -4,7 +4,7 @@
 
 /**
  * @file
- * nlohmann/json.hpp, of VTK or of the system. Headers of VTK 9.4 and later include VTK's own copy, which
+ * nlohmann/json.hpp, of VTK or of the system. Headers of VTK after 9.3 include VTK's own copy, which
  * has the include guards of the other one and its namespace renamed by a macro: a source can have only one.
  */
 

@@ -15,19 +15,28 @@ set(CPACK_PACKAGE_VENDOR NeuralMesh)
 set(CPACK_PACKAGE_CONTACT "The authors of NeuralMesh <neuralmesh@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "triangle meshes from point clouds, by learning, with ${world}")
 set(CPACK_PACKAGE_DESCRIPTION
-"NeuralMesh turns a raw 3D scan, a point cloud without normals, with noise and
-outliers, into a triangle mesh with as many vertices as are asked for.
+"NeuralMesh turns a raw 3D scan, a point cloud without normals, with noise
+and outliers, into a triangle mesh with as many vertices as are asked for.
 The package has the command neuralmesh, the library, the Python package
-neuralmesh, what C++ needs, and the ParaView plugin where it goes with ParaView.")
+neuralmesh, what C++ needs, and where it goes with ParaView the plugin.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+# One for each Debian: that of the next one is the newer.
+cmake_host_system_information(RESULT release QUERY DISTRIB_INFO)
+set(CPACK_DEBIAN_PACKAGE_RELEASE "1~deb${release_VERSION_ID}")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
-# What Python imports, as no program is linked with it.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "${python_package}, python3-numpy")
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+# What Python imports, as no program is linked with it, and the Python that the module was made for.
+execute_process(
+  COMMAND "${Python3_EXECUTABLE}" -c
+    "import sys; print('python3 (>= {0}.{1}~), python3 (<< {0}.{2})'.format(
+      *sys.version_info[:2], sys.version_info[1] + 1))"
+  OUTPUT_VARIABLE python OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "${python}, ${python_package}, python3-numpy")
 # For the pictures of galleries where there is no display.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "xvfb, xauth, libgl1-mesa-dri")
 # For C++, and for the laboratory.

@@ -44,6 +44,7 @@
 #define vtkNeuralMeshComparison_h
 
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
+#include "vtkNeuralMeshBuiltWith.h"
 #include "vtkNeuralMeshSetClampMacro.h"
 #include "vtkPolyDataAlgorithm.h"
 

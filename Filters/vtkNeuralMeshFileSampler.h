@@ -49,6 +49,7 @@
 #define vtkNeuralMeshFileSampler_h
 
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
+#include "vtkNeuralMeshBuiltWith.h"
 #include "vtkNeuralMeshSetClampMacro.h"
 #include "vtkPolyDataAlgorithm.h"
 

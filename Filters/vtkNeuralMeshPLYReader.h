@@ -26,6 +26,7 @@
 #define vtkNeuralMeshPLYReader_h
 
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
+#include "vtkNeuralMeshBuiltWith.h"
 #include "vtkPolyDataAlgorithm.h"
 
 #include <string>

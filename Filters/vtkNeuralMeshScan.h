@@ -42,6 +42,7 @@
 #define vtkNeuralMeshScan_h
 
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
+#include "vtkNeuralMeshBuiltWith.h"
 #include "vtkNeuralMeshSetClampMacro.h"
 #include "vtkPolyDataAlgorithm.h"
 

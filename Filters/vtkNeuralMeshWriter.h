@@ -34,6 +34,7 @@
 #define vtkNeuralMeshWriter_h
 
 #include "vtkFiltersNeuralMeshModule.h" // For export macro
+#include "vtkNeuralMeshBuiltWith.h"
 #include "vtkWriter.h"
 
 #include <string>

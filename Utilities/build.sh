@@ -1,10 +1,10 @@
-# Sourced by demo.sh and test.sh: installs what is missing and builds. Debian 12, root or sudo.
+# Sourced by demo.sh and test.sh: installs what is missing and builds. Debian 12 or 13, root or sudo.
 
-# NEURALMESH_VTK says which VTK to install: ParaView's, or with `plain` Debian's own, which excludes
-# the other.
 # For what is drawn where there is no screen.
 screen_packages=(xvfb xauth libgl1-mesa-dri)
-if [ "${NEURALMESH_VTK:-paraview}" = plain ]; then
+# NEURALMESH_VTK says which VTK to install: ParaView's, or with `plain` or `clang` Debian's own, which
+# excludes the other.
+if [[ "${NEURALMESH_VTK:-paraview}" =~ ^(plain|clang)$ ]]; then
   vtk_packages=(libvtk9-dev python3-vtk9 libpython3-dev libeigen3-dev)
 else
   vtk_packages=(paraview-dev python3-paraview libpython3-dev libopenmpi-dev openmpi-bin)
@@ -19,7 +19,12 @@ test_packages=(libgtest-dev doxygen "${laboratory_packages[@]}" "${screen_packag
 # another way than by that of Debian.
 night_packages=(chromium chromium-driver python3-selenium)
 command -v npm > /dev/null || night_packages+=(npm)
-build_packages=(g++ cmake ninja-build "${vtk_packages[@]}" libcli11-dev
+compiler=g++
+if [ "${NEURALMESH_VTK:-}" = clang ]; then
+  compiler=clang
+  export CC=clang CXX=clang++
+fi
+build_packages=("$compiler" cmake ninja-build "${vtk_packages[@]}" libcli11-dev
   nlohmann-json3-dev python3-numpy)
 
 # Installs those of the given Debian packages that are missing.

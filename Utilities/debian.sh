@@ -1,6 +1,17 @@
-# Sourced by scripts that work in a Debian 12 of their own, made by debootstrap; they stand in the
-# root of the repository, have sourced build.sh and are root. The archive is the one that apt uses
-# here, or MIRROR.
+# Sourced by scripts that work in a Debian of their own, made by debootstrap; they stand in the root of the
+# repository, have sourced build.sh and are root. The archive is the one that apt uses here, or MIRROR.
+
+# The Debians, and what to build with in each: ParaView's VTK, plain VTK, or plain VTK by clang. The two
+# VTKs exclude each other.
+suites=(bookworm trixie)
+worlds=(paraview plain clang)
+
+# Whether these are two of them: require_suite_and_world SCRIPT SUITE WORLD.
+require_suite_and_world()
+{
+  [[ " ${suites[*]} " == *" $2 "* && " ${worlds[*]} " == *" $3 "* ]] ||
+    { echo "$1: $2 $3 is not one of ${suites[*]}, and one of ${worlds[*]}" >&2; exit 2; }
+}
 
 # Starts the script anew in a name space of its own, so that what is mounted goes with it however it
 # ends: in_own_namespace "$0" "$@".
@@ -11,16 +22,16 @@ in_own_namespace()
   IN_OWN_NAMESPACE=1 exec unshare --mount --propagation private bash "$@"
 }
 
-# Makes the Debian at once or not at all: make_debian FOLDER.
+# Makes the Debian at once or not at all: make_debian SUITE FOLDER.
 make_debian()
 {
   install_packages debootstrap
   local mirror
   mirror=${MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' \
-    'Codename: bookworm' 'Component: main' 'Created-By: Packages' | head -n 1)}
-  rm -rf --one-file-system "$1.new"
-  debootstrap --variant=minbase bookworm "$1.new" "${mirror:-http://deb.debian.org/debian}"
-  mv "$1.new" "$1"
+    'Label: Debian' 'Component: main' 'Created-By: Packages' | head -n 1)}
+  rm -rf --one-file-system "$2.new"
+  debootstrap --variant=minbase "$1" "$2.new" "${mirror:-http://deb.debian.org/debian}"
+  mv "$2.new" "$2"
 }
 
 # Gives it what it needs to run: enter_debian FOLDER. Proxies, and what else apt needs on this machine
@@ -35,6 +46,11 @@ enter_debian()
   mount --rbind /dev "$1/dev"
 }
 
+leave_debian()
+{
+  umount --recursive "$1/proc" "$1/sys" "$1/dev" 2> /dev/null || true
+}
+
 # The files of the working tree, not those that git ignores, in /neuralmesh. Builds in there stay.
 copy_sources()
 {
@@ -45,13 +61,12 @@ copy_sources()
     tar --extract --directory "$1/neuralmesh"
 }
 
-# in_debian FOLDER COMMAND...: runs it there, with plain VTK as NEURALMESH_VTK, and the tests that are
-# wanted here.
+# in_debian FOLDER WORLD COMMAND...: runs it there, and the tests that are wanted here.
 in_debian()
 {
-  local debian=$1
-  shift
-  env -i CI=true NEURALMESH_VTK=plain \
+  local debian=$1 world=$2
+  shift 2
+  env -i CI=true NEURALMESH_VTK="$world" \
     NEURALMESH_TEST_LABELS="${NEURALMESH_TEST_LABELS:-}" \
     PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 TMPDIR=/tmp \
     DEBIAN_FRONTEND=noninteractive chroot "$debian" "$@"

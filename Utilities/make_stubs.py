@@ -53,7 +53,7 @@ def method_stub(method):
 
 
 def property_stub(name, member, wrapped):
-    """The stub of what VTK, from 9.4 on, makes of a getter and a setter: its docstring names them."""
+    """The stub of what VTK, after 9.3, makes of a getter and a setter: its docstring names them."""
     access, methods = re.match(r"(\S+), Calls (\S+)", member.__doc__).groups()
     found = list(signatures(getattr(wrapped, methods.split("/")[0])))
     if not found:

@@ -3,7 +3,7 @@
 #
 #   Utilities/nightly.sh [STEP...]      all steps if none is named; --list names them
 #
-# Root, for the Debian of its own that packages and plain VTK need; 8 GB. Each step writes
+# Root, for the Debians of their own that packages and tests need; 30 GB. Each step writes
 # nightly/STEP.log, the table goes to nightly/table.txt. The exit status is 1 if a step failed; the
 # others run all the same.
 set -euo pipefail
@@ -16,9 +16,9 @@ fuzzing_seconds=${NEURALMESH_FUZZING_SECONDS:-600}
 # For all parameters at once: runs, and other ones each night.
 random_runs=${NEURALMESH_RANDOM_RUNS:-5000}
 random_first=${NEURALMESH_RANDOM_FIRST:-$(($(date +%s) / 86400 * 1000000))}
-debian=$PWD/build-vtk91
+debian=$PWD/build-debian
 
-steps=(style tests random sweep address thread coverage fuzzing laboratory packages vtk91)
+steps=(style tests random sweep address thread coverage fuzzing laboratory packages debians)
 declare -A what=(
   [style]="clang-format, cppcheck, and clang-tidy of every source"
   [tests]="the tests that have the label nightly or sanitized"
@@ -29,8 +29,8 @@ declare -A what=(
   [coverage]="lines of the engine that its tests run through"
   [fuzzing]="libFuzzer on engine and readers, $fuzzing_seconds s each"
   [laboratory]="all experiments of the thesis"
-  [packages]="both Debian packages, each tried in a bare Debian"
-  [vtk91]="all tests against plain VTK 9.1"
+  [packages]="the packages for both Debians and both VTKs, each tried in a bare Debian"
+  [debians]="all tests on Debian 12 and 13, against ParaView's VTK and plain VTK, and by clang"
 )
 
 step_style() { bash Utilities/check_style.sh --all; }
@@ -96,16 +96,15 @@ step_laboratory()
 step_packages()
 {
   rm -rf packages
-  bash Utilities/make_packages.sh paraview
-  bash Utilities/make_packages.sh plain "$debian"
-  rm -rf --one-file-system "$debian-packages"
-  bash Utilities/test_packages.sh "$debian-packages"
+  bash Utilities/make_packages.sh all
+  rm -rf --one-file-system "$debian"
+  bash Utilities/test_packages.sh "$debian"
 }
 
 # Those of the night, too.
-step_vtk91()
+step_debians()
 {
-  NEURALMESH_TEST_LABELS='fast|full|sanitized|nightly' bash Utilities/test_with_vtk91.sh "$debian"
+  NEURALMESH_TEST_LABELS='fast|full|sanitized|nightly' bash Utilities/test_on.sh
 }
 
 if [ "${1:-}" = --list ]; then

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Releases the version that stands in the project() call of CMakeLists.txt.
 #
-#   Utilities/release.sh                        checks all, makes the packages of both VTKs in packages/
-#                                               and the tag; root, for the one that excludes the other
+#   Utilities/release.sh                        checks all, makes the packages of both Debians and both
+#                                               VTKs in packages/, and the tag; root, for Debians of their own
 #   Utilities/release.sh --check [BUILD [DEB...]]
 #                                               only tells whether the version agrees: in the files, in
 #                                               what was built in BUILD, and in packages
@@ -77,7 +77,7 @@ check()
   check_files
   [ $# -eq 0 ] || check_build "$1"
   for package in "${@:2}"; do
-    agrees "$(basename "$package")" "$(dpkg-deb -f "$package" Version)"
+    agrees "$(basename "$package")" "$(dpkg-deb -f "$package" Version | sed 's/-[^-]*$//')"
   done
   [ "$disagree" -eq 0 ] || fail "the version does not agree"
 }
@@ -92,8 +92,9 @@ fi
 [ -z "$(sed '1,/^## \[Unreleased\]/d; /^## /,$d' CHANGELOG.md | tr -d '[:space:]')" ] ||
   fail "CHANGELOG.md has changes that are not released"
 rm -rf packages
-bash Utilities/make_packages.sh paraview
-bash Utilities/make_packages.sh plain
+bash Utilities/make_packages.sh
+rm -rf packages
+bash Utilities/make_packages.sh all
 check build-package packages/*.deb
 git tag --annotate "v$version" --message "NeuralMesh $version"
 echo "Tagged v$version; packages are in packages/"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tries Debian packages, each in a Debian 12 of its own that has nothing else: installs it, uses all
-# that is in it, and removes it. Root, some minutes, 4 GB for the time that it takes.
+# Tries Debian packages, each in a Debian of its own that has nothing else, the one that it was made for:
+# installs it, uses all that is in it, and removes it. Root, some minutes, 4 GB for the time that it takes.
 #
 #   Utilities/test_packages.sh FOLDER [PACKAGE.deb...]     default: all of packages/
 #
@@ -24,16 +24,17 @@ shift
 remove_debian()
 {
   cd /
-  umount --recursive "$debian/proc" "$debian/sys" "$debian/dev" 2> /dev/null || true
+  leave_debian "$debian"
   rm -rf --one-file-system "$debian" "$debian.new"
 }
 trap remove_debian EXIT
 
 for package in "$@"; do
-  make_debian "$debian" > /dev/null
+  number=$(dpkg-deb -f "$package" Version | sed 's/.*~deb//')
+  make_debian "${suites[number - 12]}" "$debian" > /dev/null
   enter_debian "$debian"
   cp -r "$repository/Testing/Install" "$debian/root/try"
   cp "$package" "$debian/root/try/"
-  in_debian "$debian" bash "/root/try/try_package.sh" "/root/try/$(basename "$package")"
+  in_debian "$debian" plain bash "/root/try/try_package.sh" "/root/try/$(basename "$package")"
   remove_debian
 done

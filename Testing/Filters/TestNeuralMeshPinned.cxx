@@ -123,8 +123,8 @@ std::uint64_t Hash(vtkPolyData* mesh)
 bool Is(vtkPolyData* mesh, vtkIdType vertices, std::uint64_t pinned, const char* kind)
 {
   const std::uint64_t found = Hash(mesh);
-  std::cout << kind << ": " << mesh->GetNumberOfPoints() << " vertices, hash 0x" << std::hex << found
-            << std::dec << std::endl;
+  std::cout << kind << ": " << mesh->GetNumberOfPoints() << " vertices, hash 0x" << std::hex
+            << found << std::dec << std::endl;
   return mesh->GetNumberOfPoints() == vertices && found == pinned;
 }
 

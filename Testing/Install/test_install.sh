@@ -59,6 +59,28 @@ case_other_version()
   grep -q "compatible" "$scratch/other.txt" || { cat "$scratch/other.txt"; fail "another reason"; }
 }
 
+# Promise: another VTK than it was built with is refused by one clear sentence, when a program is configured
+# and when one is compiled.
+case_other_vtk()
+{
+  local fake=$scratch/other_vtk sentence="NeuralMesh was built with VTK .*, but .* build NeuralMesh with"
+  rm -rf "$fake"
+  mkdir -p "$fake/cmake" "$fake/include"
+  echo 'set(VTK_VERSION 99.0.0)' > "$fake/cmake/vtk-config.cmake"
+  ! cmake -S "$here/Consumer" -B "$fake/configured" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+    -Dwanted_version="$version" -DVTK_DIR="$fake/cmake" > "$fake/cmake.txt" 2>&1 ||
+    fail "VTK 99.0 was taken"
+  tr -s '\n ' ' ' < "$fake/cmake.txt" | grep -q "$sentence" ||
+    { cat "$fake/cmake.txt"; fail "no sentence when it is configured"; }
+
+  printf '#define VTK_%s_VERSION 99\n' MAJOR MINOR BUILD > "$fake/include/vtkVersionMacros.h"
+  CXXFLAGS="-I$fake/include ${CXXFLAGS:-}" cmake -S "$here/Consumer" -B "$fake/compiled" -G Ninja \
+    -DCMAKE_PREFIX_PATH="$prefix" -Dwanted_version="$version" ${VTK_DIR:+-DVTK_DIR="$VTK_DIR"}
+  ! cmake --build "$fake/compiled" > "$fake/build.txt" 2>&1 || fail "VTK 99.0 was compiled with"
+  grep -q "error: #error \"$sentence" "$fake/build.txt" ||
+    { cat "$fake/build.txt"; fail "no sentence when it is compiled"; }
+}
+
 # Promise: `import neuralmesh` works from the prefix.
 case_python()
 {

@@ -4,7 +4,8 @@
 set -euo pipefail
 build=$1 scratch=$2 version=$3 world=$4
 name=neuralmesh-$world
-package=$scratch/${name}_${version}_$(dpkg --print-architecture).deb
+revision=1~deb$(. /etc/os-release && echo "$VERSION_ID")
+package=$scratch/${name}_$version-${revision}_$(dpkg --print-architecture).deb
 root=$scratch/root
 
 fail()
@@ -40,10 +41,11 @@ dpkg-deb -e "$package" "$scratch/control"
 # Promise: only one of the packages is there at a time, and it brings the libraries and the Python
 # packages that it needs.
 [ "$(dpkg-deb -f "$package" Package Version | sort)" = "$(printf 'Package: %s\nVersion: %s' \
-  "$name" "$version")" ] || fail "another name or version"
+  "$name" "$version-$revision")" ] || fail "another name or version"
 has Provides 'neuralmesh \(= [0-9.]+\)'
 has Conflicts neuralmesh
 has Depends 'libc6'
+has Depends 'python3 \(<< 3\.[0-9]+\)'
 has Depends python3-numpy
 has Recommends xvfb
 if [ "$world" = paraview ]; then
@@ -52,7 +54,7 @@ if [ "$world" = paraview ]; then
   has Suggests paraview-dev
   has_files bin/plugins/NeuralMesh.so lib/neuralmesh/neuralmesh.plugins.xml
 else
-  has Depends 'libvtk9.1'
+  has Depends 'libvtk9\.[0-9]+(t64)?'
   has Depends python3-vtk9
   has Suggests libvtk9-dev
 fi
@@ -63,7 +65,8 @@ has_files bin/neuralmesh lib/libvtkFiltersNeuralMesh.so include/NeuralMesh/vtkNe
   lib/python3/dist-packages/neuralmesh/lab/step-times \
   share/man/man1/neuralmesh.1.gz share/bash-completion/completions/neuralmesh \
   share/fish/vendor_completions.d/neuralmesh.fish "share/doc/$name/copyright" \
-  "share/doc/$name/changelog.gz" share/doc/NeuralMesh/README.md
+  "share/doc/$name/changelog.gz" \
+  "share/doc/$name/changelog.Debian.gz" share/doc/NeuralMesh/README.md
 [ "$("$root/usr/bin/neuralmesh" --version)" = "$version" ] || fail "another version of the command"
 [ "$(readelf -S "$root/usr/bin/neuralmesh" | grep -c debug)" -eq 0 ] || fail "it is not stripped"
 

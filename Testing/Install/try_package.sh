@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Installs a package in a bare Debian 12, uses all that is in it, and removes it; as root, as
+# Installs a package in a bare Debian, uses all that is in it, and removes it; as root, as
 # Utilities/test_packages.sh does it: try_package.sh PACKAGE.deb
 set -euo pipefail
 package=$1
 here=$(cd "$(dirname "$0")" && pwd)
 name=$(dpkg-deb -f "$package" Package)
-version=$(dpkg-deb -f "$package" Version)
+version=$(dpkg-deb -f "$package" Version | sed 's/-[^-]*$//')
 cd "$(mktemp -d)"
 
 fail()
