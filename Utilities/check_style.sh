@@ -22,7 +22,8 @@ echo "clang-format: all well"
 # Of style there is clang-tidy to judge.
 git ls-files 'Filters/*.cpp' 'Filters/*.cxx' 'Applications/*.cxx' |
   cppcheck --enable=warning,performance,portability --std=c++20 --language=c++ --quiet \
-    -U VTK_NLOHMANN_JSON -I Filters/Core -I Filters -I Applications -I "$written/Filters/Core" -I "$written/Filters" \
+    -U VTK_NLOHMANN_JSON -I Filters/Core -I Filters -I Applications \
+    -I "$written/Filters/Core" -I "$written/Filters" \
     --error-exitcode=1 -j "$(nproc)" --file-list=-
 echo "cppcheck: all well"
 

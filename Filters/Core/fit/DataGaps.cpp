@@ -226,12 +226,12 @@ private:
   std::optional<SomePoints> points_;
 };
 
-/// Of the small pieces at cuts, those that explain no points: others are parts of the surface. These hold
+/// Of the small pieces that are cut off, those that explain no points: others are parts of the surface. These hold
 /// some times the part `leastPiece` of the samples, and half of theirs lie on them but for noise.
 std::vector<Triangle> leftOverPieces(const Mesh& mesh, std::span<const PlaceOnMesh> places,
-  std::span<const std::uint8_t> isAtCut, float medianDistance, double leastPiece)
+  std::span<const std::uint8_t> valencesBefore, float medianDistance, double leastPiece)
 {
-  std::vector<Triangle> small = findSmallPieces(mesh, isAtCut);
+  std::vector<Triangle> small = findCutOffPieces(mesh, valencesBefore);
   if (small.empty())
   {
     return small;
@@ -338,15 +338,11 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   const std::vector<Triangle> gaps =
     plan.mayOpen ? findDataGaps(cloud, mesh, places, medianDistance) : std::vector<Triangle>();
   result.triangles = gaps.size();
-  std::vector<std::uint8_t> isAtCut(mesh.indexEnd());
-  for (const Triangle& gap : gaps)
-  {
-    std::for_each(gap.begin(), gap.end(), [&](VertexIndex v) { isAtCut[v] = 1; });
-  }
-  mesh.removeTriangles(gaps);
   if (!gaps.empty())
   {
-    mesh.removeTriangles(leftOverPieces(mesh, places, isAtCut, medianDistance, plan.leastPiece));
+    const std::vector<std::uint8_t> valences = valencesOf(mesh);
+    mesh.removeTriangles(gaps);
+    mesh.removeTriangles(leftOverPieces(mesh, places, valences, medianDistance, plan.leastPiece));
   }
   BoundaryManager boundaries(mesh);
   if (boundaries.loopCount() == 0)

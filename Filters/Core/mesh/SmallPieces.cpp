@@ -14,13 +14,14 @@ constexpr double LeastPart = 0.02;
 /// in such pieces, it is the others that are odd.
 constexpr double PartOfSmallPiece = 0.01;
 constexpr double MostOfVertices = 0.5;
-}
 
-std::vector<Triangle> findSmallPieces(const Mesh& mesh, std::span<const std::uint8_t> isAtCut)
+/// If not all, those with a vertex at the cut.
+std::vector<Triangle> findPiecesAtCut(
+  const Mesh& mesh, bool areAll, std::span<const std::uint8_t> valencesBefore)
 {
   std::vector<std::uint32_t> pieceOf(mesh.indexEnd(), 0);
   std::vector<std::size_t> sizes{ 0 };
-  std::vector<bool> isCutOff{ false };
+  std::vector<bool> isAtCut{ false };
   std::vector<VertexIndex> open;
   for (VertexIndex first = 0; first < mesh.indexEnd(); ++first)
   {
@@ -30,7 +31,7 @@ std::vector<Triangle> findSmallPieces(const Mesh& mesh, std::span<const std::uin
     }
     const auto piece = std::uint32_t(sizes.size());
     sizes.push_back(0);
-    isCutOff.push_back(false);
+    isAtCut.push_back(areAll);
     open.assign(1, first);
     pieceOf[first] = piece;
     while (!open.empty())
@@ -38,7 +39,10 @@ std::vector<Triangle> findSmallPieces(const Mesh& mesh, std::span<const std::uin
       const VertexIndex v = open.back();
       open.pop_back();
       ++sizes[piece];
-      isCutOff[piece] = isCutOff[piece] || v >= isAtCut.size() || isAtCut[v] != 0;
+      if (!isAtCut[piece])
+      {
+        isAtCut[piece] = v >= valencesBefore.size() || valencesBefore[v] != mesh.valence(v);
+      }
       for (const VertexIndex neighbor : mesh.ring(v))
       {
         if (pieceOf[neighbor] == 0)
@@ -54,12 +58,34 @@ std::vector<Triangle> findSmallPieces(const Mesh& mesh, std::span<const std::uin
   mesh.forEachTriangle(
     [&](VertexIndex a, VertexIndex b, VertexIndex c)
     {
-      if (isCutOff[pieceOf[a]] && double(sizes[pieceOf[a]]) < LeastPart * largest)
+      if (isAtCut[pieceOf[a]] && double(sizes[pieceOf[a]]) < LeastPart * largest)
       {
         result.push_back({ a, b, c });
       }
     });
   return result;
+}
+}
+
+std::vector<Triangle> findSmallPieces(const Mesh& mesh)
+{
+  return findPiecesAtCut(mesh, true, {});
+}
+
+std::vector<Triangle> findCutOffPieces(
+  const Mesh& mesh, std::span<const std::uint8_t> valencesBefore)
+{
+  return findPiecesAtCut(mesh, false, valencesBefore);
+}
+
+std::vector<std::uint8_t> valencesOf(const Mesh& mesh)
+{
+  std::vector<std::uint8_t> valences(mesh.indexEnd());
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    valences[v] = std::uint8_t(mesh.valence(v));
+  }
+  return valences;
 }
 
 std::size_t dropPieces(Mesh& mesh, double leastPart)

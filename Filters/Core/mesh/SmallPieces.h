@@ -10,10 +10,13 @@
 namespace neuralmesh
 {
 /// The triangles of all pieces of a mesh, connected by edges, that have less than 2 % of the
-/// vertices of the largest one: what is left over where a mesh was cut. With `isAtCut`, which marks
-/// vertices, only of pieces that have one of these, or one that came when it was cut: others were
-/// there before.
-std::vector<Triangle> findSmallPieces(const Mesh& mesh, std::span<const std::uint8_t> isAtCut = {});
+/// vertices of the largest one: what is left over where a mesh was cut.
+std::vector<Triangle> findSmallPieces(const Mesh& mesh);
+/// Of these, the pieces in which a vertex has another valence than before the cut: others were there before.
+std::vector<Triangle> findCutOffPieces(
+  const Mesh& mesh, std::span<const std::uint8_t> valencesBefore);
+/// By the index of the vertex.
+std::vector<std::uint8_t> valencesOf(const Mesh& mesh);
 
 /// Drops all pieces with less than this part of the area of all, but the largest. No vertex may be erased,
 /// and none is in the end; properties follow. Where pieces with less than 1 % are most of the mesh, they stay.

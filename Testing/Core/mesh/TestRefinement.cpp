@@ -11,6 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 namespace neuralmesh::testing
 {
 namespace
@@ -157,6 +160,49 @@ TEST(SmallPieces, NoneOfOnePiece)
 {
   EXPECT_TRUE(findSmallPieces(meshOf(makeSphere(4))).empty());
   EXPECT_TRUE(findSmallPieces(meshOf(makeSquare())).empty());
+}
+
+// Wherever a mesh is cut, all small pieces that come of it are known as cut off, and no piece that was there
+// before: triangles around those of the cut go with it, so that a piece may have no vertex of these.
+TEST(SmallPieces, WhatIsCutOff)
+{
+  Random random(1);
+  std::size_t beyond = 0;
+  for (int time = 0; time < 100; ++time)
+  {
+    // 441 vertices, and 4.
+    Mesh mesh = meshOf(makeGrids({ 20, 1 }));
+    const std::vector<std::uint8_t> valences = valencesOf(mesh);
+    const std::vector<Triangle> before = findSmallPieces(mesh);
+    ASSERT_EQ(before.size(), 2u);
+    ASSERT_TRUE(findCutOffPieces(mesh, valences).empty());
+    std::vector<Triangle> cut;
+    for (const Triangle& triangle : trianglesOf(mesh))
+    {
+      if (triangle != before[0] && triangle != before[1] && random.below(4) == 0)
+      {
+        cut.push_back(triangle);
+      }
+    }
+    mesh.removeTriangles(cut);
+    std::vector<Triangle> small = findSmallPieces(mesh);
+    std::erase(small, before[0]);
+    std::erase(small, before[1]);
+    EXPECT_EQ(findCutOffPieces(mesh, valences), small);
+
+    std::set<VertexIndex> ofCut;
+    for (const Triangle& triangle : cut)
+    {
+      ofCut.insert(triangle.begin(), triangle.end());
+    }
+    beyond += std::size_t(std::count_if(small.begin(), small.end(),
+      [&](const Triangle& triangle)
+      {
+        return std::none_of(
+          triangle.begin(), triangle.end(), [&](VertexIndex v) { return ofCut.contains(v); });
+      }));
+  }
+  EXPECT_GT(beyond, 0u);
 }
 
 // Flips bring valences closer to regular, of a mesh that random flips have made irregular; they keep
