@@ -48,4 +48,11 @@ inline Vector4 pointAt(const PlaceOnMesh& place, std::span<const Vector4> positi
     place.weights[1] * positions[place.triangle[1]] +
     place.weights[2] * positions[place.triangle[2]];
 }
+
+/// Of the triangle of a place, by the positions of the vertices, twice as long as its area.
+inline Vector4 normalAt(const PlaceOnMesh& place, std::span<const Vector4> positions)
+{
+  const Vector4 a = positions[place.triangle[0]];
+  return cross(positions[place.triangle[1]] - a, positions[place.triangle[2]] - a);
+}
 }

@@ -22,13 +22,8 @@ constexpr float LaterOutlierEdges = 0.5f;
 constexpr float SparseSpacings = 2.f;
 constexpr float OutlierSpacings = 3.f;
 constexpr std::size_t SamplesPerAbortCheck = 65536;
-// Parts for the executor.
-constexpr std::size_t FitSamplesPerRange = 1024;
-constexpr std::size_t FitVerticesPerRange = 4096;
 /// Of the residual of the equations, against the largest at the start of a round.
 constexpr double Tolerance = 1e-3;
-/// While lambda is chosen, against that at the start.
-constexpr double ToleranceOfChoice = 1e-2;
 
 // Where samples would be lost
 /// Beyond so many median distances, and distances between samples around it, a sample is lost. Points
@@ -60,26 +55,8 @@ constexpr float LeastNormal = 1e-15f;
 /// Where a whole triangle is without, how far its edge goes towards the corner within.
 constexpr double RetreatOfEmpty = 0.5;
 
-// The choice of lambda
-constexpr double FirstSmoothness = 1000.;
-constexpr double MostSmoothness = 1e4;
-/// A bit more: too rough a surface would follow the noise all the way.
-constexpr double SmoothnessFactor = 1.1;
-constexpr int MostChoices = 8;
-/// It is found if it changes by no more than that.
-constexpr double NearPart = 0.85;
-/// A learnt mesh follows noise, so the surface is farther from the samples, but not so many times. Beyond,
-/// what is narrow has shrunk, and passes for noise: then lambda is a tenth at most.
-constexpr double MostGrowthByNoise = 2.;
-constexpr double PartIfShrunk = 0.1;
 /// Of the time of moveVertices().
 constexpr double PartOfChoice = 0.6;
-
-Vector4 normalAt(const PlaceOnMesh& place, std::span<const Vector4> positions)
-{
-  const Vector4 a = positions[place.triangle[0]];
-  return cross(positions[place.triangle[1]] - a, positions[place.triangle[2]] - a);
-}
 }
 
 SurfaceFit::SurfaceFit(
@@ -122,7 +99,7 @@ bool SurfaceFit::findPlaces(const Progress& progress)
     {
       return false;
     }
-    executor_.forEachRange(std::min(SamplesPerAbortCheck, count - first), FitSamplesPerRange,
+    executor_.forEachRange(std::min(SamplesPerAbortCheck, count - first), SamplesPerRange,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = first + begin; i < first + end; ++i)
@@ -169,7 +146,7 @@ void SurfaceFit::chooseUsed(float edges)
 {
   const LocalSpacing& spacing = spacing_.emplace(mesh_, places_);
   const float usual = spacing.usual();
-  executor_.forEachRange(places_.size(), FitSamplesPerRange,
+  executor_.forEachRange(places_.size(), SamplesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -194,7 +171,7 @@ void SurfaceFit::fillSystem()
   system_.emplace(mesh_, Slip, executor_);
   forEachRows([this](const FitSystem::Rows& rows) { fillRows(rows); });
   usedCount_ = std::size_t(executor_.sum(
-    places_.size(), FitSamplesPerRange, [this](std::size_t i) { return isUsed(i) ? 1. : 0.; }));
+    places_.size(), SamplesPerRange, [this](std::size_t i) { return isUsed(i) ? 1. : 0.; }));
   if (mesh_.isOpen())
   {
     pullBoundariesIn();
@@ -342,7 +319,7 @@ template <typename Distance>
 std::vector<std::uint8_t> SurfaceFit::lostPlaces(const Distance& squaredBefore) const
 {
   std::vector<std::uint8_t> lostSamples(samples_.size());
-  executor_.forEachRange(samples_.size(), FitSamplesPerRange,
+  executor_.forEachRange(samples_.size(), SamplesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -429,7 +406,7 @@ std::size_t SurfaceFit::holdAgainst(const Mesh& before)
   std::vector<float> squaredBefore(samples_.size(), -1.f);
   const auto hasMoved = [&](VertexIndex v)
   { return squaredNorm(mesh_.position(v) - before.position(v)) > 0.f; };
-  executor_.forEachRange(samples_.size(), FitSamplesPerRange,
+  executor_.forEachRange(samples_.size(), SamplesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -442,99 +419,6 @@ std::size_t SurfaceFit::holdAgainst(const Mesh& before)
       }
     });
   return hold(before.positions(), [&](std::size_t i) { return squaredBefore[i]; });
-}
-
-/// With Gaussian noise of variance s^2 and a surface whose L x has the variance r^2 across it, the
-/// most probable positions are those for lambda = s^2 / r^2. Both are measured, beginning with a
-/// smooth surface: on a rough one, noise would pass for shape.
-bool SurfaceFit::chooseSmoothness(const Progress& progress)
-{
-  smoothness_ = FirstSmoothness;
-  double most = MostSmoothness;
-  const double mostVariance = MostGrowthByNoise * MostGrowthByNoise * meanSquaredDistance();
-  std::vector<Vector4> positions(mesh_.positions().begin(), mesh_.positions().end());
-  for (int i = 0; i < MostChoices; ++i)
-  {
-    double scale = 0.;
-    if (!system_->solve(smoothness_, ToleranceOfChoice, scale, positions,
-          partOf(progress, double(i) / MostChoices, double(i + 1) / MostChoices)))
-    {
-      return false;
-    }
-    const double rough = roughness(positions);
-    const double variance = residualVariance(positions, smoothness_);
-    const double ratio = rough > 0. ? variance / rough : MostSmoothness;
-    const double before = smoothness_;
-    const double next = SmoothnessFactor * ratio;
-    const bool isNear = next > NearPart * before;
-    const bool isShrunk = isNear && variance > mostVariance && before > LeastSmoothness;
-    most = isShrunk ? std::max(PartIfShrunk * before, LeastSmoothness) : most;
-    // From far away it falls further yet.
-    smoothness_ =
-      std::clamp(isNear ? next : next * std::sqrt(next / before), LeastSmoothness, most);
-    if (isNear && !isShrunk)
-    {
-      break;
-    }
-  }
-  return true;
-}
-
-double SurfaceFit::meanSquaredDistance() const
-{
-  const double sum = executor_.sum(samples_.size(), FitSamplesPerRange,
-    [this](std::size_t i) { return isUsed(i) ? double(places_[i].squaredDistance) : 0.; });
-  return sum / double(std::max<std::size_t>(1, usedCount_));
-}
-
-double SurfaceFit::residualVariance(std::span<const Vector4> positions, double lambda) const
-{
-  const auto squaredDistance = [&](std::size_t i)
-  {
-    const PlaceOnMesh& place = places_[i];
-    if (!isUsed(i))
-    {
-      return 0.;
-    }
-    const Vector4 normal = normalAt(place, positions);
-    const Vector4 offset = samples_[i] - positions[place.triangle[0]];
-    const float across = dot(offset, normal);
-    const float squared = squaredNorm(normal);
-    const float distance = squared > 0.f ? across * across / squared : squaredNorm(offset);
-    // Where points are sparse the mesh may be farther off than any noise.
-    const float most = outlierDistance_ * outlierDistance_;
-    return double(weight(i)) *
-      double(place.squaredDistance > most ? std::min(most, distance) : distance);
-  };
-  const double sum = executor_.sum(samples_.size(), FitSamplesPerRange, squaredDistance);
-  // Vertices follow noise, the less the smoother they are held: so many of them do (a curve through
-  // traces of the solution, measured for 2 to 20 samples a vertex).
-  const auto vertices = double(positions.size());
-  const auto samples = double(std::max<std::size_t>(1, usedCount_));
-  const double followers = vertices / (1. + std::pow(2. * lambda * vertices / samples, 0.75));
-  return sum / std::max(0.25 * samples, samples - followers);
-}
-
-double SurfaceFit::roughness(std::span<const Vector4> positions) const
-{
-  std::vector<Vector4> laplacian(positions.size());
-  system_->applyLaplacian(positions, laplacian);
-  const auto squaredAcross = [&](std::size_t vertex)
-  {
-    const auto v = VertexIndex(vertex);
-    const Ring& ring = mesh_.ring(v);
-    Vector4 normal;
-    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
-    {
-      normal += cross(
-        positions[ring[slot]] - positions[v], positions[ring[ring.after(slot)]] - positions[v]);
-    }
-    const float across = dot(laplacian[v], normal);
-    const float squared = squaredNorm(normal);
-    return squared > 0.f ? double(across * across / squared) : 0.;
-  };
-  return executor_.sum(positions.size(), FitVerticesPerRange, squaredAcross) /
-    double(positions.size());
 }
 
 double SurfaceFit::distanceEvenness() const

@@ -79,6 +79,10 @@ public:
   std::span<const PlaceOnMesh> places() const { return places_; }
 
 private:
+  // Parts for the executor.
+  static constexpr std::size_t SamplesPerRange = 1024;
+  static constexpr std::size_t VerticesPerRange = 4096;
+
   bool isUsed(std::size_t sample) const { return isUsed_[sample] != 0; }
   float weight(std::size_t sample) const { return weights_.empty() ? 1.f : weights_[sample]; }
   void findPlace(std::size_t sample, const VertexGrid& grid);
@@ -96,6 +100,7 @@ private:
   Vector4 beyondBoundary(
     const Vector4& sample, const PlaceOnMesh& place, const Vector4& normal) const;
   void pullBoundariesIn();
+  // In SurfaceFitSmoothness.cpp
   bool chooseSmoothness(const Progress& progress);
   double meanSquaredDistance() const;
   double residualVariance(std::span<const Vector4> positions, double lambda) const;

@@ -107,8 +107,8 @@ TEST(DepthBufferVoxelizer, FindsWhatIsInside)
   {
     EXPECT_EQ(errors(grid, voxelize(mesh, grid), distance, tolerance), 0u);
     const Eigen::Matrix3d rotation = someRotation();
-    const Distance distanceBefore = [&, distance](const Eigen::Vector3d& p)
-    { return distance(rotation.transpose() * p); };
+    const Distance distanceBefore = [&rotation, before = distance](const Eigen::Vector3d& p)
+    { return before(rotation.transpose() * p); };
     EXPECT_EQ(errors(grid, voxelize(turned(mesh, rotation), grid), distanceBefore, tolerance), 0u);
   }
 }
