@@ -67,10 +67,7 @@ std::vector<Triangle> findPiecesAtCut(
 }
 }
 
-std::vector<Triangle> findSmallPieces(const Mesh& mesh)
-{
-  return findPiecesAtCut(mesh, true, {});
-}
+std::vector<Triangle> findSmallPieces(const Mesh& mesh) { return findPiecesAtCut(mesh, true, {}); }
 
 std::vector<Triangle> findCutOffPieces(
   const Mesh& mesh, std::span<const std::uint8_t> valencesBefore)
