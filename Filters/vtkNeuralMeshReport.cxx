@@ -122,6 +122,7 @@ void vtkNeuralMeshReport::AddQuality(
   AddCount(output, "IntersectingTriangles",
     result.finish ? static_cast<vtkIdType>(result.finish->left.intersectingTriangles)
                   : NotLookedFor);
+  AddCount(output, "NarrowHandles", result.quality->narrowHandles.count);
   AddCount(output, "FitRoundsTakenBack", result.finish ? result.finish->roundsTakenBack : 0);
 }
 
@@ -132,11 +133,11 @@ void vtkNeuralMeshReport::AddWarnings(const std::vector<std::string>& warnings, 
 
 void vtkNeuralMeshReport::RemoveFrom(vtkPolyData* output)
 {
-  for (const char* name :
-    { "Residual", "Noise", "OutlierShare", "RegularRatio", "TriangleQuality", "Components", "Genus",
-      "BoundaryLoops", "FoldedEdges", "IntersectingTriangles", "FitRoundsTakenBack",
-      "ChosenParameters", "ReasonsOfChoice", "OutlierPoints", "SmallPiecePoints",
-      "UnreachablePoints", "UnexplainedPoints", "UnexplainedShare", "Warnings" })
+  for (const char* name : { "Residual", "Noise", "OutlierShare", "RegularRatio", "TriangleQuality",
+         "Components", "Genus", "BoundaryLoops", "FoldedEdges", "IntersectingTriangles",
+         "NarrowHandles", "FitRoundsTakenBack", "ChosenParameters", "ReasonsOfChoice",
+         "OutlierPoints", "SmallPiecePoints", "UnreachablePoints", "UnexplainedPoints",
+         "UnexplainedShare", "Warnings" })
   {
     output->GetFieldData()->RemoveArray(name);
   }

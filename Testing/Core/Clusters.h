@@ -18,7 +18,8 @@ inline void addCluster(std::vector<Eigen::Vector3d>& points, const Eigen::Vector
     Eigen::Vector3d offset = Eigen::Vector3d::Constant(-6.);
     for (int part = 0; part < 12; ++part)
     {
-      offset += Eigen::Vector3d(random.uniform(), random.uniform(), random.uniform());
+      // In braces, in which compilers agree on the order.
+      offset += Eigen::Vector3d{ random.uniform(), random.uniform(), random.uniform() };
     }
     points.emplace_back(center + deviation * offset);
   }

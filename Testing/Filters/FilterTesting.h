@@ -149,7 +149,7 @@ inline int WarningsOfDefects(vtkPolyData* mesh, vtkIdType differentPoints, vtkId
   const vtkIdType vertices = mesh->GetNumberOfPoints();
   const bool isFiner = vertices > std::max(differentPoints / 2, Fewest) && vertices <= points;
   return isFiner + (FieldValue(mesh, "FoldedEdges") > 0.) +
-    (FieldValue(mesh, "IntersectingTriangles") > 0.) +
+    (FieldValue(mesh, "IntersectingTriangles") > 0.) + (FieldValue(mesh, "NarrowHandles") > 0.) +
     (FieldValue(mesh, "FitRoundsTakenBack") > 0.);
 }
 

@@ -9,9 +9,9 @@
 
 namespace
 {
-constexpr std::array<const char*, 11> Names{ "Residual", "Noise", "OutlierShare", "RegularRatio",
+constexpr std::array<const char*, 12> Names{ "Residual", "Noise", "OutlierShare", "RegularRatio",
   "TriangleQuality", "Components", "Genus", "BoundaryLoops", "FoldedEdges", "IntersectingTriangles",
-  "FitRoundsTakenBack" };
+  "NarrowHandles", "FitRoundsTakenBack" };
 
 using FilterTesting::FieldValue;
 
@@ -60,7 +60,7 @@ int CheckNoisySphere()
   CHECK(FieldValue(mesh, "TriangleQuality") > 0.7 && FieldValue(mesh, "TriangleQuality") <= 1.0);
   CHECK(FieldValue(mesh, "Components") == 1 && FieldValue(mesh, "Genus") == 0);
   CHECK(FieldValue(mesh, "BoundaryLoops") == 0 && FieldValue(mesh, "FoldedEdges") == 0);
-  CHECK(FieldValue(mesh, "IntersectingTriangles") == 0);
+  CHECK(FieldValue(mesh, "IntersectingTriangles") == 0 && FieldValue(mesh, "NarrowHandles") == 0);
   CHECK(FieldValue(mesh, "FitRoundsTakenBack") == 0);
 
   const auto again = Run(NoisySphere());

@@ -42,6 +42,7 @@ MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const Tria
   quality.surface = reportSurface(triangles);
   // What is closed has one inside.
   quality.turnedShare = quality.surface.boundaryLoops > 0 ? turnedShare(triangles) : 0.;
+  quality.narrowHandles = findNarrowHandles(mesh);
   return quality;
 }
 }

@@ -3,6 +3,7 @@
 
 #include "cloud/PointCloud.h"
 #include "mesh/Mesh.h"
+#include "mesh/NarrowHandles.h"
 #include "mesh/SurfaceReport.h"
 
 namespace neuralmesh
@@ -17,6 +18,7 @@ struct MeshQuality
   SurfaceReport surface;
   /// Of the area: what looks inwards though most of its piece looks outwards, or the other way round.
   double turnedShare = 0.;
+  NarrowHandles narrowHandles;
 };
 
 /// `triangles` are those of the mesh. Of very many points only some are measured.

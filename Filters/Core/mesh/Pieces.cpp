@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/Pieces.h"
 
+#include "base/DisjointSets.h"
+#include "mesh/BoundaryManager.h"
+
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -123,5 +126,35 @@ double areaOf(const Mesh& mesh)
       area += 0.5 * std::sqrt(double(squaredNorm(twice)));
     });
   return area;
+}
+
+std::size_t pieceCount(const Mesh& mesh)
+{
+  DisjointSets sets(mesh.indexEnd());
+  std::size_t count = mesh.vertexCount();
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    for (const VertexIndex neighbor : mesh.ring(v))
+    {
+      if (!sets.areJoined(v, neighbor))
+      {
+        sets.join(v, neighbor);
+        --count;
+      }
+    }
+  }
+  return count;
+}
+
+long genusOf(const Mesh& mesh)
+{
+  const auto pieces = long(pieceCount(mesh)), loops = long(BoundaryManager(mesh).loopCount());
+  long sides = 0; // of the edges
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    sides += long(mesh.valence(v));
+  }
+  const long euler = long(mesh.vertexCount()) - sides / 2 + long(mesh.triangleCount());
+  return (2 * pieces - loops - euler) / 2;
 }
 }

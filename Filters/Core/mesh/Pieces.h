@@ -24,4 +24,8 @@ std::vector<Piece> findPieces(const Mesh& mesh);
 
 /// Of all triangles.
 double areaOf(const Mesh& mesh);
+
+std::size_t pieceCount(const Mesh& mesh);
+/// Handles of all pieces together.
+long genusOf(const Mesh& mesh);
 }

@@ -158,6 +158,30 @@ void warnOfTurnedParts(double share, std::vector<std::string>& warnings)
   }
 }
 
+void warnOfHandles(
+  const NarrowHandles& handles, const PointCloud& cloud, std::vector<std::string>& warnings)
+{
+  if (handles.count == 0)
+  {
+    return;
+  }
+  std::string where;
+  for (const Vector4 place : handles.places)
+  {
+    where += (where.empty() ? ": around " : ", ") + placeText(cloud.toInput(place), cloud);
+  }
+  if (handles.count > handles.places.size() && !where.empty())
+  {
+    where +=
+      " and " + counted(handles.count - handles.places.size(), "other place", "other places");
+  }
+  warnings.push_back("A loop of " + std::to_string(NarrowLoop) + " edges at most leads around " +
+    counted(handles.count, "handle", "handles") + where +
+    ". Layers that are close to each other may have grown together there, or be pierced. More "
+    "vertices, or "
+    "points that lie closer to each other, tell them apart.");
+}
+
 void warnOfVertices(
   const Reconstruction& result, const PointCloud& cloud, std::vector<std::string>& warnings)
 {
@@ -222,6 +246,7 @@ std::vector<std::string> warningsOf(const Reconstruction& result, const PointClo
   {
     warnOfDefects(result, warnings);
     warnOfTurnedParts(result.quality->turnedShare, warnings);
+    warnOfHandles(result.quality->narrowHandles, cloud, warnings);
     warnOfVertices(result, cloud, warnings);
   }
   warnOfSides(result.orientation, warnings);

@@ -361,37 +361,6 @@ std::optional<Candidate> solidCandidate(const PointCloud& cloud, const NearestPo
   return Candidate{ std::move(solid), evidence, explains };
 }
 
-std::size_t pieceCount(const Mesh& mesh)
-{
-  DisjointSets sets(mesh.indexEnd());
-  std::size_t count = mesh.vertexCount();
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    for (const VertexIndex neighbor : mesh.ring(v))
-    {
-      if (!sets.areJoined(v, neighbor))
-      {
-        sets.join(v, neighbor);
-        --count;
-      }
-    }
-  }
-  return count;
-}
-
-/// Handles of all pieces together.
-long genusOf(const Mesh& mesh)
-{
-  const auto pieces = long(pieceCount(mesh)), loops = long(BoundaryManager(mesh).loopCount());
-  long sides = 0; // of the edges
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    sides += long(mesh.valence(v));
-  }
-  const long euler = long(mesh.vertexCount()) - sides / 2 + long(mesh.triangleCount());
-  return (2 * pieces - loops - euler) / 2;
-}
-
 /// One sheet of the skin, if that is one.
 std::optional<Candidate> sheetCandidate(const PointCloud& cloud, const NearestPoints& nearest,
   const FirstSurface& skin, std::size_t mostVertices, Boundaries boundaries, double leastPiece,

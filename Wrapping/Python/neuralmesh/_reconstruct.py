@@ -108,8 +108,8 @@ def reconstruct(
         `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`, `DroppedPoints`, and the report on
         the quality: `Residual`, `Noise`, `OutlierShare`, `RegularRatio`, `TriangleQuality`,
         `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`,
-        `IntersectingTriangles`, `FitRoundsTakenBack`. How the surface came to its outer side is told
-        by `OrientedBy`, `UnorientedPieces` and `UnorientedShare`; what was left out by
+        `IntersectingTriangles`, `NarrowHandles`, `FitRoundsTakenBack`. How the surface came to its
+        outer side is told by `OrientedBy`, `UnorientedPieces` and `UnorientedShare`; what was left out by
         `OutlierPoints`, `SmallPiecePoints`, `UnreachablePoints`, `UnexplainedPoints` and
         `UnexplainedShare`. `Warnings` has a string for each thing that was warned of. No pipeline is
         behind it.

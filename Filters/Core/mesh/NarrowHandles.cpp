@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/NarrowHandles.h"
+
+#include "mesh/Pieces.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace neuralmesh
+{
+namespace
+{
+/// A loop through a vertex lies within so many edges of it.
+constexpr int RingsOfLoop = NarrowLoop / 2;
+/// Vertices of a strip through which narrow loops lead.
+constexpr std::size_t LeastInStrip = 3;
+/// Of those within some edges of a strip there are about eight times the edges of its loops where a rod goes
+/// on at both ends, and three times as many where the strip leads from one sheet to another.
+constexpr int RingsAround = 4;
+constexpr std::size_t LeastAround = 90;
+/// Strips that are cut one by one, to find the place of a handle, and places that are wanted.
+constexpr std::size_t MostStripsTried = 32;
+constexpr std::size_t MostPlaces = 2;
+
+using Strip = std::vector<VertexIndex>;
+
+/// The vertices that lie within some edges of one.
+class Surroundings
+{
+public:
+  explicit Surroundings(const Mesh& mesh)
+    : mesh_(mesh)
+    , lastCenter_(mesh.indexEnd(), NoVertex)
+  {
+  }
+
+  /// Whether they lie around `center` as on a strip that runs back into itself, and not as on a disk. (So
+  /// they do, too, where they enclose a vertex that is farther away.)
+  bool closeUp(VertexIndex center)
+  {
+    collect(center);
+    const auto isAround = [&](VertexIndex v) { return lastCenter_[v] == center; };
+    auto euler = long(around_.size());
+    for (const VertexIndex v : around_)
+    {
+      const Ring& ring = mesh_.ring(v);
+      for (const VertexIndex neighbor : ring)
+      {
+        euler -= neighbor > v && isAround(neighbor) ? 1 : 0;
+      }
+      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+      {
+        const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
+        euler += b > v && c > v && isAround(b) && isAround(c) ? 1 : 0;
+      }
+    }
+    return euler < 1;
+  }
+
+  /// How many lie within some edges of a strip.
+  std::size_t countAround(const Strip& strip)
+  {
+    around_ = strip;
+    for (const VertexIndex v : strip)
+    {
+      lastCenter_[v] = strip[0];
+    }
+    spread(strip[0], RingsAround);
+    return around_.size() - strip.size();
+  }
+
+private:
+  void collect(VertexIndex center)
+  {
+    around_.assign(1, center);
+    lastCenter_[center] = center;
+    spread(center, RingsOfLoop);
+  }
+
+  void spread(VertexIndex center, int rings)
+  {
+    std::size_t next = 0;
+    for (int ring = 0; ring < rings; ++ring)
+    {
+      for (const std::size_t end = around_.size(); next < end; ++next)
+      {
+        for (const VertexIndex neighbor : mesh_.ring(around_[next]))
+        {
+          if (lastCenter_[neighbor] != center)
+          {
+            lastCenter_[neighbor] = center;
+            around_.push_back(neighbor);
+          }
+        }
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  std::vector<VertexIndex> lastCenter_; ///< of each vertex, the last one that it was around
+  std::vector<VertexIndex> around_;
+};
+
+/// Of the vertices around which others close up, those that hang together, the most first.
+std::vector<Strip> narrowStrips(const Mesh& mesh)
+{
+  Surroundings surroundings(mesh);
+  std::vector<std::uint8_t> isOpen(mesh.indexEnd(), 0);
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    isOpen[v] = surroundings.closeUp(v) ? 1 : 0;
+  }
+  std::vector<Strip> strips;
+  for (VertexIndex first = 0; first < mesh.indexEnd(); ++first)
+  {
+    if (isOpen[first] == 0)
+    {
+      continue;
+    }
+    isOpen[first] = 0;
+    Strip strip{ first };
+    for (std::size_t i = 0; i < strip.size(); ++i)
+    {
+      for (const VertexIndex neighbor : mesh.ring(strip[i]))
+      {
+        if (isOpen[neighbor] != 0)
+        {
+          isOpen[neighbor] = 0;
+          strip.push_back(neighbor);
+        }
+      }
+    }
+    if (strip.size() >= LeastInStrip)
+    {
+      strips.push_back(std::move(strip));
+    }
+  }
+  // What was seen around vertices is not to count.
+  Surroundings aroundStrips(mesh);
+  std::erase_if(
+    strips, [&](const Strip& strip) { return aroundStrips.countAround(strip) < LeastAround; });
+  std::stable_sort(strips.begin(), strips.end(),
+    [](const Strip& a, const Strip& b) { return a.size() > b.size(); });
+  return strips;
+}
+
+void cut(Mesh& mesh, const Strip& strip)
+{
+  std::vector<Triangle> triangles;
+  for (const VertexIndex v : strip)
+  {
+    const Ring& ring = mesh.ring(v);
+    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+    {
+      triangles.push_back({ v, ring[slot], ring[ring.after(slot)] });
+    }
+  }
+  mesh.removeTriangles(triangles);
+}
+}
+
+NarrowHandles findNarrowHandles(const Mesh& mesh)
+{
+  NarrowHandles result;
+  const long all = genusOf(mesh);
+  if (all == 0)
+  {
+    return result;
+  }
+  const std::vector<Strip> strips = narrowStrips(mesh);
+  Mesh rest = mesh;
+  long left = all;
+  for (std::size_t i = 0; i < strips.size(); ++i)
+  {
+    cut(rest, strips[i]);
+    if (i < MostStripsTried && result.places.size() < MostPlaces)
+    {
+      const long before = left;
+      left = genusOf(rest);
+      if (left < before)
+      {
+        result.places.push_back(mesh.position(strips[i].front()));
+      }
+    }
+  }
+  result.count = strips.empty() ? 0 : std::size_t(std::max(0L, all - genusOf(rest)));
+  return result;
+}
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/Mesh.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace neuralmesh
+{
+/// Edges of the longest loop that is narrow.
+constexpr int NarrowLoop = 5;
+
+/// Handles that a narrow loop leads around: they are cut where they are no wider than a few triangles. Layers
+/// that have grown together make such ones. A thin rod is left out, which is narrow over a length.
+struct NarrowHandles
+{
+  std::size_t count = 0;
+  std::vector<Vector4> places; ///< of some of them, a few at most
+};
+
+/// Takes O(n), and no time where a mesh has no handle at all. No vertex may be erased.
+NarrowHandles findNarrowHandles(const Mesh& mesh);
+}
