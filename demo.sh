@@ -5,8 +5,10 @@ set -euo pipefail
 cd "$(dirname "$0")"
 source Utilities/build.sh
 
-# The last one has the icons of ParaView.
-install_packages "${build_packages[@]}" libcgal-demo glmark2-data "${screen_packages[@]}" libqt5svg5
+# The icons of ParaView, which that of Debian 12 comes without.
+icons=()
+[ "$(. /etc/os-release && echo "${VERSION_ID:-}")" != 12 ] || icons=(libqt5svg5)
+install_packages "${build_packages[@]}" libcgal-demo glmark2-data "${screen_packages[@]}" "${icons[@]}"
 build build all
 
 mkdir -p demo
