@@ -50,6 +50,26 @@ case_cxx()
   [ "$("$scratch/consumer/consumer")" = "100 vertices" ] || fail "another answer"
 }
 
+# Promise: what a program's own find_package(VTK) has set stays.
+case_own_vtk()
+{
+  local own=$scratch/own_vtk
+  rm -rf "$own"
+  mkdir -p "$own"
+  cat > "$own/CMakeLists.txt" << 'END'
+cmake_minimum_required(VERSION 3.25)
+project(Own LANGUAGES C CXX)
+find_package(NeuralMesh REQUIRED)
+set(VTK_LIBRARIES VTK::FiltersSources)
+find_package(NeuralMesh REQUIRED)
+if (NOT VTK_LIBRARIES STREQUAL "VTK::FiltersSources" OR NOT TARGET NeuralMesh::FiltersNeuralMesh)
+  message(FATAL_ERROR "VTK_LIBRARIES is ${VTK_LIBRARIES}")
+endif ()
+END
+  cmake -S "$own" -B "$own/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+    ${VTK_DIR:+-DVTK_DIR="$VTK_DIR"}
+}
+
 # Promise: another minor version is refused.
 case_other_version()
 {

@@ -4,6 +4,7 @@
 #include "mesh/Pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 namespace neuralmesh
@@ -14,10 +15,12 @@ namespace
 constexpr int RingsOfLoop = NarrowLoop / 2;
 /// Vertices of a strip through which narrow loops lead.
 constexpr std::size_t LeastInStrip = 3;
-/// Of those within some edges of a strip there are about eight times the edges of its loops where a rod goes
-/// on at both ends, and three times as many where the strip leads from one sheet to another.
+/// With more it is a rod, whatever is at its ends.
+constexpr std::size_t MostInStrip = 30;
+/// Of those within some edges of a strip, on one side of it, there are four times the edges of its loops where
+/// a rod goes on, and up to three times as many where the strip opens into a sheet.
 constexpr int RingsAround = 4;
-constexpr std::size_t LeastAround = 90;
+constexpr std::size_t LeastOnEachSide = 32;
 /// Strips that are cut one by one, to find the place of a handle, and places that are wanted.
 constexpr std::size_t MostStripsTried = 32;
 constexpr std::size_t MostPlaces = 2;
@@ -57,8 +60,9 @@ public:
     return euler < 1;
   }
 
-  /// How many lie within some edges of a strip.
-  std::size_t countAround(const Strip& strip)
+  /// How many lie within some edges of a strip on that side of it where they are fewer. Where both sides hang
+  /// together it is half of them.
+  std::size_t countOnSmallerSide(const Strip& strip)
   {
     around_ = strip;
     for (const VertexIndex v : strip)
@@ -66,7 +70,21 @@ public:
       lastCenter_[v] = strip[0];
     }
     spread(strip[0], RingsAround);
-    return around_.size() - strip.size();
+    const std::vector<VertexIndex> beyond(around_.begin() + long(strip.size()), around_.end());
+    for (const VertexIndex v : strip)
+    {
+      lastCenter_[v] = NoVertex;
+    }
+    std::array<std::size_t, 2> largest{};
+    for (const VertexIndex first : beyond)
+    {
+      if (lastCenter_[first] == strip[0])
+      {
+        const std::size_t side = takeSide(first, strip[0]);
+        largest = { std::max(largest[0], side), std::max(largest[1], std::min(largest[0], side)) };
+      }
+    }
+    return largest[1] > 0 ? largest[1] : largest[0] / 2;
   }
 
 private:
@@ -94,6 +112,25 @@ private:
         }
       }
     }
+  }
+
+  /// How many of those around `center` hang together with one of them, which are then not around it any more.
+  std::size_t takeSide(VertexIndex first, VertexIndex center)
+  {
+    around_.assign(1, first);
+    lastCenter_[first] = NoVertex;
+    for (std::size_t next = 0; next < around_.size(); ++next)
+    {
+      for (const VertexIndex neighbor : mesh_.ring(around_[next]))
+      {
+        if (lastCenter_[neighbor] == center)
+        {
+          lastCenter_[neighbor] = NoVertex;
+          around_.push_back(neighbor);
+        }
+      }
+    }
+    return around_.size();
   }
 
   const Mesh& mesh_;
@@ -130,15 +167,15 @@ std::vector<Strip> narrowStrips(const Mesh& mesh)
         }
       }
     }
-    if (strip.size() >= LeastInStrip)
+    if (strip.size() >= LeastInStrip && strip.size() <= MostInStrip)
     {
       strips.push_back(std::move(strip));
     }
   }
   // What was seen around vertices is not to count.
   Surroundings aroundStrips(mesh);
-  std::erase_if(
-    strips, [&](const Strip& strip) { return aroundStrips.countAround(strip) < LeastAround; });
+  std::erase_if(strips,
+    [&](const Strip& strip) { return aroundStrips.countOnSmallerSide(strip) < LeastOnEachSide; });
   std::stable_sort(strips.begin(), strips.end(),
     [](const Strip& a, const Strip& b) { return a.size() > b.size(); });
   return strips;

@@ -175,11 +175,11 @@ void warnOfHandles(
     where +=
       " and " + counted(handles.count - handles.places.size(), "other place", "other places");
   }
-  warnings.push_back("A loop of " + std::to_string(NarrowLoop) + " edges at most leads around " +
-    counted(handles.count, "handle", "handles") + where +
-    ". Layers that are close to each other may have grown together there, or be pierced. More "
-    "vertices, or "
-    "points that lie closer to each other, tell them apart.");
+  warnings.push_back("A loop of " + std::to_string(NarrowLoop) +
+    " edges at most leads around at least " + counted(handles.count, "handle", "handles") + where +
+    ". Unless the shape has holes or rods as narrow as that, layers that are close to each other "
+    "have grown "
+    "together there, or are pierced. A denser scan tells them apart; fewer vertices may do.");
 }
 
 void warnOfVertices(
