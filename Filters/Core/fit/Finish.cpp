@@ -266,7 +266,8 @@ bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& pro
   {
   }
   // A mesh that is open anyway may have a small hole more.
-  while (mesh_.isOpen() && mendsBy([this] { cutCrossingsOut(); }, guard, progress))
+  while (mesh_.isOpen() &&
+    mendsBy([this] { replaceCrossings(mesh_, Crossings::Fewest); }, guard, progress))
   {
   }
   return true;
@@ -298,14 +299,6 @@ bool Finish::mendsBy(const Remove& remove, FitGuard& guard, const Progress& prog
   }
   report_.left = again.after;
   return true;
-}
-
-/// What that cuts off goes, too.
-void Finish::cutCrossingsOut()
-{
-  const std::vector<std::uint8_t> valences = valencesOf(mesh_);
-  replaceCrossings(mesh_, Crossings::Fewest);
-  mesh_.removeTriangles(findCutOffPieces(mesh_, valences));
 }
 
 /// Each vertex of a defect goes into its nearest neighbour.

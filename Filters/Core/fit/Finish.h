@@ -70,7 +70,6 @@ private:
   bool repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress);
   template <typename Remove>
   bool mendsBy(const Remove& remove, FitGuard& guard, const Progress& progress);
-  void cutCrossingsOut();
   void collapseDefects();
 
   const PointCloud& cloud_;

@@ -177,9 +177,8 @@ void warnOfHandles(
   }
   warnings.push_back("A loop of " + std::to_string(NarrowLoop) +
     " edges at most leads around at least " + counted(handles.count, "handle", "handles") + where +
-    ". Unless the shape has holes or rods as narrow as that, layers that are close to each other "
-    "have grown "
-    "together there, or are pierced. A denser scan tells them apart; fewer vertices may do.");
+    ". Unless the shape is as narrow there, layers have grown together. A denser scan or fewer "
+    "vertices may help.");
 }
 
 void warnOfVertices(
