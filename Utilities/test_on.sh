@@ -6,9 +6,9 @@
 #   Utilities/test_on.sh SUITE WORLD [CTEST-OPTION...]
 #
 # SUITE is bookworm or trixie. WORLD says what to build with: paraview (5.11 or 5.13, with a VTK of its
-# own), plain (VTK 9.1 or 9.3), or clang (the same VTK, by clang instead of GCC). Each needs root, about 3 GB and, the first time,
-# some minutes. Its Debian stays in build-SUITE-WORLD, with a log beside it: the next run builds what has
-# changed.
+# own), plain (VTK 9.1 or 9.3), or clang (the same VTK, by clang instead of GCC). Each needs root, about
+# 3 GB and, the first time, some minutes. Its Debian stays in build-SUITE-WORLD, with a log beside it: the
+# next run builds what has changed.
 set -euo pipefail
 
 repository=$(cd "$(dirname "$0")/.." && pwd)
