@@ -18,8 +18,10 @@ inline void addCluster(std::vector<Eigen::Vector3d>& points, const Eigen::Vector
     Eigen::Vector3d offset = Eigen::Vector3d::Constant(-6.);
     for (int part = 0; part < 12; ++part)
     {
-      // In braces, in which compilers agree on the order.
-      offset += Eigen::Vector3d{ random.uniform(), random.uniform(), random.uniform() };
+      // One after the other: compilers do not agree on the order of arguments.
+      const double z = random.uniform();
+      const double y = random.uniform();
+      offset += Eigen::Vector3d(random.uniform(), y, z);
     }
     points.emplace_back(center + deviation * offset);
   }

@@ -4,17 +4,19 @@
 import contextlib
 import io
 import json
+import sys
 import unittest
 
 from batch_testing import BatchTest, write_scan
 from neuralmesh.batch.command import main
 from neuralmesh.batch.recipe import read_recipe
 
+# Python, from 3.13 on, names the place of a comma too many, not that behind it.
+COMMA = 20 if sys.version_info >= (3, 13) else 21
 BAD = {
     # The text of the recipe, and what its message says.
     "": ("jobs.json, line 1, column 1", "no JSON"),
-    # Python, from 3.13 on, names the place of the comma.
-    '{"scans": ["a.xyz"],}': ("line 1, column 2", "no JSON"),
+    '{"scans": ["a.xyz"],}': (f"line 1, column {COMMA}", "no JSON"),
     "[]": ("the recipe: must be an object, not []",),
     "{}": ("scans: must be a list",),
     '{"scans": []}': ("scans: must be a list",),

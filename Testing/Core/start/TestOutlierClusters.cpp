@@ -84,7 +84,7 @@ TEST(OutlierClusters, TheSurfaceStays)
     EXPECT_LT(countFar(*cleaned, shape, OnSurface * shape.diagonal),
       countFar(cloud, shape, OnSurface * shape.diagonal));
     EXPECT_GE(cleaned->points().size() - countFar(*cleaned, shape, OnSurface * shape.diagonal),
-      Count - Count / 400);
+      Count - Count / 1000);
   }
 }
 
