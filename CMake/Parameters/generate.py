@@ -16,6 +16,7 @@ import parameter_list
 import write_core
 import write_documentation
 import write_paraview
+import write_python
 import write_vtk
 
 LIST = "Filters/Parameters.json"
@@ -38,6 +39,7 @@ PANEL = {
     "panel": write_paraview.panel,
     "properties": write_paraview.properties,
 }
+PYTHON = {"properties": write_python.properties}
 PAGE = {"table": write_documentation.table}
 TEMPLATES = {
     "Filters/Core/base/Choices.h.in": CORE,
@@ -52,6 +54,7 @@ TEMPLATES = {
     f"{PLUGIN}/NeuralMeshEnsemble.xml.in": PANEL,
     f"{PLUGIN}/NeuralMeshLearning.xml.in": PANEL,
     f"{PLUGIN}/NeuralMeshSurface.xml.in": PANEL,
+    "Wrapping/Python/neuralmesh/_list.py.in": PYTHON,
     # The page itself, which is read in the repository, too.
     "Documentation/Parameters.md": PAGE,
 }

@@ -16,7 +16,7 @@ def number(value):
     return str(int(value)) if value == int(value) else repr(float(value))
 
 
-def sentences(found, parameter):
+def plain_sentences(found, parameter):
     """The text with the labels of the panel."""
     text = parameter.text
     if parameter.choice:
@@ -24,7 +24,12 @@ def sentences(found, parameter):
         text = " ".join([text, *values])
     for other in found.parameters:
         text = re.sub(rf"\b{other.name}\b", spaced(other.name), text)
-    return escape(text)
+    return text
+
+
+def sentences(found, parameter):
+    """The same for XML."""
+    return escape(plain_sentences(found, parameter))
 
 
 def domain(parameter):

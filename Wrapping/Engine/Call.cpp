@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Call.h"
+
+namespace nb = nanobind;
+
+namespace neuralmesh::binding
+{
+namespace
+{
+constexpr double Step = 0.01;
+constexpr std::chrono::milliseconds Interval(50);
+}
+
+bool Call::report(double fraction)
+{
+  const Clock::time_point now = Clock::now();
+  if (goesOn_ && (fraction >= reported_ + Step || now >= reportTime_ + Interval))
+  {
+    reported_ = fraction;
+    reportTime_ = now;
+    with([&] { tell(fraction); });
+  }
+  return goesOn_;
+}
+
+/// Only what is false itself ends the run: most functions return None.
+void Call::tell(double fraction)
+{
+  if (PyErr_CheckSignals() != 0)
+  {
+    throw nb::python_error();
+  }
+  if (!function_.is_none() && function_(fraction).is(nb::bool_(false)))
+  {
+    goesOn_ = false;
+  }
+}
+
+Progress Call::part(double begin, double end)
+{
+  return [this, begin, end](double fraction)
+  { return report(begin + fraction * (end - begin)); };
+}
+
+void Call::rethrow()
+{
+  if (error_)
+  {
+    nb::python_error error = std::move(*error_);
+    error_.reset();
+    throw error;
+  }
+}
+}

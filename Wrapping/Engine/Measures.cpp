@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Measures.h"
+
+#include "Report.h"
+
+#include "base/ThreadPool.h"
+#include "mesh/SurfaceReport.h"
+#include "run/ExplanationByMesh.h"
+#include "run/SurfaceComparison.h"
+
+#include <optional>
+#include <stdexcept>
+
+namespace nb = nanobind;
+
+namespace neuralmesh::binding
+{
+namespace
+{
+nb::dict figuresOf(const DistanceFigures& figures)
+{
+  nb::dict result;
+  result["Mean"] = figures.mean;
+  result["RMS"] = figures.rootMeanSquare;
+  result["Percentile99"] = figures.percentile99;
+  result["Maximum"] = figures.maximum;
+  result["NormalAngle"] = figures.normalAngle;
+  return result;
+}
+
+template <typename Value>
+nb::object orNone(const std::optional<Value>& value)
+{
+  return value ? nb::cast(*value) : nb::none();
+}
+}
+
+nb::object compare(
+  TriangleMesh reference, TriangleMesh result, std::size_t samples, std::uint64_t seed, Call& call)
+{
+  std::optional<SurfaceComparison> comparison;
+  try
+  {
+    const nb::gil_scoped_release unlocked;
+    comparison = compareSurfaces(
+      reference, result, ComparisonRules{ samples, seed }, call.part(0., 1.), ThreadPool());
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw std::invalid_argument(error.what());
+  }
+  if (!comparison)
+  {
+    return nb::none();
+  }
+  nb::dict figures;
+  figures["reference to result"] = figuresOf(comparison->referenceToResult);
+  figures["result to reference"] = figuresOf(comparison->resultToReference);
+  figures["diagonal"] = comparison->referenceDiagonal;
+  figures["reference distances"] = arrayOf(std::move(comparison->referenceDistances));
+  figures["result distances"] = arrayOf(std::move(comparison->resultDistances));
+  return figures;
+}
+
+nb::object explain(
+  const std::vector<AnyArray>& points, TriangleMesh mesh, double leastPiece, Call& call)
+{
+  const PointSpans spans = spansOf(points);
+  std::optional<PointCloud> cloud;
+  std::optional<Explanation> explanation;
+  {
+    const nb::gil_scoped_release unlocked;
+    const ThreadPool executor;
+    cloud.emplace(spans, std::span<const double>(), true, executor);
+    if (!cloud->hasExtent())
+    {
+      throw std::invalid_argument(cloud->points().empty() ? "No point of the input is finite."
+                                                          : "All points of the input coincide.");
+    }
+    ExplanationRules rules;
+    rules.leastPiece = leastPiece;
+    try
+    {
+      explanation = explainByMesh(*cloud, mesh, rules, call.part(0., 1.), executor);
+    }
+    catch (const std::runtime_error& error)
+    {
+      throw std::invalid_argument(error.what());
+    }
+  }
+  return explanation ? explainedOf(*explanation, *cloud, spans.size()) : nb::object(nb::none());
+}
+
+nb::dict report(TriangleMesh mesh)
+{
+  std::optional<SurfaceReport> found;
+  {
+    const nb::gil_scoped_release unlocked;
+    found = reportSurface(mesh);
+  }
+  const SurfaceReport& surface = *found;
+  nb::dict valences;
+  for (const auto& [valence, vertices] : surface.valences)
+  {
+    valences[nb::cast(valence)] = vertices;
+  }
+  nb::dict result;
+  result["vertices"] = surface.vertices;
+  result["triangles"] = surface.triangles;
+  result["regular_ratio"] = surface.regularRatio;
+  result["valences"] = valences;
+  result["triangle_quality"] = surface.meanQuality;
+  result["closed"] = surface.isClosed();
+  result["edge_manifold"] = surface.isEdgeManifold();
+  result["vertex_manifold"] = surface.isVertexManifold();
+  result["oriented"] = surface.isOriented();
+  result["components"] = surface.components;
+  result["genus"] = orNone(surface.genus);
+  result["boundary_loops"] = surface.boundaryLoops;
+  result["folded_edges"] = surface.foldedEdges;
+  result["boundary_edges"] = surface.boundaryEdges;
+  result["non_manifold_edges"] = surface.nonManifoldEdges;
+  result["non_manifold_vertices"] = surface.nonManifoldVertices;
+  result["inconsistent_edges"] = surface.inconsistentEdges;
+  result["surface_area"] = surface.area;
+  result["volume"] = orNone(surface.volume);
+  result["bounding_box_diagonal"] = surface.diagonal;
+  result["degenerate_triangles"] = surface.degenerateTriangles;
+  result["unused_points"] = surface.unusedPoints;
+  result["non_finite_points"] = surface.nonFinitePoints;
+  return result;
+}
+}

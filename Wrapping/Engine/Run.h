@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Arrays.h"
+#include "Call.h"
+#include "Sides.h"
+
+#include "base/ThreadPool.h"
+#include "cloud/CloudPlaces.h"
+#include "cloud/PointCloud.h"
+#include "run/Reconstruction.h"
+#include "run/Tuning.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace neuralmesh::binding
+{
+/// A run over a cloud in NumPy arrays, which stay where they are: what vtkNeuralMesh does with them.
+class Run
+{
+public:
+  /// What is to be done; numbers by the names of the properties of vtkNeuralMesh.
+  struct Plan
+  {
+    nanobind::dict parameters;
+    std::optional<nanobind::dict> ensemble; ///< of vtkNeuralMeshEnsemble
+    std::optional<TriangleMesh> firstMesh;
+    bool isAutomatic = false;
+    bool explainsAll = false;
+    double endOfMesh = 1.; ///< fraction of progress; what is left is for the data of points
+    std::string checkpoint;
+    double checkpointInterval = 60.;
+    std::size_t snapshots = 0;
+    nanobind::object takeSnapshot;
+  };
+
+  /// Throws std::invalid_argument where no run can be made of the points.
+  Run(std::vector<AnyArray> points, std::optional<ArrayOf<double>> weights, Sides sides,
+    bool keepsOrigins, unsigned threads);
+
+  /// Whether floats do not hold a mesh of so many vertices.
+  bool needsDoubles(std::size_t vertices) const;
+
+  /// Learns, unless the checkpoint or the first mesh do not go with it: then throws
+  /// std::invalid_argument. Warnings are a list of texts.
+  void learn(Plan plan, Call& call);
+
+  nanobind::dict mesh(bool isDouble) const;
+  nanobind::dict average(bool isDouble) const; ///< of an ensemble; empty if there is none
+  nanobind::dict votes() const;                ///< likewise
+  nanobind::dict curve() const;
+  nanobind::dict explained() const;
+  nanobind::dict times() const;
+  std::vector<std::string> warnings() const { return warnings_; }
+  std::string stopReason() const;
+  bool isComplete() const { return result_.isComplete(); }
+  std::uint64_t resumedIterations() const { return result_.resumedIterations; }
+
+  /// Finds where points lie on the mesh, for what follows. Returns whether it came to its end.
+  bool findPlaces(Call& call, double begin, double end);
+  /// Values of shape (N, K) at the vertices, fitted; NaN where points have none.
+  nanobind::object fit(const ArrayOf<double>& values) const;
+  /// Of the kind of each point, a number below that of the points: for each vertex the first point of the
+  /// kind that most of its points have; 4294967295 where there is none.
+  nanobind::object vote(const ArrayOf<std::uint32_t>& kinds) const;
+
+private:
+  void chooseParameters(Parameters& parameters, Call& call);
+
+  std::vector<AnyArray> points_;
+  Sides sides_;
+  OrientationHints hints_;
+  std::size_t pointCount_;
+  ThreadPool executor_;
+  PhaseTimes times_;
+  std::optional<PointCloud> cloud_;
+  Reconstruction result_;
+  std::optional<Tuning> tuning_;
+  std::vector<std::string> warnings_;
+  bool isChoiceWhole_ = true;
+  std::uint64_t seed_ = 0;
+  std::optional<CloudPlaces> places_;
+};
+}

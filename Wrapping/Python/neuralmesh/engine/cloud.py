@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Points as people have them, as NumPy arrays for the engine."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass, field
+from typing import Any, Iterator
+
+import numpy as np
+
+from .vtk_arrays import to_numpy
+
+_GHOSTS = "vtkGhostType"
+_SKIPPED = 1 | 2  # duplicate and hidden points
+
+
+@dataclass
+class Block:
+    """The points of one array or point set, and what is known of each."""
+
+    points: np.ndarray  # of shape (N, 3), 4- or 8-byte floats, contiguous
+    data: dict[str, np.ndarray] = field(default_factory=dict)  # that the mesh gets, too
+    normals: np.ndarray | None = None
+    scalars: str = ""  # the name of the active ones
+
+
+@dataclass
+class Cloud:
+    """All points of an input."""
+
+    blocks: list[Block] = field(default_factory=list)
+    viewpoints: np.ndarray | None = None  # that come with the points, of shape (V, 3)
+    other_blocks: int = 0  # that are no point sets
+    kind: str = "array"  # "array", "vtk" or "pyvista": what the result should be
+    problems: list[str] = field(default_factory=list)  # what was left out of it, in words
+
+    def __len__(self) -> int:
+        return sum(len(block.points) for block in self.blocks)
+
+    @property
+    def has_doubles(self) -> bool:
+        return any(block.points.dtype == np.float64 for block in self.blocks)
+
+    def values(self, name: str) -> np.ndarray | None:
+        """The data of that name of all points, one number each; None if a block has none."""
+        arrays = [block.data.get(name) for block in self.blocks]
+        if any(array is None or array.ndim != 1 or array.dtype.kind not in "fiub" for array in arrays):
+            return None
+        return np.concatenate(arrays).astype(np.float64) if arrays else None
+
+    def normals(self) -> np.ndarray | None:
+        """Normals of all points, 0 in blocks that have none; None if no block has some."""
+        if all(block.normals is None for block in self.blocks):
+            return None
+        parts = [
+            np.zeros((len(block.points), 3)) if block.normals is None else block.normals
+            for block in self.blocks
+        ]
+        return np.ascontiguousarray(np.concatenate(parts), dtype=np.float64)
+
+    def carried(self) -> Iterator[tuple[str, np.ndarray]]:
+        """The data that all blocks have alike, with its name."""
+        for name, first in self.blocks[0].data.items() if self.blocks else ():
+            arrays = [block.data.get(name) for block in self.blocks]
+            is_alike = all(
+                array is not None
+                and array.dtype == first.dtype
+                and array.shape[1:] == first.shape[1:]
+                for array in arrays
+            )
+            if is_alike:
+                yield name, arrays[0] if len(arrays) == 1 else np.concatenate(arrays)
+
+    @property
+    def scalars(self) -> str:
+        return self.blocks[0].scalars if self.blocks else ""
+
+
+def as_cloud(points: object, blocks: bool = True) -> Cloud:
+    """The cloud that an array, a vtkPointSet or, with blocks, a vtkCompositeDataSet is.
+
+    Arrays of 4- and 8-byte floats are referred to where they are contiguous; all other numbers become
+    8-byte floats. ValueError for anything but those and numbers of shape (N, 3).
+    """
+    if isinstance(points, Cloud):
+        return points
+    if hasattr(points, "GetPointData") and hasattr(points, "GetPoint"):
+        return _of_datasets([points], points)
+    if blocks and hasattr(points, "NewIterator"):
+        return _of_datasets(list(_leaves(points)), points)
+    return Cloud([Block(as_points(points))])
+
+
+def as_points(points: object) -> np.ndarray:
+    wanted = "points must be a vtkPointSet or an array of numbers of shape (N, 3)"
+    try:
+        array = np.asarray(points)
+    except ValueError as error:
+        raise ValueError(f"{wanted}, not {type(points).__name__}: {error}") from None
+    if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "fiu":
+        raise ValueError(
+            f"{wanted}, not {type(points).__name__} of shape {array.shape} and type {array.dtype}"
+        )
+    single = array.dtype.kind == "f" and array.dtype.itemsize == 4
+    return np.ascontiguousarray(array, dtype=np.float32 if single else np.float64)
+
+
+def kind_of(data: object) -> str:
+    """What the result of a function should be that was given this."""
+    if any(cls.__module__.partition(".")[0] == "pyvista" for cls in type(data).__mro__):
+        return "pyvista"
+    return "vtk" if hasattr(data, "GetPointData") or hasattr(data, "NewIterator") else "array"
+
+
+def _leaves(composite: Any) -> Iterator[Any]:
+    iterator = composite.NewIterator()
+    iterator.SkipEmptyNodesOn()
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        yield iterator.GetCurrentDataObject()
+        iterator.GoToNextItem()
+
+
+def _of_datasets(leaves: list[Any], whole: Any) -> Cloud:
+    cloud = Cloud(kind=kind_of(whole))
+    for leaf in leaves:
+        if not leaf.IsA("vtkPointSet"):
+            cloud.other_blocks += 1
+        elif leaf.GetNumberOfPoints() > 0:
+            block = _block_of(leaf, cloud.problems)
+            if len(block.points) > 0:
+                cloud.blocks.append(block)
+    sources = itertools.chain([whole], (leaf for leaf in leaves[:1]))
+    for source in sources:
+        array = source.GetFieldData().GetArray("Viewpoints")
+        if array and array.GetNumberOfComponents() != 3:
+            cloud.problems.append(
+                "The field data Viewpoints of the input has not 3 components and was left out."
+            )
+            break
+        if array:
+            cloud.viewpoints = to_numpy(array).reshape(-1, 3).astype(np.float64)
+            break
+    return cloud
+
+
+def _block_of(leaf: Any, problems: list[str]) -> Block:
+    coordinates = to_numpy(leaf.GetPoints().GetData())
+    is_plain = coordinates.dtype in (np.float32, np.float64)
+    points = np.ascontiguousarray(coordinates, dtype=coordinates.dtype if is_plain else np.float64)
+    data = leaf.GetPointData()
+    ghosts = data.GetArray(_GHOSTS)
+    kept = None
+    if ghosts:
+        kept = (to_numpy(ghosts) & _SKIPPED) == 0
+        points = points[kept]
+    block = Block(points)
+    normals = data.GetNormals() or data.GetArray("Normals")
+    if normals and (normals.GetNumberOfComponents() != 3 or not _fits(normals, leaf)):
+        problems.append("The normals of the input are not 3 components for each point and were left out.")
+    elif normals:
+        block.normals = _of_points(normals, kept)
+    ids = (data.GetNormals(), data.GetGlobalIds(), data.GetPedigreeIds())
+    for i in range(data.GetNumberOfArrays()):
+        array = data.GetAbstractArray(i)
+        name = array.GetName() or "Scalars"
+        is_left_out = any(array is other for other in ids) or name == _GHOSTS
+        if not is_left_out and array.GetNumberOfComponents() > 0 and _fits(array, leaf):
+            block.data[name] = _of_points(array, kept)
+            if array is data.GetAbstractAttribute(0):
+                block.scalars = name
+    return block
+
+
+def _fits(array: Any, leaf: Any) -> bool:
+    return array.GetNumberOfTuples() == leaf.GetNumberOfPoints()
+
+
+def _of_points(array: Any, kept: np.ndarray | None) -> np.ndarray:
+    values = to_numpy(array)
+    return values if kept is None else values[kept]

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Meshes and explained points as NumPy arrays, and as objects of VTK and PyVista."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .vtk_arrays import field_array, named, polygons_of, vtk_points
+
+if TYPE_CHECKING:
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+
+@dataclass
+class Mesh:
+    """Triangles, or points alone, as NumPy arrays.
+
+    Attributes:
+        points: Of shape (N, 3), 4- or 8-byte floats.
+        triangles: Of shape (T, 3), 8-byte integers: the points of each, counter-clockwise as seen from
+            outside.
+        point_data: An array of N rows for each name.
+        field_data: A number, a text, a list of texts, or an array for each name.
+        scalars: The name of the point data by which VTK colours the mesh; empty for none.
+    """
+
+    points: np.ndarray
+    triangles: np.ndarray
+    point_data: dict[str, Any] = field(default_factory=dict)
+    field_data: dict[str, Any] = field(default_factory=dict)
+    scalars: str = ""
+
+    @property
+    def warnings(self) -> list[str]:
+        """What must be known of the mesh, a sentence each."""
+        return list(self.field_data.get("Warnings", ()))
+
+    def __repr__(self) -> str:
+        return f"<neuralmesh.Mesh of {len(self.points)} points and {len(self.triangles)} triangles>"
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the mesh, in the format that the extension tells: .ply .stl .obj .off .glb, .xyz and .npy
+        for points alone; where VTK is installed, .vtp and .vtk, too.
+
+        Raises:
+            ValueError: The format is another one, or has no room for the digits of the coordinates.
+            OSError: The file cannot be written.
+        """
+        from .files import write_mesh
+
+        write_mesh(self, path)
+
+    def to_vtk(self) -> vtkPolyData:
+        """A vtkPolyData that refers to these arrays.
+
+        Raises:
+            ImportError: There is no VTK.
+        """
+        from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+        result = vtkPolyData()
+        self.fill(result)
+        return result
+
+    def to_pyvista(self) -> Any:
+        """The same as a pyvista.PolyData.
+
+        Raises:
+            ImportError: There is no PyVista.
+        """
+        import pyvista
+
+        return pyvista.wrap(self.to_vtk())
+
+    def fill(self, data: vtkPolyData) -> None:
+        """Give a vtkPolyData the points, triangles and data."""
+        from vtkmodules.vtkCommonDataModel import vtkCellArray
+        from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
+
+        data.SetPoints(vtk_points(self.points))
+        cells = vtkCellArray()
+        if len(self.triangles) > 0:
+            corners = np.ascontiguousarray(self.triangles, dtype=np.int64)
+            cells.SetData(3, numpy_to_vtkIdTypeArray(corners.reshape(-1)))
+            data.SetPolys(cells)
+        elif len(self.points) > 0:
+            # Points alone are to be seen, too: all are one cell.
+            numbers = np.arange(len(self.points), dtype=np.int64)
+            offsets = np.array([0, len(self.points)], dtype=np.int64)
+            cells.SetData(numpy_to_vtkIdTypeArray(offsets), numpy_to_vtkIdTypeArray(numbers))
+            data.SetVerts(cells)
+        for name, values in self.point_data.items():
+            array = named(values, name)
+            if name == "Normals":
+                data.GetPointData().SetNormals(array)
+            elif name == self.scalars:
+                data.GetPointData().SetScalars(array)
+            else:
+                data.GetPointData().AddArray(array)
+        for name, value in self.field_data.items():
+            data.GetFieldData().AddArray(field_array(value, name))
+
+
+def as_mesh(surface: object, parameter: str) -> Mesh:
+    """The triangles of a Mesh, a vtkPolyData, or a pair of points and triangles. ValueError for anything
+    else, which names the parameter.
+    """
+    if isinstance(surface, Mesh):
+        return surface
+    if isinstance(surface, tuple) and len(surface) == 2:
+        points, triangles = (np.asarray(part) for part in surface)
+        is_mesh = points.ndim == triangles.ndim == 2 and points.shape[1] == triangles.shape[1] == 3
+        if is_mesh and points.dtype.kind in "fiu" and triangles.dtype.kind in "iu":
+            return Mesh(points, triangles.astype(np.int64, copy=False))
+    elif hasattr(surface, "GetPolys") and hasattr(surface, "GetPoints"):
+        return Mesh(*polygons_of(surface))
+    raise ValueError(
+        f"{parameter} must be a vtkPolyData, a neuralmesh.Mesh, or arrays of points and triangles of "
+        f"shape (N, 3) and (T, 3), not {type(surface).__name__}"
+    )

@@ -1,0 +1,284 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A run over a cloud, as vtkNeuralMesh and vtkNeuralMeshEnsemble do it, without VTK."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from typing import Any, Callable
+
+import numpy as np
+
+from .. import _engine
+from .._property import with_properties
+from .algorithm import NeuralMeshAlgorithm, of_class
+from .carrying import carry
+from .cloud import Block, Cloud
+from .mesh import Mesh
+
+Progress = Callable[[float], "bool | None"]
+
+_END_OF_MESH = 0.95  # of the progress; then point data is carried over
+_POINTS_PER_VERTEX = 50
+_FEWEST_POINTS = 1000000
+_SINGLE, _DOUBLE = 0, 1
+
+
+@dataclass
+class Outcome:
+    """What a run gives."""
+
+    mesh: Mesh
+    curve: dict[str, np.ndarray] = field(default_factory=dict)
+    explained: Mesh | None = None
+    average: Mesh | None = None  # of an ensemble
+    votes: dict[str, Any] | None = None  # likewise
+    warnings: list[str] = field(default_factory=list)
+
+
+@with_properties(*of_class("vtkNeuralMesh"))
+class NeuralMesh(NeuralMeshAlgorithm):
+    """The properties of vtkNeuralMesh, and its run."""
+
+    IS_ENSEMBLE = False
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._point_file_name = ""
+        self._weight_array_name = ""
+        self._checkpoint_file_name = ""
+        self._stop_reason = "none"
+        self._resumed_iterations = 0
+        self._times: dict[str, float] = {}
+
+    def SetPointFileName(self, name: str | None) -> None:
+        """A file to draw points from in place of an input."""
+        if self._point_file_name != (name or ""):
+            self._point_file_name = name or ""
+            self.Modified()
+
+    def GetPointFileName(self) -> str:
+        """Empty if there is none."""
+        return self._point_file_name
+
+    def GetUsedMaximumPoints(self) -> int:
+        """MaximumPoints, or what stands for 0."""
+        wanted = int(self._values["MaximumPoints"])
+        return wanted or max(
+            _FEWEST_POINTS, _POINTS_PER_VERTEX * int(self._values["NumberOfVertices"])
+        )
+
+    def SetWeightArrayName(self, name: str | None) -> None:
+        """The point array of weights."""
+        if self._weight_array_name != (name or ""):
+            self._weight_array_name = name or ""
+            self.Modified()
+
+    def GetWeightArrayName(self) -> str:
+        """Empty if there is none."""
+        return self._weight_array_name
+
+    def SetCheckpointFileName(self, name: str | None) -> None:
+        """The file in which the run leaves its state."""
+        if self._checkpoint_file_name != (name or ""):
+            self._checkpoint_file_name = name or ""
+            self.Modified()
+
+    def GetCheckpointFileName(self) -> str:
+        """Empty if there is none."""
+        return self._checkpoint_file_name
+
+    def RemoveCheckpoint(self) -> None:
+        """Remove the file, with what an interrupted write may have left beside it."""
+        if self._checkpoint_file_name:
+            _engine.remove_file(self._checkpoint_file_name)
+
+    def GetResumedIterations(self) -> int:
+        """Iterations of the checkpoint from which the last run went on."""
+        return self._resumed_iterations
+
+    def GetStopReason(self) -> str:
+        """Why learning has ended."""
+        return self._stop_reason
+
+    def _time(self, phase: str) -> float:
+        return self._times.get(phase, 0.0)
+
+    def GetDrawingTime(self) -> float:
+        """CPU seconds that this took, as the next ones."""
+        return self._time("Drawing")
+
+    def GetCloudTime(self) -> float:
+        return self._time("Cloud")
+
+    def GetChoiceTime(self) -> float:
+        return self._time("Choice")
+
+    def GetStartTime(self) -> float:
+        return self._time("Start")
+
+    def GetLearningTime(self) -> float:
+        return self._time("Learning")
+
+    def GetFinishTime(self) -> float:
+        return self._time("Finish")
+
+    def run_on_file(self, first_mesh: Mesh | None, progress: Progress | None, **more: Any) -> Outcome:
+        """The same as run() with points that are drawn from PointFileName."""
+        drawn = _engine.draw_points(
+            self._point_file_name, self.GetUsedMaximumPoints(), int(self._values["Seed"]),
+            (lambda _fraction: progress(0.0)) if progress else None,
+        )  # fmt: skip
+        if drawn is None:
+            self._stop_reason = "cancelled"
+            return Outcome(_empty_mesh())
+        block = Block(drawn["points"], scalars="RGB" if "RGB" in drawn else "")
+        if "RGB" in drawn:
+            block.data["RGB"] = drawn["RGB"]
+        block.normals = drawn.get("normals")
+        outcome = self.run(Cloud([block]), first_mesh, progress, **more)
+        self._times["Drawing"] = drawn["seconds"]
+        return outcome
+
+    def run(
+        self,
+        cloud: Cloud,
+        first_mesh: Mesh | None = None,
+        progress: Progress | None = None,
+        take_snapshot: Callable[[Mesh], None] | None = None,
+        threads: int | None = None,
+    ) -> Outcome:
+        """Learn a mesh of the cloud. ValueError tells why that cannot be."""
+        self._stop_reason, self._resumed_iterations, self._times = "none", 0, {}
+        problems = self.parameter_errors()
+        if problems:
+            raise ValueError(" ".join(problems))
+        if self._values["GrowthAsTime"] and self._checkpoint_file_name:
+            raise ValueError(
+                "CheckpointFileName and GrowthAsTime exclude each other: a checkpoint holds no snapshots."
+            )
+        warnings: list[str] = []
+        if cloud.other_blocks:
+            warnings.append(f"{cloud.other_blocks} blocks are no point sets and were left out.")
+        if len(cloud) == 0:
+            return Outcome(_empty_mesh(), warnings=warnings)
+        weights = self._weights(cloud)
+        sides = self._sides(cloud, warnings)
+        carried = dict(cloud.carried()) if self._values["CarryPointData"] else {}
+        explains = bool(self._values["ExplainPoints"])
+        run = _engine.Run(
+            [block.points for block in cloud.blocks],
+            weights,
+            **sides,
+            keeps_origins=bool(carried) or explains,
+            threads=_threads(int(self._values["NumberOfThreads"])),
+        )
+        precision = self._values["OutputPointsPrecision"]
+        is_double = precision == _DOUBLE or (
+            precision != _SINGLE
+            and (cloud.has_doubles or run.needs_doubles(int(self._values["NumberOfVertices"])))
+        )
+        end_of_mesh = _END_OF_MESH if carried else 1.0
+        run.learn(
+            self._engine_values(),
+            self._ensemble_values(),
+            None if first_mesh is None else np.ascontiguousarray(first_mesh.points, dtype=np.float64),
+            None if first_mesh is None else np.ascontiguousarray(first_mesh.triangles, dtype=np.int64),
+            bool(self._values["Automatic"]),
+            explains,
+            end_of_mesh,
+            self._checkpoint_file_name,
+            float(self._values["CheckpointInterval"]),
+            int(self._values["NumberOfSnapshots"]) - 1 if take_snapshot else 0,
+            _snapshot_taker(take_snapshot, is_double),
+            progress,
+        )
+        self._stop_reason = run.stop_reason
+        self._resumed_iterations = run.resumed_iterations
+        self._times = run.times()
+        outcome = Outcome(Mesh(**run.mesh(is_double)), run.curve(), warnings=warnings + run.warnings)
+        outcome.mesh.field_data["Warnings"] = outcome.warnings
+        if explains:
+            outcome.explained = explained_points(cloud, run.explained())
+        if self.IS_ENSEMBLE:
+            outcome.average, outcome.votes = _average_of(run, is_double), run.votes()
+        is_complete = run.is_complete
+        if carried and run.stop_reason != "cancelled":
+            is_complete = carry(run, carried, cloud.scalars, outcome.mesh, progress) and is_complete
+        if is_complete and not self._values["KeepCheckpoint"]:
+            self.RemoveCheckpoint()
+        return outcome
+
+    def _ensemble_values(self) -> dict[str, int | float] | None:
+        return None
+
+    def _weights(self, cloud: Cloud) -> np.ndarray | None:
+        name = self._weight_array_name
+        if not name:
+            return None
+        weights = cloud.values(name)
+        if weights is None:
+            raise ValueError(
+                f"There is no numeric point array of one component called {name} for the weights."
+            )
+        return weights
+
+
+@with_properties(*of_class("vtkNeuralMeshEnsemble"))
+class NeuralMeshEnsemble(NeuralMesh):
+    """The properties of vtkNeuralMeshEnsemble, and its run."""
+
+    IS_ENSEMBLE = True
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._values["TopologyLearning"] = 1
+
+    def _engine_values(self) -> dict[str, int | float]:
+        own = {one.name for one in of_class("vtkNeuralMeshEnsemble")}
+        return {name: value for name, value in super()._engine_values().items() if name not in own}
+
+    def _ensemble_values(self) -> dict[str, int | float] | None:
+        own = {one.name: self._values[one.name] for one in of_class("vtkNeuralMeshEnsemble")}
+        return {**own, "Seed": self._values["Seed"]}
+
+
+def explained_points(cloud: Cloud, explained: dict[str, Any]) -> Mesh:
+    """The points of a cloud with `Distance` and `Reason`; none where nothing is explained."""
+    if not explained:
+        return _empty_mesh()
+    kind = np.float64 if cloud.has_doubles else np.float32
+    points = np.concatenate([block.points for block in cloud.blocks]).astype(kind, copy=False)
+    fields = explained.pop("field_data")
+    return Mesh(points, np.empty((0, 3), dtype=np.int64), explained, fields, "Reason")
+
+
+def _snapshot_taker(take: Callable[[Mesh], None] | None, is_double: bool) -> Any:
+    if take is None:
+        return None
+
+    def taker(snapshot: dict[str, Any]) -> None:
+        mesh = Mesh(**snapshot)
+        if not is_double:
+            mesh.points = mesh.points.astype(np.float32)
+        take(mesh)
+
+    return taker
+
+
+def _average_of(run: Any, is_double: bool) -> Mesh | None:
+    average = run.average(is_double)
+    return Mesh(**average) if average else None
+
+
+def _empty_mesh() -> Mesh:
+    return Mesh(np.empty((0, 3), dtype=np.float32), np.empty((0, 3), dtype=np.int64))
+
+
+def _threads(wanted: int) -> int:
+    """How many, if 0 stands for as many as there are; VTK's limit counts for us, too."""
+    if wanted > 0:
+        return wanted
+    available = os.cpu_count() or 1
+    most = os.environ.get("VTK_SMP_MAX_THREADS", "")
+    return min(available, int(most)) if most.isdecimal() and int(most) > 0 else available

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrays of VTK as NumPy arrays and back. VTK is imported where it is needed, not before."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from vtkmodules.vtkCommonCore import vtkAbstractArray, vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+
+def to_numpy(array: vtkAbstractArray) -> np.ndarray:
+    """The values, a row for each tuple of several components; where the layout allows, not copied. Texts
+    are an array of objects.
+    """
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    components = array.GetNumberOfComponents()
+    if array.IsA("vtkBitArray") or not array.IsA("vtkDataArray"):
+        values = [array.GetVariantValue(i) for i in range(array.GetNumberOfValues())]
+        texts = np.empty(len(values), dtype=object)
+        texts[:] = [value.ToString() for value in values]
+        return texts.reshape(-1, components) if components > 1 else texts
+    if not array.HasStandardMemoryLayout():
+        copy = array.NewInstance()
+        if not copy.HasStandardMemoryLayout():
+            copy = array.CreateDataArray(array.GetDataType())
+        copy.DeepCopy(array)
+        array = copy
+    return vtk_to_numpy(array)
+
+
+def named(values: Any, name: str) -> vtkAbstractArray:
+    """A VTK array that refers to the values, or, of texts, has them."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkStringArray
+
+    values = np.asarray(values)
+    if values.dtype.kind in "OU":
+        array = vtkStringArray()
+        array.SetNumberOfComponents(values.shape[1] if values.ndim > 1 else 1)
+        for text in values.reshape(-1):
+            array.InsertNextValue(str(text))
+    else:
+        array = numpy_to_vtk(np.ascontiguousarray(values))
+    array.SetName(name)
+    return array
+
+
+def field_array(value: Any, name: str) -> vtkAbstractArray:
+    """Field data: a number, a text, a list of texts, or an array."""
+    from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray
+
+    if isinstance(value, str):
+        value = [value]
+    if isinstance(value, (list, tuple)):
+        texts = np.empty(len(value), dtype=object)
+        texts[:] = value
+        return named(texts, name)
+    if isinstance(value, np.ndarray) and value.dtype.kind == "f":
+        return named(value, name)
+    values = np.atleast_1d(np.asarray(value))
+    array = vtkDoubleArray() if values.dtype.kind == "f" else vtkIdTypeArray()
+    for number in values:
+        array.InsertNextValue(number.item())
+    array.SetName(name)
+    return array
+
+
+def vtk_points(points: np.ndarray) -> vtkPoints:
+    """Points that refer to the array."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkPoints
+
+    result = vtkPoints()
+    result.SetData(numpy_to_vtk(np.ascontiguousarray(points)))
+    return result
+
+
+def polygons_of(data: vtkPolyData) -> tuple[np.ndarray, np.ndarray]:
+    """Points, and triangles: polygons become fans, whatever their shape, and strips are taken apart."""
+    points = data.GetPoints()
+    places = to_numpy(points.GetData()) if points else np.empty((0, 3))
+    triangles = []
+    for cells, turns in ((data.GetPolys(), False), (data.GetStrips(), True)):
+        if not cells or cells.GetNumberOfCells() == 0:
+            continue
+        offsets = to_numpy(cells.GetOffsetsArray()).astype(np.int64)
+        corners = to_numpy(cells.GetConnectivityArray()).astype(np.int64)
+        triangles.append(_strips(offsets, corners) if turns else _fans(offsets, corners))
+    return places, np.concatenate(triangles) if triangles else np.empty((0, 3), dtype=np.int64)
+
+
+def _fans(offsets: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    first, last = _corners_behind_two(offsets)
+    return np.stack([corners[first], corners[last - 1], corners[last]], axis=1)
+
+
+def _strips(offsets: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    first, last = _corners_behind_two(offsets)
+    # Every second triangle runs the other way round.
+    odd = (last - first) % 2
+    return np.stack([corners[last - 2 + odd], corners[last - 1 - odd], corners[last]], axis=1)
+
+
+def _corners_behind_two(offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """For each triangle the place of the first corner of its cell, and of its own last one."""
+    counts = np.maximum(np.diff(offsets) - 2, 0)
+    first = np.repeat(offsets[:-1], counts)
+    within = np.arange(len(first)) - np.repeat(np.cumsum(counts) - counts, counts)
+    return first, first + 2 + within
