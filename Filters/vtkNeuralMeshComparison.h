@@ -7,9 +7,8 @@
  * each to the nearest point of the other surface, and gives mean, root mean square, 99 % and
  * maximum of them, for each direction. From the result to the reference these tell of what the
  * result has and the reference has not, from the reference to the result of what the result misses.
- * vtkHausdorffDistancePointSetFilter by itself looks at vertices alone: its figures depend on how
- * the vertices are spread, and what a large triangle cuts off it does not see. This filter feeds it
- * with the samples, too, and has it measure from points to cells.
+ * vtkHausdorffDistancePointSetFilter looks at vertices alone: its figures depend on how the vertices
+ * are spread, and what a large triangle cuts off it does not see.
  *
  * @par Input
  * Port 0: the result; port 1: the reference; vtkPolyData both. Polygons are taken as fans of
@@ -30,12 +29,13 @@
  *   diagonal of the bounding box of the reference;
  * - `NormalAngle`, in degrees.
  *
- * The same inputs and seed give the same figures.
+ * The same inputs and seed give the same figures, on any number of threads. Of triangles that are
+ * equally near, the normal of the first counts.
  *
  * @par What it does not do
  * The surfaces are compared as they lie: nothing is aligned. The maximum is a lower bound, in
- * practice a close one. An abort takes effect between the steps (samples, distances, angles) and
- * leaves the outputs empty.
+ * practice a close one. An abort takes effect after some thousands of distances, and leaves the
+ * outputs empty.
  *
  * @sa vtkHausdorffDistancePointSetFilter vtkDistancePolyDataFilter vtkNeuralMesh
  */

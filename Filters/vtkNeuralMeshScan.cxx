@@ -2,7 +2,7 @@
 #include "vtkNeuralMeshScan.h"
 
 #include "cloud/CloudGenerator.h"
-#include "vtkMeasuredSurface.h"
+#include "mesh/MeasuredSurface.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkTriangleMeshCollector.h"
 
@@ -52,10 +52,10 @@ int vtkNeuralMeshScan::RequestData(
     vtkErrorMacro(<< "The viewpoint is not finite.");
     return 0;
   }
-  std::optional<vtkMeasuredSurface> surface;
+  std::optional<neuralmesh::MeasuredSurface> surface;
   try
   {
-    surface.emplace(input);
+    surface.emplace(vtkTriangleMeshCollector::Collect(input));
   }
   catch (const std::runtime_error& error)
   {
@@ -63,13 +63,13 @@ int vtkNeuralMeshScan::RequestData(
     return 0;
   }
   // In coordinates of its own: the bounding box around the origin, with a diagonal of 1.
-  const Eigen::AlignedBox3d box = surface->GetBox();
+  const Eigen::AlignedBox3d box = surface->box();
   const double unit = box.isEmpty() ? 0.0 : box.diagonal().stableNorm();
   if (unit > 0.0)
   {
-    surface->Transform(box.center(), unit);
+    surface->transform(box.center(), unit);
   }
-  if (!(unit > 0.0) || !surface->HasArea())
+  if (!(unit > 0.0) || !surface->hasArea())
   {
     vtkErrorMacro(<< "The surface has no triangle with an area.");
     return 0;
@@ -88,8 +88,8 @@ int vtkNeuralMeshScan::RequestData(
   }
   vtkNeuralMeshProgress progress(this);
   neuralmesh::TriangleMesh cloud;
-  cloud.points = neuralmesh::generateCloud(surface->GetMesh(), options,
-    [&progress](double fraction) { return progress.Report(fraction); });
+  cloud.points = neuralmesh::generateCloud(
+    surface->mesh(), options, [&progress](double fraction) { return progress.Report(fraction); });
   this->AbortExecute = 0;
   for (Eigen::Vector3d& point : cloud.points)
   {

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/NearestTriangle.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr std::uint32_t TrianglesOfLeaf = 4;
+/// Halves of 2^32 triangles, one after the other, and a node that waits for each.
+constexpr std::size_t DeepestTree = 40;
+/// A triangle whose height is less than this part of its longest edge is a sliver.
+constexpr double SliverHeight = 1e-3;
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+Eigen::AlignedBox3d boxOf(const Corners& corners)
+{
+  Eigen::AlignedBox3d box(corners[0]);
+  box.extend(corners[1]);
+  box.extend(corners[2]);
+  return box;
+}
+
+/// The height, as a part of the longest edge; 0 if there is no area.
+double heightPart(const Corners& corners)
+{
+  const Eigen::Vector3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
+  const double longest =
+    std::max({ ab.squaredNorm(), ac.squaredNorm(), (corners[2] - corners[1]).squaredNorm() });
+  return longest > 0. ? ab.cross(ac).norm() / longest : 0.;
+}
+
+/// The centre of their box.
+double centerAlong(const Corners& corners, Eigen::Index axis)
+{
+  const auto [low, high] = std::minmax({ corners[0][axis], corners[1][axis], corners[2][axis] });
+  return 0.5 * low + 0.5 * high;
+}
+
+/// Looks for the place nearest to a point on the triangles that it is shown. Whatever is rounded, a place
+/// stays within the box of its triangle: so no triangle is nearer than its box, to the last bit.
+class NearestPlace
+{
+public:
+  explicit NearestPlace(const Eigen::Vector3d& point)
+    : point_(point)
+  {
+  }
+
+  double squaredDistanceTo(const Eigen::AlignedBox3d& box) const
+  {
+    return (point_ - point_.cwiseMax(box.min()).cwiseMin(box.max())).squaredNorm();
+  }
+
+  void lookAt(const Corners& corners, std::uint32_t index, bool isSliver)
+  {
+    const auto& [a, b, c] = corners;
+    const Eigen::Vector3d ab = b - a, ac = c - a, toPoint = point_ - a;
+    const Eigen::Vector3d normal = ab.cross(ac);
+    const double squared = normal.squaredNorm();
+    const double alongB = toPoint.cross(ac).dot(normal), alongC = ab.cross(toPoint).dot(normal);
+    // What overflows is on the edges.
+    const bool isInside = alongB > 0. && alongC > 0. && alongB + alongC < squared &&
+      squared < std::numeric_limits<double>::infinity();
+    if (isInside)
+    {
+      const Eigen::Vector3d place = a + alongB / squared * ab + alongC / squared * ac;
+      keep(place, a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), index);
+    }
+    if (!isInside || isSliver)
+    {
+      lookAtEdge(a, b, index);
+      lookAtEdge(b, c, index);
+      lookAtEdge(a, c, index);
+    }
+  }
+
+  const NearestTriangle::Found& found() const { return found_; }
+
+private:
+  void lookAtEdge(const Eigen::Vector3d& a, const Eigen::Vector3d& b, std::uint32_t index)
+  {
+    const Eigen::Vector3d edge = b - a;
+    const double along = edge.dot(point_ - a), squared = edge.squaredNorm();
+    // Written so that a quotient that is no number is the first end.
+    if (!(along > 0.))
+    {
+      keep(a, a, a, index);
+    }
+    else if (along >= squared)
+    {
+      keep(b, b, b, index);
+    }
+    else
+    {
+      keep(a + along / squared * edge, a.cwiseMin(b), a.cwiseMax(b), index);
+    }
+  }
+
+  void keep(const Eigen::Vector3d& about, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+    std::uint32_t index)
+  {
+    const Eigen::Vector3d place = about.cwiseMax(low).cwiseMin(high);
+    const double squared = (point_ - place).squaredNorm();
+    if (squared < found_.squaredDistance ||
+      (squared == found_.squaredDistance && index < found_.triangle))
+    {
+      found_ = { place, squared, index };
+    }
+  }
+
+  Eigen::Vector3d point_;
+  NearestTriangle::Found found_;
+};
+}
+
+NearestTriangle::NearestTriangle(const TriangleMesh& mesh)
+{
+  const auto count = std::uint32_t(mesh.triangles.size());
+  triangles_.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    auto ids = mesh.triangles[i];
+    std::sort(ids.begin(), ids.end());
+    const Corners corners{ mesh.points[ids[0]], mesh.points[ids[1]], mesh.points[ids[2]] };
+    triangles_.push_back({ corners, i, heightPart(corners) < SliverHeight });
+  }
+  if (count > 0)
+  {
+    nodes_.reserve(count);
+    build(0, count);
+  }
+}
+
+std::uint32_t NearestTriangle::build(std::uint32_t begin, std::uint32_t end)
+{
+  const auto index = std::uint32_t(nodes_.size());
+  Node node{ {}, begin, end, 0 };
+  Eigen::AlignedBox3d centers;
+  for (std::uint32_t i = begin; i < end; ++i)
+  {
+    const Corners& corners = triangles_[i].corners;
+    node.box.extend(boxOf(corners));
+    centers.extend(
+      Eigen::Vector3d(centerAlong(corners, 0), centerAlong(corners, 1), centerAlong(corners, 2)));
+  }
+  nodes_.push_back(node);
+  if (end - begin > TrianglesOfLeaf)
+  {
+    Eigen::Index axis = 0;
+    (centers.max() - centers.min()).maxCoeff(&axis);
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    const auto first = triangles_.begin();
+    std::nth_element(first + begin, first + middle, first + end,
+      [axis](const Triangle& a, const Triangle& b)
+      { return centerAlong(a.corners, axis) < centerAlong(b.corners, axis); });
+    build(begin, middle);
+    nodes_[index].secondChild = build(middle, end);
+  }
+  return index;
+}
+
+NearestTriangle::Found NearestTriangle::find(const Eigen::Vector3d& point) const
+{
+  NearestPlace nearest(point);
+  if (nodes_.empty() || !point.allFinite())
+  {
+    return nearest.found();
+  }
+  struct Waiting
+  {
+    double squaredDistance;
+    std::uint32_t node;
+  };
+  std::array<Waiting, DeepestTree> waiting{};
+  std::size_t count = 0;
+  waiting[count++] = { nearest.squaredDistanceTo(nodes_[0].box), 0 };
+  while (count > 0)
+  {
+    const Waiting next = waiting[--count];
+    if (next.squaredDistance > nearest.found().squaredDistance)
+    {
+      continue;
+    }
+    const Node& node = nodes_[next.node];
+    if (node.isLeaf())
+    {
+      for (std::uint32_t i = node.begin; i < node.end; ++i)
+      {
+        nearest.lookAt(triangles_[i].corners, triangles_[i].index, triangles_[i].isSliver);
+      }
+      continue;
+    }
+    Waiting near{ nearest.squaredDistanceTo(nodes_[next.node + 1].box), next.node + 1 };
+    Waiting far{ nearest.squaredDistanceTo(nodes_[node.secondChild].box), node.secondChild };
+    if (far.squaredDistance < near.squaredDistance)
+    {
+      std::swap(near, far);
+    }
+    waiting[count++] = far;
+    waiting[count++] = near;
+  }
+  return nearest.found();
+}
+}
