@@ -3,8 +3,13 @@
 // with it. Internal to that package, which checks what it hands over.
 #include "Arrays.h"
 #include "Call.h"
+#include "Drawing.h"
+#include "Measures.h"
 #include "Run.h"
+#include "Stream.h"
 #include "Values.h"
+
+#include "base/AtomicFile.h"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
@@ -59,10 +64,138 @@ void bindRun(nb::module_& module)
     .def("curve", &Run::curve)
     .def("explained", &Run::explained)
     .def("times", &Run::times)
+    .def(
+      "find_places",
+      [](Run& run, double begin, double end, nb::object progress)
+      {
+        Call call(std::move(progress));
+        const bool isDone = run.findPlaces(call, begin, end);
+        call.rethrow();
+        return isDone;
+      },
+      "begin"_a, "end"_a, "progress"_a.none())
+    .def("fit", &Run::fit, "values"_a)
+    .def("vote", &Run::vote, "kinds"_a)
     .def_prop_ro("warnings", &Run::warnings)
     .def_prop_ro("stop_reason", &Run::stopReason)
     .def_prop_ro("is_complete", &Run::isComplete)
     .def_prop_ro("resumed_iterations", &Run::resumedIterations);
+}
+
+Sides sidesOf(ArrayOf<double> viewpoints, std::optional<ArrayOf<std::uint32_t>> views,
+  std::optional<ArrayOf<double>> normals, std::optional<ArrayOf<double>> up)
+{
+  return { std::move(viewpoints), std::move(views), std::move(normals), std::move(up) };
+}
+
+void bindStream(nb::module_& module)
+{
+  nb::class_<Stream>(module, "Stream")
+    .def(
+      "__init__",
+      [](Stream* stream, const nb::dict& parameters, std::size_t reservoirSize)
+      { new (stream) Stream(parametersOf(parameters), reservoirSize); },
+      "parameters"_a, "reservoir_size"_a)
+    .def(
+      "add_points",
+      [](Stream& stream, const std::vector<AnyArray>& points, ArrayOf<double> viewpoints,
+        std::optional<ArrayOf<std::uint32_t>> views, std::optional<ArrayOf<double>> normals,
+        std::optional<ArrayOf<double>> up)
+      {
+        stream.addPoints(points,
+          sidesOf(std::move(viewpoints), std::move(views), std::move(normals), std::move(up)));
+      },
+      "points"_a, "viewpoints"_a, "views"_a.none(), "normals"_a.none(), "up"_a.none())
+    .def(
+      "learn",
+      [](Stream& stream, std::uint64_t samples, nb::object progress)
+      {
+        Call call(std::move(progress));
+        const std::uint64_t learnt = stream.learn(samples, call);
+        call.rethrow();
+        return learnt;
+      },
+      "samples"_a, "progress"_a.none())
+    .def(
+      "learn_for_seconds",
+      [](Stream& stream, double seconds, nb::object progress)
+      {
+        Call call(std::move(progress));
+        const std::uint64_t learnt = stream.learnForSeconds(seconds, call);
+        call.rethrow();
+        return learnt;
+      },
+      "seconds"_a, "progress"_a.none())
+    .def(
+      "mesh",
+      [](const Stream& stream, bool isFinished, ArrayOf<double> viewpoints,
+        std::optional<ArrayOf<std::uint32_t>> views, std::optional<ArrayOf<double>> normals,
+        std::optional<ArrayOf<double>> up, nb::object progress)
+      {
+        Call call(std::move(progress));
+        nb::dict mesh = stream.mesh(isFinished,
+          sidesOf(std::move(viewpoints), std::move(views), std::move(normals), std::move(up)),
+          call);
+        call.rethrow();
+        return mesh;
+      },
+      "finished"_a, "viewpoints"_a, "views"_a.none(), "normals"_a.none(), "up"_a.none(),
+      "progress"_a.none())
+    .def_prop_ro("points", [](const Stream& stream) { return stream.engine().pointCount(); })
+    .def_prop_ro(
+      "dropped_points", [](const Stream& stream) { return stream.engine().droppedCount(); })
+    .def_prop_ro("samples", [](const Stream& stream) { return stream.engine().sampleCount(); })
+    .def_prop_ro("vertices", [](const Stream& stream) { return stream.engine().vertexCount(); })
+    .def_prop_ro("beginnings", [](const Stream& stream) { return stream.engine().beginnings(); });
+}
+
+void bindMeasures(nb::module_& module)
+{
+  module.def(
+    "compare",
+    [](const ArrayOf<double>& referencePoints, const ArrayOf<std::int64_t>& referenceTriangles,
+      const ArrayOf<double>& resultPoints, const ArrayOf<std::int64_t>& resultTriangles,
+      std::size_t samples, std::uint64_t seed, nb::object progress)
+    {
+      Call call(std::move(progress));
+      nb::object figures = compare(meshOf(referencePoints, referenceTriangles),
+        meshOf(resultPoints, resultTriangles), samples, seed, call);
+      call.rethrow();
+      return figures;
+    },
+    "reference_points"_a, "reference_triangles"_a, "result_points"_a, "result_triangles"_a,
+    "samples"_a, "seed"_a, "progress"_a.none());
+  module.def(
+    "explain",
+    [](const std::vector<AnyArray>& points, const ArrayOf<double>& meshPoints,
+      const ArrayOf<std::int64_t>& triangles, double leastPiece, nb::object progress)
+    {
+      Call call(std::move(progress));
+      nb::object explained = explain(points, meshOf(meshPoints, triangles), leastPiece, call);
+      call.rethrow();
+      return explained;
+    },
+    "points"_a, "mesh_points"_a, "triangles"_a, "least_piece"_a, "progress"_a.none());
+  module.def(
+    "report",
+    [](const ArrayOf<double>& points, const ArrayOf<std::int64_t>& triangles)
+    { return report(meshOf(points, triangles)); },
+    "points"_a, "triangles"_a);
+}
+
+void bindFiles(nb::module_& module)
+{
+  module.def(
+    "draw_points",
+    [](const std::string& path, std::uint64_t wanted, std::uint64_t seed, nb::object progress)
+    {
+      Call call(std::move(progress));
+      nb::object points = drawPoints(path, wanted, seed, call);
+      call.rethrow();
+      return points;
+    },
+    "path"_a, "wanted"_a, "seed"_a, "progress"_a.none());
+  module.def("remove_file", &removeAtomicFile, "path"_a);
 }
 
 NB_MODULE(_engine, module)
@@ -75,7 +208,10 @@ NB_MODULE(_engine, module)
   module.def(
     "errors", [](const nb::dict& parameters) { return parametersOf(parameters).errors(); },
     "parameters"_a);
+  bindFiles(module);
+  bindMeasures(module);
   bindRun(module);
+  bindStream(module);
 }
 }
 }

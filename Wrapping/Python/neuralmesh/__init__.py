@@ -5,18 +5,35 @@
 >>> mesh = neuralmesh.reconstruct(points, vertices=20000)
 
 reconstruct() does it in one call, stream() while points arrive, compare() tells how far a mesh is
-from a reference, explain() what it leaves of the points. The VTK classes, vtkNeuralMesh and its sisters, are here for pipelines. The methods
-of a mesh and of all VTK objects are those of the package vtkmodules, which must be of the very VTK
-that this package was built with: VTK_VERSION.
+from a reference, explain() what it leaves of the points. The VTK classes, vtkNeuralMesh and its
+sisters, are here for pipelines. The methods of a mesh and of all VTK objects are those of the package
+vtkmodules. Where this package was built with a VTK, VTK_VERSION, vtkmodules must be of that very one.
+What pip installs was built without: there any VTK will do, or none, and a mesh is a neuralmesh.Mesh then.
 """
 
-from . import _vtk
+from typing import Any
+
 from ._build import VERSION as __version__, VTK_VERSION
 
-_vtk.require_vtk(VTK_VERSION)
+if VTK_VERSION:
+    from . import _vtk
+
+    _vtk.require_vtk(VTK_VERSION)
+else:
+    from . import _own_engine
+
+    _own_engine.require_engine(__version__)
 
 from ._compare import compare
 from ._explain import explain
 from ._reconstruct import reconstruct
 from ._stream import stream
-from .vtkFiltersNeuralMesh import *
+
+if VTK_VERSION:
+    from .vtkFiltersNeuralMesh import *
+else:
+    from .engine.mesh import Mesh
+
+    def __getattr__(name: str) -> Any:
+        """The classes for pipelines, which import VTK only where they are wanted."""
+        return _own_engine.vtk_class(name)

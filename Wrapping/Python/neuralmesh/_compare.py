@@ -3,15 +3,24 @@
 
 from __future__ import annotations
 
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from typing import TYPE_CHECKING
 
-from ._execution import execute
+from . import _world
 from ._parameters import assign, snake_case
-from .vtkFiltersNeuralMesh import vtkNeuralMeshComparison
+
+if TYPE_CHECKING:
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+    from .engine.mesh import Mesh
+
+_DIRECTIONS = ("reference_to_result", "result_to_reference")
 
 
 def compare(
-    reference: vtkPolyData, result: vtkPolyData, samples: int = 200000, seed: int = 1
+    reference: vtkPolyData | Mesh,
+    result: vtkPolyData | Mesh,
+    samples: int = 200000,
+    seed: int = 1,
 ) -> dict[str, dict[str, float]]:
     """Measure how far a mesh is from a reference, over the surfaces and both ways.
 
@@ -48,22 +57,17 @@ def compare(
         >>> figures["reference_to_result"]["rms_percent"]
         0.0361
     """
-    comparison = vtkNeuralMeshComparison()
+    comparison = _world.NeuralMeshComparison()
     assign(comparison, "number_of_samples", samples, shown_name="samples")
     assign(comparison, "seed", seed)
-    for name, surface in (("reference", reference), ("result", result)):
-        if not isinstance(surface, vtkPolyData):
-            raise ValueError(f"{name} must be a vtkPolyData, not {type(surface).__name__}")
-    comparison.SetReferenceData(reference)
-    comparison.SetInputData(result)
-
-    execute(comparison)
-    table = comparison.GetTableOutput()
-    if table.GetNumberOfRows() == 0:
+    surfaces = [
+        _world.take_surface(surface, name)
+        for name, surface in (("reference", reference), ("result", result))
+    ]
+    columns = _world.compare(comparison, *surfaces)
+    if not any(columns.values()):
         raise ValueError("reference and result are empty")
-    columns = [table.GetColumn(i) for i in range(table.GetNumberOfColumns())]
-    rows = (
-        {snake_case(column.GetName()): column.GetValue(row) for column in columns}
-        for row in range(table.GetNumberOfRows())
-    )
-    return {row.pop("direction").replace(" ", "_"): row for row in rows}
+    return {
+        direction: {snake_case(name): values[row] for name, values in columns.items()}
+        for row, direction in enumerate(_DIRECTIONS)
+    }

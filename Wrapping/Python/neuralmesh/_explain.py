@@ -3,22 +3,28 @@
 
 from __future__ import annotations
 
-from numpy.typing import ArrayLike
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkPolyData
+from typing import TYPE_CHECKING, Any, Callable
 
-from ._execution import Progress, execute
+from . import _world
 from ._parameters import assign
-from ._points import as_dataset
-from .vtkFiltersNeuralMesh import vtkNeuralMeshExplanation
+from ._reconstruct import require_points
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+    from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkPolyData
+
+    from .engine.mesh import Mesh
+
+Progress = Callable[[float], "bool | None"]
 
 
 def explain(
     points: ArrayLike | vtkPointSet | vtkCompositeDataSet,
-    mesh: vtkPolyData,
+    mesh: vtkPolyData | Mesh,
     smallest_piece: float = 0.0005,
     *,
     progress: Progress | None = None,
-) -> vtkPolyData:
+) -> Any:
     """Tell of each point of a cloud how far it is from a mesh, whatever made that, and why.
 
     A point is away from the mesh if it is farther from it than three of its own mean distances to its
@@ -50,13 +56,10 @@ def explain(
         >>> explained.GetFieldData().GetArray("UnexplainedPoints").GetValue(0)
         0
     """
-    explanation = vtkNeuralMeshExplanation()
+    explanation = _world.NeuralMeshExplanation()
     assign(explanation, "smallest_piece", smallest_piece)
-    if not isinstance(mesh, vtkPolyData):
-        raise ValueError(f"mesh must be a vtkPolyData, not {type(mesh).__name__}")
-    dataset = as_dataset(points)
-    explanation.SetInputData(dataset)
-    explanation.SetMeshData(mesh)
+    surface = _world.take_surface(mesh, "mesh")
+    cloud = _world.take_points(points)
     is_ended = False
 
     def watch(fraction: float) -> bool | None:
@@ -65,9 +68,7 @@ def explain(
         is_ended = is_ended or goes_on is False
         return goes_on
 
-    execute(explanation, watch)
-    result = vtkPolyData()
-    result.ShallowCopy(explanation.GetOutput())
-    if result.GetNumberOfPoints() == 0 and not is_ended:
-        raise ValueError("points: there are none")
+    result = _world.explain(explanation, cloud, surface, watch, points)
+    if not is_ended:
+        require_points(result)
     return result

@@ -146,7 +146,9 @@ def table(parameters: Mapping[str, Parameter]) -> str:
 
 def _own_methods(vtk_class: type) -> list[str]:
     """The methods of a class and of its superclasses up to those of VTK."""
-    ours = [cls for cls in vtk_class.__mro__ if cls.__name__.startswith("vtkNeuralMesh")]
+    ours = [
+        cls for cls in vtk_class.__mro__ if cls.__name__.removeprefix("vtk").startswith("NeuralMesh")
+    ]
     return [method for cls in ours for method in vars(cls)]
 
 

@@ -75,33 +75,6 @@ def _with(dataset: vtkPointSet, array: np.ndarray, name: str) -> vtkPointSet:
     return copy
 
 
-def places(values: object, parameter: str) -> np.ndarray:
-    """One or several places as an array of shape (V, 3). ValueError for anything else."""
-    try:
-        array = np.asarray(values)
-    except ValueError:
-        array = np.empty(0)
-    if array.shape[-1:] != (3,) or array.ndim > 2 or array.dtype.kind not in "fiu":
-        raise ValueError(f"{parameter} must be numbers of shape (3,) or (V, 3), not {values!r}")
-    return array.reshape(-1, 3).astype(float)
-
-
-def place(values: object, parameter: str) -> np.ndarray:
-    """A place as an array of shape (3,). ValueError for anything else."""
-    array = places(values, parameter)
-    if len(array) != 1 or not np.isfinite(array).all():
-        raise ValueError(f"{parameter} must be three numbers, not {values!r}")
-    return array[0]
-
-
-def direction(values: object, parameter: str) -> np.ndarray:
-    """The same, not all 0."""
-    array = place(values, parameter)
-    if not array.any():
-        raise ValueError(f"{parameter} must have a length, not {values!r}")
-    return array
-
-
 def _as_array(points: object) -> np.ndarray:
     wanted = "points must be a vtkPointSet or an array of numbers of shape (N, 3)"
     try:

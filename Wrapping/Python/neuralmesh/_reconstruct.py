@@ -4,14 +4,19 @@
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING, Any, Callable
 
-from numpy.typing import ArrayLike
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkPolyData
-
-from ._execution import Progress, execute
+from . import _world
 from ._parameters import assign, parameters_of, refuse_unknown, table
-from ._points import as_dataset, direction, places, with_array, with_normals
-from .vtkFiltersNeuralMesh import vtkNeuralMesh, vtkNeuralMeshAlgorithm, vtkNeuralMeshEnsemble
+from ._places import direction, places
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+    from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkPolyData
+
+    from .engine.mesh import Mesh
+
+Progress = Callable[[float], "bool | None"]
 
 # Those that have names or places of their own in the signature.
 _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
@@ -19,13 +24,13 @@ _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
 _OF_PIPELINES = ("growth_as_time", "number_of_snapshots", "explain_points")
 PARAMETERS = {
     name: parameter
-    for name, parameter in parameters_of(vtkNeuralMesh).items()
+    for name, parameter in parameters_of(_world.NeuralMesh).items()
     if name not in _NAMED + _OF_PIPELINES
 }
 
 ENSEMBLE_PARAMETERS = {
     name: parameter
-    for name, parameter in parameters_of(vtkNeuralMeshEnsemble).items()
+    for name, parameter in parameters_of(_world.NeuralMeshEnsemble).items()
     if name not in (*_NAMED, *_OF_PIPELINES, "number_of_members")
 }
 
@@ -38,7 +43,7 @@ def reconstruct(
     variant: str = "noise",
     order: str = "exact",
     preset: str = "default",
-    first_mesh: vtkPolyData | None = None,
+    first_mesh: vtkPolyData | Mesh | None = None,
     ensemble: int | None = None,
     weights: ArrayLike | str | None = None,
     viewpoints: ArrayLike | None = None,
@@ -49,7 +54,7 @@ def reconstruct(
     explain: bool = False,
     progress: Progress | None = None,
     **parameters: float | bool | str,
-) -> vtkPolyData | tuple[vtkPolyData, vtkPolyData]:
+) -> Any:
     """Make a triangle mesh from a point cloud.
 
     Args:
@@ -151,19 +156,12 @@ def reconstruct(
     if checkpoint is not None:
         mesh.SetCheckpointFileName(os.fspath(checkpoint))
     require_one_start(ensemble, first_mesh)
-    set_input(mesh, points, weights, views, normals)
-    if first_mesh is not None:
-        if not isinstance(first_mesh, vtkPolyData):
-            raise ValueError(f"first_mesh must be a vtkPolyData, not {type(first_mesh).__name__}")
-        mesh.SetFirstMeshData(first_mesh)
-
+    cloud = take_input(mesh, points, weights, views, normals)
+    first = None if first_mesh is None else _world.take_surface(first_mesh, "first_mesh")
     mesh.SetExplainPoints(bool(explain))
-    execute(mesh, progress)
-    if not explain:
-        return result_of(mesh)
-    explained = vtkPolyData()
-    explained.ShallowCopy(mesh.GetExplainedPoints())
-    return result_of(mesh), explained
+    result, explained = _world.learn(mesh, cloud, first, progress, points)
+    require_points(result)
+    return (result, explained) if explain else result
 
 
 if reconstruct.__doc__:
@@ -181,11 +179,11 @@ def make_filter(
     viewpoints: ArrayLike | None = None,
     up: ArrayLike | None = None,
     **parameters: float | bool | str,
-) -> vtkNeuralMesh:
+) -> Any:
     """The filter that reconstruct() executes, without input; the same errors."""
     known = PARAMETERS if ensemble is None else ENSEMBLE_PARAMETERS
     refuse_unknown(reconstruct, parameters, known)
-    mesh = vtkNeuralMesh() if ensemble is None else vtkNeuralMeshEnsemble()
+    mesh = _world.NeuralMesh() if ensemble is None else _world.NeuralMeshEnsemble()
     if ensemble is not None:
         assign(mesh, "number_of_members", ensemble, shown_name="ensemble")
     assign(mesh, "number_of_vertices", vertices, shown_name="vertices")
@@ -201,7 +199,7 @@ def make_filter(
 
 
 def set_outer_side(
-    mesh: vtkNeuralMeshAlgorithm, viewpoints: ArrayLike | None, up: ArrayLike | None
+    mesh: Any, viewpoints: ArrayLike | None, up: ArrayLike | None
 ) -> None:
     """Tell a filter which side of the surface is the outer one, as reconstruct() is told."""
     for place in places(viewpoints, "viewpoints") if viewpoints is not None else ():
@@ -216,38 +214,38 @@ def require_one_start(ensemble: object, first_mesh: object) -> None:
         raise ValueError("ensemble and first_mesh exclude each other: it makes its first mesh")
 
 
-def set_input(
-    mesh: vtkNeuralMesh,
+def take_input(
+    mesh: Any,
     points: ArrayLike | vtkPointSet | vtkCompositeDataSet | str | os.PathLike,
     weights: ArrayLike | str | None = None,
     views: ArrayLike | str | None = None,
     normals: ArrayLike | None = None,
-) -> None:
-    """Give the filter its points and what is known of each, as reconstruct() takes them."""
+) -> Any:
+    """The points with what is known of each, as reconstruct() takes them; None for those in a file, which
+    the filter is told.
+    """
     if isinstance(points, (str, os.PathLike)):
         for name, values in (("weights", weights), ("views", views), ("normals", normals)):
             if values is not None:
                 raise ValueError(f"{name} cannot be given for points in a file")
         mesh.SetPointFileName(os.fspath(points))
-        return
-    dataset = as_dataset(points)
+        return None
+    cloud = _world.take_points(points)
     if weights is not None:
-        dataset, name = with_array(dataset, weights, "weights", "Weights")
+        cloud, name = _world.with_array(cloud, weights, "weights", "Weights")
         mesh.SetWeightArrayName(name)
     if views is not None:
         if mesh.GetNumberOfViewpoints() == 0:
             raise ValueError("views tell nothing without viewpoints")
-        dataset, name = with_array(dataset, views, "views", "View")
+        cloud, name = _world.with_array(cloud, views, "views", "View")
         mesh.SetViewArrayName(name)
     if normals is not None:
-        dataset = with_normals(dataset, normals)
-    mesh.SetInputData(dataset)
+        cloud = _world.with_normals(cloud, normals)
+    return cloud
 
 
-def result_of(mesh: vtkNeuralMesh) -> vtkPolyData:
-    """What the executed filter has made, without its pipeline."""
-    result = vtkPolyData()
-    result.ShallowCopy(mesh.GetOutput())
-    if result.GetNumberOfPoints() == 0:
+def require_points(mesh: Any) -> None:
+    """Raise ValueError for a mesh without points."""
+    count = mesh.GetNumberOfPoints() if hasattr(mesh, "GetNumberOfPoints") else len(mesh.points)
+    if count == 0:
         raise ValueError("points: there are none")
-    return result

@@ -4,15 +4,19 @@
 from __future__ import annotations
 
 import numbers
+from typing import TYPE_CHECKING, Any, Callable
 
 import numpy as np
-from numpy.typing import ArrayLike
-from vtkmodules.vtkCommonDataModel import vtkPointSet, vtkPolyData
 
-from ._execution import Progress, execute, observed_call
+from . import _world
 from ._parameters import assign, parameters_of, refuse_unknown, table
-from ._points import as_dataset, direction, place, with_normals
-from .vtkFiltersNeuralMesh import vtkNeuralMeshStream
+from ._places import direction, place
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+    from vtkmodules.vtkCommonDataModel import vtkPointSet
+
+Progress = Callable[[float], "bool | None"]
 
 _NAMED = ("number_of_vertices", "seed", "reservoir_size", "finish_output")
 # A stream is learnt in one variant, with one order; so these can have no other value ...
@@ -26,7 +30,7 @@ _WITHOUT_EFFECT = (
 )  # fmt: skip
 PARAMETERS = {
     name: parameter
-    for name, parameter in parameters_of(vtkNeuralMeshStream).items()
+    for name, parameter in parameters_of(_world.NeuralMeshStream).items()
     if name not in _NAMED + _FIXED + _WITHOUT_EFFECT
 }
 
@@ -34,8 +38,9 @@ PARAMETERS = {
 class Stream:
     """A mesh that is learnt while points arrive; made by stream()."""
 
-    def __init__(self, algorithm: vtkNeuralMeshStream):
+    def __init__(self, algorithm: Any):
         self._algorithm = algorithm
+        self._given: object = None  # the points that came last
 
     def add_points(
         self,
@@ -57,13 +62,14 @@ class Stream:
         Raises:
             ValueError: points, viewpoint or normals are something else.
         """
-        dataset = as_dataset(points, blocks=False)
+        cloud = _world.take_points(points, blocks=False)
         if normals is not None:
-            dataset = with_normals(dataset, normals)
+            cloud = _world.with_normals(cloud, normals)
         self._algorithm.RemoveAllViewpoints()
         if viewpoint is not None:
             self._algorithm.SetViewpoint(place(viewpoint, "viewpoint"))
-        self._call(self._algorithm.AddPoints, dataset)
+        _world.add_points(self._algorithm, cloud)
+        self._given = points
 
     def learn(
         self,
@@ -91,12 +97,12 @@ class Stream:
         if not is_whole:
             raise ValueError(f"samples must be an integer above 0, not {samples!r}")
         if seconds is not None:
-            return self._call(self._algorithm.LearnForSeconds, float(seconds), progress=progress)
+            return _world.learn_for_seconds(self._algorithm, float(seconds), progress)
         if samples is None:
             samples = 60 * self._algorithm.GetNumberOfVertices() + 150000
-        return self._call(self._algorithm.Learn, int(samples), progress=progress)
+        return _world.learn_samples(self._algorithm, int(samples), progress)
 
-    def mesh(self, finish: bool = True, *, progress: Progress | None = None) -> vtkPolyData:
+    def mesh(self, finish: bool = True, *, progress: Progress | None = None) -> Any:
         """The mesh learnt so far; the stream goes on afterwards.
 
         Args:
@@ -109,10 +115,7 @@ class Stream:
             points as long as there are too few for a mesh. Field data as in vtkNeuralMeshStream.
         """
         self._algorithm.SetFinishOutput(bool(finish))
-        execute(self._algorithm, progress)
-        result = vtkPolyData()
-        result.ShallowCopy(self._algorithm.GetOutput())
-        return result
+        return _world.learnt_mesh(self._algorithm, progress, self._given)
 
     @property
     def points(self) -> int:
@@ -133,9 +136,6 @@ class Stream:
     def beginnings(self) -> int:
         """How often the mesh was begun: anew where points came that it did not reach."""
         return self._algorithm.GetNumberOfBeginnings()
-
-    def _call(self, function, *arguments, progress: Progress | None = None):
-        return observed_call(self._algorithm, progress, function, *arguments)
 
 
 def _is_number(value: object) -> bool:
@@ -180,7 +180,7 @@ def stream(
         >>> mesh = stream.mesh()
     """
     refuse_unknown(stream, parameters, PARAMETERS)
-    algorithm = vtkNeuralMeshStream()
+    algorithm = _world.NeuralMeshStream()
     assign(algorithm, "number_of_vertices", vertices, shown_name="vertices")
     assign(algorithm, "seed", seed)
     assign(algorithm, "reservoir_size", reservoir, shown_name="reservoir")

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the functions work where the C++ classes of VTK are: by these. engine/world.py has the same names
+for where they are not.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from ._execution import Progress, check_parameters, execute, observed_call
+from ._kinds import as_given
+from ._points import as_dataset as take_points, with_array, with_normals
+from .vtkFiltersNeuralMesh import (
+    vtkNeuralMesh as NeuralMesh,
+    vtkNeuralMeshComparison as NeuralMeshComparison,
+    vtkNeuralMeshEnsemble as NeuralMeshEnsemble,
+    vtkNeuralMeshExplanation as NeuralMeshExplanation,
+    vtkNeuralMeshStream as NeuralMeshStream,
+)
+
+__all__ = [
+    "NeuralMesh",
+    "NeuralMeshComparison",
+    "NeuralMeshEnsemble",
+    "NeuralMeshExplanation",
+    "NeuralMeshStream",
+    "add_points",
+    "check_parameters",
+    "compare",
+    "explain",
+    "learn",
+    "learn_for_seconds",
+    "learn_samples",
+    "learnt_mesh",
+    "take_points",
+    "take_surface",
+    "with_array",
+    "with_normals",
+]
+
+
+def take_surface(surface: object, parameter: str) -> vtkPolyData:
+    """The surface itself. ValueError if it is no vtkPolyData."""
+    if not isinstance(surface, vtkPolyData):
+        raise ValueError(f"{parameter} must be a vtkPolyData, not {type(surface).__name__}")
+    return surface
+
+
+def learn(
+    mesh: NeuralMesh,
+    points: Any,
+    first_mesh: vtkPolyData | None,
+    progress: Progress | None,
+    given: object = None,
+) -> tuple[Any, Any]:
+    """Execute a filter with points, or with its file where there are none; mesh and explained points."""
+    if points is not None:
+        mesh.SetInputData(points)
+    if first_mesh is not None:
+        mesh.SetFirstMeshData(first_mesh)
+    execute(mesh, progress)
+    return _copy(mesh.GetOutput(), given), _copy(mesh.GetExplainedPoints(), given)
+
+
+def add_points(stream: NeuralMeshStream, points: Any) -> None:
+    observed_call(stream, None, stream.AddPoints, points)
+
+
+def learn_samples(stream: NeuralMeshStream, samples: int, progress: Progress | None) -> int:
+    return observed_call(stream, progress, stream.Learn, samples)
+
+
+def learn_for_seconds(stream: NeuralMeshStream, seconds: float, progress: Progress | None) -> int:
+    return observed_call(stream, progress, stream.LearnForSeconds, seconds)
+
+
+def learnt_mesh(stream: NeuralMeshStream, progress: Progress | None, given: object = None) -> Any:
+    execute(stream, progress)
+    return _copy(stream.GetOutput(), given)
+
+
+def compare(
+    comparison: NeuralMeshComparison, reference: vtkPolyData, result: vtkPolyData
+) -> dict[str, list[Any]]:
+    """Columns of a row for each direction; of none where both surfaces are empty."""
+    comparison.SetReferenceData(reference)
+    comparison.SetInputData(result)
+    execute(comparison)
+    table = comparison.GetTableOutput()
+    columns = [table.GetColumn(i) for i in range(table.GetNumberOfColumns())]
+    return {
+        column.GetName(): [column.GetValue(row) for row in range(table.GetNumberOfRows())]
+        for column in columns
+        if column.GetName() != "Direction"
+    }
+
+
+def explain(
+    explanation: NeuralMeshExplanation,
+    points: Any,
+    mesh: vtkPolyData,
+    progress: Progress | None,
+    given: object = None,
+) -> Any:
+    explanation.SetInputData(points)
+    explanation.SetMeshData(mesh)
+    execute(explanation, progress)
+    return _copy(explanation.GetOutput(), given)
+
+
+def _copy(output: vtkPolyData, given: object) -> Any:
+    """What a filter has made, without its pipeline."""
+    result = vtkPolyData()
+    result.ShallowCopy(output)
+    return as_given(result, given)

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is told of meshes that are there, as vtkNeuralMeshComparison and vtkNeuralMeshExplanation do it,
+without VTK.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Callable
+
+import numpy as np
+
+from .. import _engine
+from .._property import Property, new_values, with_properties
+from .algorithm import of_name
+from .cloud import Cloud
+from .mesh import Mesh
+from .reconstruction import explained_points
+
+Progress = Callable[[float], "bool | None"]
+
+DIRECTIONS = ("reference to result", "result to reference")
+_LENGTHS = ("Mean", "RMS", "Percentile99", "Maximum")
+
+
+class _Measure:
+    """A class that has properties."""
+
+    PROPERTIES: dict[str, Property]
+
+    def __init__(self) -> None:
+        self._values = new_values(type(self))
+
+    def Modified(self) -> None:
+        """Told when a property changes."""
+
+
+@dataclass
+class Comparison:
+    """What compares two surfaces."""
+
+    table: dict[str, list[float]]  # columns, of a row for each direction
+    reference_distances: np.ndarray
+    result_distances: np.ndarray
+    diagonal: float  # of the reference
+
+
+@with_properties(
+    Property("NumberOfSamples", "count", 200000, 1000, 100000000),
+    *of_name("Seed"),
+)
+class NeuralMeshComparison(_Measure):
+    """The properties of vtkNeuralMeshComparison, and what it does."""
+
+    def compare(
+        self, reference: Mesh, result: Mesh, progress: Progress | None = None
+    ) -> Comparison | None:
+        """How far two surfaces are from each other; None if progress ended it, or both are empty."""
+        surfaces = [reference, result]
+        if all(len(one.points) == 0 and len(one.triangles) == 0 for one in surfaces):
+            return None
+        figures = _engine.compare(
+            *(array for surface in surfaces for array in as_arrays(surface)),
+            int(self._values["NumberOfSamples"]),
+            int(self._values["Seed"]),
+            progress,
+        )
+        if figures is None:
+            return None
+        rows = [figures[direction] for direction in DIRECTIONS]
+        diagonal = figures["diagonal"]
+        table = {name: [row[name] for row in rows] for name in _LENGTHS}
+        for name in _LENGTHS:
+            table[name + "Percent"] = [100.0 / diagonal * row[name] for row in rows]
+        table["NormalAngle"] = [row["NormalAngle"] for row in rows]
+        return Comparison(
+            table, figures["reference distances"], figures["result distances"], diagonal
+        )
+
+
+@with_properties(Property("SmallestPiece", "double", 0.0005, 0.0, 1.0))
+class NeuralMeshExplanation(_Measure):
+    """The properties of vtkNeuralMeshExplanation, and what it does."""
+
+    def explain(self, cloud: Cloud, mesh: Mesh, progress: Progress | None = None) -> Mesh | None:
+        """The points with their distances and reasons; None if progress ended it."""
+        points = [block.points for block in cloud.blocks]
+        explained = _engine.explain(
+            points, *as_arrays(mesh), float(self._values["SmallestPiece"]), progress
+        )
+        return None if explained is None else explained_points(cloud, explained)
+
+
+def report(mesh: Mesh) -> dict[str, Any]:
+    """What can be said of a mesh by itself."""
+    return _engine.report(*as_arrays(mesh))
+
+
+def as_arrays(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Points and triangles as the engine takes them."""
+    return (
+        np.ascontiguousarray(mesh.points, dtype=np.float64),
+        np.ascontiguousarray(mesh.triangles, dtype=np.int64),
+    )

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the functions work where no C++ classes of VTK are: by the engine. _wrapped.py has the same names
+for where they are.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import warnings
+from typing import Any, Callable
+
+import numpy as np
+
+from .._kinds import as_given, has_vtk, is_pyvista, is_vtk
+from .cloud import Cloud, as_cloud
+from .measures import NeuralMeshComparison, NeuralMeshExplanation
+from .mesh import Mesh, as_mesh as take_surface
+from .reconstruction import NeuralMesh, NeuralMeshEnsemble
+from .stream import NeuralMeshStream
+
+__all__ = [
+    "NeuralMesh",
+    "NeuralMeshComparison",
+    "NeuralMeshEnsemble",
+    "NeuralMeshExplanation",
+    "NeuralMeshStream",
+    "add_points",
+    "check_parameters",
+    "compare",
+    "explain",
+    "learn",
+    "learn_for_seconds",
+    "learn_samples",
+    "learnt_mesh",
+    "take_points",
+    "take_surface",
+    "with_array",
+    "with_normals",
+]
+
+Progress = Callable[[float], "bool | None"]
+
+_OF_CALLER = 4  # the line that a warning is of: who calls the function that calls one of these
+
+
+def take_points(points: object, blocks: bool = True) -> Cloud:
+    """The points as a cloud."""
+    return as_cloud(points, blocks)
+
+
+def with_array(cloud: Cloud, values: object, parameter: str, name: str) -> tuple[Cloud, str]:
+    """The cloud and the name of an array of it that a parameter gives; where the parameter is an array,
+    a copy that refers to the points. ValueError for anything but numbers of shape (N,).
+    """
+    if isinstance(values, str):
+        return cloud, values
+    array = _array_of_points(cloud, values, parameter, "the name of a point array", ())
+    # Whole numbers stay so where they name something: they are not to be averaged on the mesh.
+    kind = np.int64 if name == "View" and array.dtype.kind in "iub" else np.float64
+    block = cloud.blocks[0]
+    data = {**block.data, name: np.ascontiguousarray(array, dtype=kind)}
+    return dataclasses.replace(cloud, blocks=[dataclasses.replace(block, data=data)]), name
+
+
+def with_normals(cloud: Cloud, normals: object) -> Cloud:
+    """The cloud with these normals. ValueError for anything but numbers of shape (N, 3)."""
+    array = _array_of_points(cloud, normals, "normals", "given with the blocks", (3,))
+    block = dataclasses.replace(cloud.blocks[0], normals=np.asarray(array, dtype=np.float64))
+    return dataclasses.replace(cloud, blocks=[block])
+
+
+def check_parameters(mesh: NeuralMesh) -> None:
+    """Raise ValueError if the properties do not go together."""
+    problems = mesh.parameter_errors()
+    if problems:
+        raise ValueError(" ".join(problems))
+
+
+def learn(
+    mesh: NeuralMesh,
+    points: Cloud | None,
+    first_mesh: Mesh | None,
+    progress: Progress | None,
+    given: object = None,
+) -> tuple[Any, Any]:
+    """Run with points, or with the file of the mesh where there are none; mesh and explained points."""
+    told = _told(progress)
+    outcome = (
+        mesh.run_on_file(first_mesh, told) if points is None else mesh.run(points, first_mesh, told)
+    )
+    for text in outcome.warnings:
+        warnings.warn(text, RuntimeWarning, stacklevel=_OF_CALLER)
+    explained = outcome.explained
+    if explained is None:
+        explained = Mesh(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
+    return present(outcome.mesh, given), present(explained, given)
+
+
+def add_points(stream: NeuralMeshStream, points: Cloud) -> None:
+    for text in stream.add_cloud(points):
+        warnings.warn(text, RuntimeWarning, stacklevel=_OF_CALLER)
+
+
+def learn_samples(stream: NeuralMeshStream, samples: int, progress: Progress | None) -> int:
+    return stream.learn(samples, _told(progress))
+
+
+def learn_for_seconds(stream: NeuralMeshStream, seconds: float, progress: Progress | None) -> int:
+    return stream.learn_for_seconds(seconds, _told(progress))
+
+
+def learnt_mesh(stream: NeuralMeshStream, progress: Progress | None, given: object = None) -> Any:
+    mesh = stream.mesh(_told(progress))
+    if mesh is None:
+        mesh = Mesh(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
+    for text in mesh.warnings:
+        warnings.warn(text, RuntimeWarning, stacklevel=_OF_CALLER)
+    return present(mesh, given)
+
+
+def compare(comparison: NeuralMeshComparison, reference: Mesh, result: Mesh) -> dict[str, list[Any]]:
+    """Columns of a row for each direction; of none where both surfaces are empty."""
+    found = comparison.compare(reference, result)
+    return found.table if found else {}
+
+
+def explain(
+    explanation: NeuralMeshExplanation,
+    points: Cloud,
+    mesh: Mesh,
+    progress: Progress | None,
+    given: object = None,
+) -> Any:
+    explained = None
+    if len(points) > 0:
+        explained = explanation.explain(points, mesh, _told(progress))
+    if explained is None:
+        explained = Mesh(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
+    return present(explained, given)
+
+
+def present(mesh: Mesh, given: object) -> Any:
+    """A mesh as who has given that has it: as PyVista or VTK; for arrays as VTK, too, if there is one."""
+    if is_vtk(given) or is_pyvista(given) or has_vtk():
+        return as_given(mesh.to_vtk(), given)
+    return mesh
+
+
+def _told(progress: Progress | None) -> Progress | None:
+    """The same function, with a False of Python where it returns one of NumPy."""
+    if progress is None:
+        return None
+
+    def tell(fraction: float) -> bool:
+        go_on = progress(fraction)
+        return not (isinstance(go_on, (bool, np.bool_)) and not go_on)
+
+    return tell
+
+
+def _array_of_points(
+    cloud: Cloud, values: object, parameter: str, other: str, shape: tuple[int, ...]
+) -> np.ndarray:
+    if len(cloud.blocks) != 1:
+        raise ValueError(f"{parameter} must be {other} where points are in blocks")
+    array = np.asarray(values)
+    wanted = (len(cloud), *shape)
+    if array.shape != wanted or array.dtype.kind not in "fiub":
+        named = "the name of a point array or " if not shape else ""
+        raise ValueError(
+            f"{parameter} must be {named}numbers of shape {wanted}, not "
+            f"{type(values).__name__} of shape {array.shape} and type {array.dtype}"
+        )
+    return array
