@@ -11,7 +11,6 @@
 #include "vtkCommunicator.h"
 #include "vtkDummyController.h"
 #include "vtkFloatArray.h"
-#include "vtkFlyingEdges3D.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -179,26 +178,6 @@ void FillVotes(const neuralmesh::VoxelVotes& votes, vtkImageData* image)
     [&](std::uint8_t count)
     { return static_cast<float>(count) / static_cast<float>(votes.voters); });
 }
-
-neuralmesh::TriangleMesh Contour(
-  const neuralmesh::VoteField& field, const neuralmesh::VoxelGrid& grid)
-{
-  vtkNew<vtkFloatArray> values;
-  values->SetNumberOfValues(static_cast<vtkIdType>(field.values.size()));
-  std::copy(field.values.begin(), field.values.end(), values->GetPointer(0));
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(grid.counts[0]), static_cast<int>(grid.counts[1]),
-    static_cast<int>(grid.counts[2]));
-  image->GetPointData()->SetScalars(values);
-  vtkNew<vtkFlyingEdges3D> contour;
-  contour->SetInputData(image);
-  contour->SetValue(0, field.level);
-  contour->ComputeNormalsOff();
-  contour->ComputeGradientsOff();
-  contour->ComputeScalarsOff();
-  contour->Update();
-  return vtkTriangleMeshCollector::Collect(contour->GetOutput());
-}
 }
 
 vtkNeuralMeshEnsemble::vtkNeuralMeshEnsemble()
@@ -285,7 +264,7 @@ void vtkNeuralMeshEnsemble::PrepareRun(
   }
   FillVotes(*votes, vtkImageData::GetData(outputVector, 3));
   neuralmesh::EnsembleAverage average =
-    neuralmesh::averageOf(*votes, run.Cloud, run.Parameters.numberOfVertices, Contour);
+    neuralmesh::averageOf(*votes, run.Cloud, run.Parameters.numberOfVertices);
   if (average.agreement < neuralmesh::EnsembleAverage::GoodAgreement)
   {
     run.Warnings.push_back("The members agree on " +

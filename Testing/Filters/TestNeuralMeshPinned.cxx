@@ -171,7 +171,7 @@ bool CheckEnsemble(vtkPoints* torus)
   filter->SetNumberOfMembers(3);
   filter->SetNumberOfVertices(1000);
   filter->Update();
-  return Is(filter->GetOutput(), 1000, 0x724530c9651a23du, "ensemble");
+  return Is(filter->GetOutput(), 1000, 0xed9c60e438a025b0u, "ensemble");
 }
 
 /** A part of a file, drawn where it lies. */

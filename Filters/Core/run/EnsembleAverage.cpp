@@ -3,6 +3,7 @@
 
 #include "cloud/MeshBuilder.h"
 #include "mesh/Simplification.h"
+#include "start/Isosurface.h"
 
 #include <vector>
 
@@ -14,8 +15,8 @@ namespace
 constexpr std::uint64_t VerticesPerAverageVertex = 4;
 }
 
-EnsembleAverage averageOf(const VoxelVotes& votes, const PointCloud& cloud,
-  std::uint64_t numberOfVertices, const Isosurface& isosurface)
+EnsembleAverage averageOf(
+  const VoxelVotes& votes, const PointCloud& cloud, std::uint64_t numberOfVertices)
 {
   EnsembleAverage result;
   const std::vector<std::uint8_t> solid = averageSolid(votes);
@@ -24,12 +25,8 @@ EnsembleAverage averageOf(const VoxelVotes& votes, const PointCloud& cloud,
   {
     return result;
   }
-  TriangleMesh surface = isosurface(voteField(votes, solid), votes.grid);
-  for (Eigen::Vector3d& point : surface.points)
-  {
-    point = votes.grid.first + votes.grid.width * point;
-  }
-  result.mesh = buildMesh(surface, cloud);
+  const VoteField field = voteField(votes, solid);
+  result.mesh = buildMesh(isosurface(votes.grid, field.values, field.level), cloud);
   simplify(*result.mesh, numberOfVertices / VerticesPerAverageVertex);
   return result;
 }

@@ -3,19 +3,13 @@
 
 #include "cloud/PointCloud.h"
 #include "mesh/Mesh.h"
-#include "mesh/TriangleMesh.h"
 #include "start/VoxelMajority.h"
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 
 namespace neuralmesh
 {
-/// The surface between the values of a field that are above its level and the others. Coordinates are
-/// those of the voxels: 0 for the first one, 1 for the next.
-using Isosurface = std::function<TriangleMesh(const VoteField& field, const VoxelGrid& grid)>;
-
 /// The second step of Algorithm 5: what the members of an ensemble have in common.
 struct EnsembleAverage
 {
@@ -28,6 +22,6 @@ struct EnsembleAverage
 };
 
 /// The mesh is so coarse that refinement to `numberOfVertices` still has something to learn.
-EnsembleAverage averageOf(const VoxelVotes& votes, const PointCloud& cloud,
-  std::uint64_t numberOfVertices, const Isosurface& isosurface);
+EnsembleAverage averageOf(
+  const VoxelVotes& votes, const PointCloud& cloud, std::uint64_t numberOfVertices);
 }

@@ -3,7 +3,6 @@
 
 #include "MeshTools.h"
 #include "SphereRuns.h"
-#include "start/VoxelSurface.h"
 
 #include <gtest/gtest.h>
 
@@ -33,27 +32,13 @@ VoxelVotes votesFor(double radius, double scatter)
     });
   return votes;
 }
-
-/// Sides of voxels, in the coordinates of a grid whose voxels are 1 wide.
-TriangleMesh sides(const VoteField& field, const VoxelGrid& grid)
-{
-  VoxelGrid plain = grid;
-  plain.first.setZero();
-  plain.width = 1.;
-  std::vector<std::uint8_t> inside;
-  for (const float value : field.values)
-  {
-    inside.push_back(value > field.level ? 1 : 0);
-  }
-  return voxelSurface(plain, inside);
-}
 }
 
 // Where all members hold the same ball, its surface is the average: closed, where the ball is, and coarse
 // enough to be refined.
 TEST(EnsembleAverage, IsTheSurfaceOfWhatMostHold)
 {
-  const EnsembleAverage average = averageOf(votesFor(0.8, 0.), cleanSphere(), 2000, sides);
+  const EnsembleAverage average = averageOf(votesFor(0.8, 0.), cleanSphere(), 2000);
   EXPECT_EQ(average.agreement, 1.);
   ASSERT_TRUE(average.mesh);
   EXPECT_EQ(defectOf(*average.mesh), "");
@@ -68,12 +53,10 @@ TEST(EnsembleAverage, IsTheSurfaceOfWhatMostHold)
   }
 }
 
-// Where they agree on little, there is none, and nobody is asked for a surface.
+// Where they agree on little, there is none.
 TEST(EnsembleAverage, NoneWithoutAgreement)
 {
-  const EnsembleAverage average = averageOf(votesFor(0.4, 0.8), cleanSphere(), 2000,
-    [](const VoteField&, const VoxelGrid&) -> TriangleMesh
-    { throw std::logic_error("no surface is wanted"); });
+  const EnsembleAverage average = averageOf(votesFor(0.4, 0.8), cleanSphere(), 2000);
   EXPECT_LT(average.agreement, EnsembleAverage::LeastAgreement);
   EXPECT_FALSE(average.mesh);
 }
