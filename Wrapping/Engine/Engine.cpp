@@ -200,6 +200,7 @@ void bindFiles(nb::module_& module)
 
 NB_MODULE(_engine, module)
 {
+  module.attr("version") = NEURALMESH_VERSION;
   module.def(
     "preset",
     [](int preset, int variant, int order)

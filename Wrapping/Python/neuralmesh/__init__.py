@@ -11,8 +11,6 @@ vtkmodules. Where this package was built with a VTK, VTK_VERSION, vtkmodules mus
 What pip installs was built without: there any VTK will do, or none, and a mesh is a neuralmesh.Mesh then.
 """
 
-from typing import Any
-
 from ._build import VERSION as __version__, VTK_VERSION
 
 if VTK_VERSION:
@@ -34,6 +32,6 @@ if VTK_VERSION:
 else:
     from .engine.mesh import Mesh
 
-    def __getattr__(name: str) -> Any:
+    def __getattr__(name: str):
         """The classes for pipelines, which import VTK only where they are wanted."""
         return _own_engine.vtk_class(name)

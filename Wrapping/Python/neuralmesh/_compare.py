@@ -3,22 +3,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from . import _world
 from ._parameters import assign, snake_case
-
-if TYPE_CHECKING:
-    from vtkmodules.vtkCommonDataModel import vtkPolyData
-
-    from .engine.mesh import Mesh
+from ._types import vtkPolyData
 
 _DIRECTIONS = ("reference_to_result", "result_to_reference")
 
 
 def compare(
-    reference: vtkPolyData | Mesh,
-    result: vtkPolyData | Mesh,
+    reference: vtkPolyData,
+    result: vtkPolyData,
     samples: int = 200000,
     seed: int = 1,
 ) -> dict[str, dict[str, float]]:

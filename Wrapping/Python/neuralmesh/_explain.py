@@ -3,28 +3,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable
-
 from . import _world
 from ._parameters import assign
 from ._reconstruct import require_points
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-    from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkPolyData
-
-    from .engine.mesh import Mesh
-
-Progress = Callable[[float], "bool | None"]
+from ._types import ArrayLike, Progress, vtkCompositeDataSet, vtkPointSet, vtkPolyData
 
 
 def explain(
     points: ArrayLike | vtkPointSet | vtkCompositeDataSet,
-    mesh: vtkPolyData | Mesh,
+    mesh: vtkPolyData,
     smallest_piece: float = 0.0005,
     *,
     progress: Progress | None = None,
-) -> Any:
+) -> vtkPolyData:
     """Tell of each point of a cloud how far it is from a mesh, whatever made that, and why.
 
     A point is away from the mesh if it is farther from it than three of its own mean distances to its

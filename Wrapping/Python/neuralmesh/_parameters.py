@@ -125,7 +125,9 @@ def refuse_unknown(function: Callable[..., Any], names: Any, known: Any) -> None
 def _named(function: Callable[..., Any]) -> list[str]:
     """The names of its arguments, but for that which takes all others."""
     parameters = inspect.signature(function).parameters.values()
-    return [parameter.name for parameter in parameters if parameter.kind is not parameter.VAR_KEYWORD]
+    return [
+        parameter.name for parameter in parameters if parameter.kind is not parameter.VAR_KEYWORD
+    ]
 
 
 def hint(name: str, known: Any) -> str:
@@ -147,7 +149,9 @@ def table(parameters: Mapping[str, Parameter]) -> str:
 def _own_methods(vtk_class: type) -> list[str]:
     """The methods of a class and of its superclasses up to those of VTK."""
     ours = [
-        cls for cls in vtk_class.__mro__ if cls.__name__.removeprefix("vtk").startswith("NeuralMesh")
+        cls
+        for cls in vtk_class.__mro__
+        if cls.__name__.removeprefix("vtk").startswith("NeuralMesh")
     ]
     return [method for cls in ours for method in vars(cls)]
 

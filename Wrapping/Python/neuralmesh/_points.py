@@ -50,7 +50,9 @@ def with_normals(dataset: vtkPointSet | vtkCompositeDataSet, normals: object) ->
     return copy
 
 
-def _array_of_points(dataset, values: object, parameter: str, other: str, shape: tuple) -> np.ndarray:
+def _array_of_points(
+    dataset, values: object, parameter: str, other: str, shape: tuple
+) -> np.ndarray:
     if not isinstance(dataset, vtkPointSet):
         raise ValueError(f"{parameter} must be {other} where points are in blocks")
     array = np.asarray(values)

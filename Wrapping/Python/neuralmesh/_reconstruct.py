@@ -4,19 +4,12 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Callable
+from typing import Any
 
 from . import _world
 from ._parameters import assign, parameters_of, refuse_unknown, table
 from ._places import direction, places
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-    from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkPolyData
-
-    from .engine.mesh import Mesh
-
-Progress = Callable[[float], "bool | None"]
+from ._types import ArrayLike, Progress, vtkCompositeDataSet, vtkPointSet, vtkPolyData
 
 # Those that have names or places of their own in the signature.
 _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
@@ -43,7 +36,7 @@ def reconstruct(
     variant: str = "noise",
     order: str = "exact",
     preset: str = "default",
-    first_mesh: vtkPolyData | Mesh | None = None,
+    first_mesh: vtkPolyData | None = None,
     ensemble: int | None = None,
     weights: ArrayLike | str | None = None,
     viewpoints: ArrayLike | None = None,
@@ -54,93 +47,93 @@ def reconstruct(
     explain: bool = False,
     progress: Progress | None = None,
     **parameters: float | bool | str,
-) -> Any:
+) -> vtkPolyData | tuple[vtkPolyData, vtkPolyData]:
     """Make a triangle mesh from a point cloud.
 
-    Args:
-        points: The cloud: an array of shape (N, 3) of floats or integers of any kind and layout, a
-            row for a point, in any unit of length; or a vtkPointSet, of which points and point
-            data count; or a vtkCompositeDataSet, of which all point sets are taken as one cloud. No
-            normals are needed. Points with NaN or infinity are dropped. Or the path of a binary .ply,
-            or of a .vtp appended raw, from which maximum_points are drawn where they lie: it may be
-            larger than the memory.
-        vertices: The number of vertices of the mesh, from 4 to 1000000000.
-        seed: Seed of the random numbers, from 0 to 2147483647. The same points and seed give the
-            same bytes; another seed gives another mesh of the same quality.
-        variant: "noise_filtering", by which points far from the mesh pull less; "basic"; or
-            "normal_based", dense where the surface bends. Names may be shortened.
-        order: How it is known where to grow: "exact" by counters, or "list" by the activity list.
-        preset: "default", what measures best; or "thesis", the values of the thesis.
-        first_mesh: Triangles to start from, instead of what `start` says, in the coordinates of the
-            points: an oriented 2-manifold, with or without boundary, whose topology the result then
-            has. One of as many vertices as are asked for, or more, comes out as it is.
-        ensemble: The number of members, from 1 to 255, to start from the average of so many coarse
-            meshes, as vtkNeuralMeshEnsemble does: for shapes with handles. Topology is learnt then,
-            unless topology_learning is False. Its other properties are parameters, too.
-        weights: How much each point is trusted: an array of shape (N,), or the name of a point
-            array of the dataset. Numbers from 0 on, of which only the ratios count; 0, what is
-            negative and what is not finite leave the point out. An array arrives on the mesh as
-            `Weights`.
-        viewpoints: Where the scanner stood: numbers of shape (3,), or (V, 3) for several places. The
-            surface is turned to look there.
-        views: Which of the viewpoints each point was seen from: an array of shape (N,) of numbers from
-            0 on, or the name of a point array of the dataset. Without it, what nothing hides from a
-            viewpoint was seen from there. An array arrives on the mesh as `View`.
-        normals: Normals of the points, of shape (N, 3), if the dataset has none: they may be noisy, and
-            tell which side of the surface is the outer one, but nothing of its shape.
-        up: Where up is, three numbers: most of an open surface looks there.
-        checkpoint: The path of a file in which the run leaves its state, every checkpoint_interval
-            seconds and when it is ended early. If the file exists, the run goes on from there: the
-            same call ends with the same bytes, however often it was killed. Once the mesh is done,
-            the file is removed, unless keep_checkpoint is True.
-        explain: Whether the points are explained: then the result is the mesh and, as a second
-            vtkPolyData, the points with `Distance` and `Reason` as the run decided them, see
-            neuralmesh.explain(). It has no points if progress ended the run.
-        progress: A function that is called now and then with the fraction that is done, from 0 to
-            1. If it returns False, the mesh learnt so far is the result. An exception that it
-            raises ends the run and comes out of this function.
-        **parameters: Any other property of vtkNeuralMesh, in snake case: winner_rate=0.1 for
-            SetWinnerRate(0.1). Each is described there. Names, defaults and ranges:
+        Args:
+            points: The cloud: an array of shape (N, 3) of floats or integers of any kind and layout, a
+                row for a point, in any unit of length; or a vtkPointSet, of which points and point
+                data count; or a vtkCompositeDataSet, of which all point sets are taken as one cloud. No
+                normals are needed. Points with NaN or infinity are dropped. Or the path of a binary .ply,
+                or of a .vtp appended raw, from which maximum_points are drawn where they lie: it may be
+                larger than the memory.
+            vertices: The number of vertices of the mesh, from 4 to 1000000000.
+            seed: Seed of the random numbers, from 0 to 2147483647. The same points and seed give the
+                same bytes; another seed gives another mesh of the same quality.
+            variant: "noise_filtering", by which points far from the mesh pull less; "basic"; or
+                "normal_based", dense where the surface bends. Names may be shortened.
+            order: How it is known where to grow: "exact" by counters, or "list" by the activity list.
+            preset: "default", what measures best; or "thesis", the values of the thesis.
+            first_mesh: Triangles to start from, instead of what `start` says, in the coordinates of the
+                points: an oriented 2-manifold, with or without boundary, whose topology the result then
+                has. One of as many vertices as are asked for, or more, comes out as it is.
+            ensemble: The number of members, from 1 to 255, to start from the average of so many coarse
+                meshes, as vtkNeuralMeshEnsemble does: for shapes with handles. Topology is learnt then,
+                unless topology_learning is False. Its other properties are parameters, too.
+            weights: How much each point is trusted: an array of shape (N,), or the name of a point
+                array of the dataset. Numbers from 0 on, of which only the ratios count; 0, what is
+                negative and what is not finite leave the point out. An array arrives on the mesh as
+                `Weights`.
+            viewpoints: Where the scanner stood: numbers of shape (3,), or (V, 3) for several places. The
+                surface is turned to look there.
+            views: Which of the viewpoints each point was seen from: an array of shape (N,) of numbers from
+                0 on, or the name of a point array of the dataset. Without it, what nothing hides from a
+                viewpoint was seen from there. An array arrives on the mesh as `View`.
+            normals: Normals of the points, of shape (N, 3), if the dataset has none: they may be noisy, and
+                tell which side of the surface is the outer one, but nothing of its shape.
+            up: Where up is, three numbers: most of an open surface looks there.
+            checkpoint: The path of a file in which the run leaves its state, every checkpoint_interval
+                seconds and when it is ended early. If the file exists, the run goes on from there: the
+                same call ends with the same bytes, however often it was killed. Once the mesh is done,
+                the file is removed, unless keep_checkpoint is True.
+            explain: Whether the points are explained: then the result is the mesh and, as a second
+                vtkPolyData, the points with `Distance` and `Reason` as the run decided them, see
+                neuralmesh.explain(). It has no points if progress ended the run.
+            progress: A function that is called now and then with the fraction that is done, from 0 to
+                1. If it returns False, the mesh learnt so far is the result. An exception that it
+                raises ends the run and comes out of this function.
+            **parameters: Any other property of vtkNeuralMesh, in snake case: winner_rate=0.1 for
+                SetWinnerRate(0.1). Each is described there. Names, defaults and ranges:
 
-{table}
+    {table}
 
-    Returns:
-        vtkPolyData with triangles, in the units of the input: an oriented 2-manifold without
-        unused points. The type of the points is that of the input: 4-byte floats stay so, anything
-        else in an array becomes 8-byte floats. Point data: `Normals`, float of shape (M, 3), of
-        length 1; `Activity`, double of shape (M,), in wins, or the place in the list, up to 1; and
-        the point data of a dataset, unless carry_point_data is False. Field data, one value each:
-        `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`, `DroppedPoints`, and the report on
-        the quality: `Residual`, `Noise`, `OutlierShare`, `RegularRatio`, `TriangleQuality`,
-        `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`,
-        `IntersectingTriangles`, `NarrowHandles`, `FitRoundsTakenBack`. How the surface came to its
-        outer side is told by `OrientedBy`, `UnorientedPieces` and `UnorientedShare`; what was left out by
-        `OutlierPoints`, `SmallPiecePoints`, `UnreachablePoints`, `UnexplainedPoints` and
-        `UnexplainedShare`. `Warnings` has a string for each thing that was warned of. No pipeline is
-        behind it.
+        Returns:
+            vtkPolyData with triangles, in the units of the input: an oriented 2-manifold without
+            unused points. The type of the points is that of the input: 4-byte floats stay so, anything
+            else in an array becomes 8-byte floats. Point data: `Normals`, float of shape (M, 3), of
+            length 1; `Activity`, double of shape (M,), in wins, or the place in the list, up to 1; and
+            the point data of a dataset, unless carry_point_data is False. Field data, one value each:
+            `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`, `DroppedPoints`, and the report on
+            the quality: `Residual`, `Noise`, `OutlierShare`, `RegularRatio`, `TriangleQuality`,
+            `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`,
+            `IntersectingTriangles`, `NarrowHandles`, `FitRoundsTakenBack`. How the surface came to its
+            outer side is told by `OrientedBy`, `UnorientedPieces` and `UnorientedShare`; what was left out by
+            `OutlierPoints`, `SmallPiecePoints`, `UnreachablePoints`, `UnexplainedPoints` and
+            `UnexplainedShare`. `Warnings` has a string for each thing that was warned of. No pipeline is
+            behind it.
 
-    Raises:
-        ValueError: A parameter is out of its range, which the message names; parameters do not go
-            together, and the message tells what does; or there are no
-            points, none that is finite, or none that differs from the others; or first_mesh is no
-            vtkPolyData, or its triangles are no oriented manifold: the message names the points; or
-            the checkpoint cannot be written, or is damaged, or that of another run: then the message
-            tells what differs.
-        TypeError: There is no such parameter.
-        RuntimeError: Anything else that VTK finds wrong.
-        KeyboardInterrupt: Ctrl-C was pressed. To keep the mesh learnt so far, cancel by progress,
-            or set time_limit.
+        Raises:
+            ValueError: A parameter is out of its range, which the message names; parameters do not go
+                together, and the message tells what does; or there are no
+                points, none that is finite, or none that differs from the others; or first_mesh is no
+                vtkPolyData, or its triangles are no oriented manifold: the message names the points; or
+                the checkpoint cannot be written, or is damaged, or that of another run: then the message
+                tells what differs.
+            TypeError: There is no such parameter.
+            RuntimeError: Anything else that VTK finds wrong.
+            KeyboardInterrupt: Ctrl-C was pressed. To keep the mesh learnt so far, cancel by progress,
+                or set time_limit.
 
-    Warns:
-        RuntimeWarning: What must be known of the mesh, each with what can be done: parts of the cloud
-            that it misses, triangles that intersect, more vertices than points, and so on. The strings
-            of `Warnings`.
+        Warns:
+            RuntimeWarning: What must be known of the mesh, each with what can be done: parts of the cloud
+                that it misses, triangles that intersect, more vertices than points, and so on. The strings
+                of `Warnings`.
 
-    Example:
-        >>> points = numpy.loadtxt("scan.xyz")[:, :3]
-        >>> mesh = neuralmesh.reconstruct(points, 5000, winner_rate=0.05, time_limit=60)
-        >>> mesh.GetNumberOfPoints()
-        5000
+        Example:
+            >>> points = numpy.loadtxt("scan.xyz")[:, :3]
+            >>> mesh = neuralmesh.reconstruct(points, 5000, winner_rate=0.05, time_limit=60)
+            >>> mesh.GetNumberOfPoints()
+            5000
     """
     mesh = make_filter(
         vertices,
@@ -198,9 +191,7 @@ def make_filter(
     return mesh
 
 
-def set_outer_side(
-    mesh: Any, viewpoints: ArrayLike | None, up: ArrayLike | None
-) -> None:
+def set_outer_side(mesh: Any, viewpoints: ArrayLike | None, up: ArrayLike | None) -> None:
     """Tell a filter which side of the surface is the outer one, as reconstruct() is told."""
     for place in places(viewpoints, "viewpoints") if viewpoints is not None else ():
         mesh.AddViewpoint(place)

@@ -4,19 +4,14 @@
 from __future__ import annotations
 
 import numbers
-from typing import TYPE_CHECKING, Any, Callable
+from typing import Any
 
 import numpy as np
 
 from . import _world
 from ._parameters import assign, parameters_of, refuse_unknown, table
 from ._places import direction, place
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-    from vtkmodules.vtkCommonDataModel import vtkPointSet
-
-Progress = Callable[[float], "bool | None"]
+from ._types import ArrayLike, Progress, vtkPointSet, vtkPolyData
 
 _NAMED = ("number_of_vertices", "seed", "reservoir_size", "finish_output")
 # A stream is learnt in one variant, with one order; so these can have no other value ...
@@ -102,7 +97,7 @@ class Stream:
             samples = 60 * self._algorithm.GetNumberOfVertices() + 150000
         return _world.learn_samples(self._algorithm, int(samples), progress)
 
-    def mesh(self, finish: bool = True, *, progress: Progress | None = None) -> Any:
+    def mesh(self, finish: bool = True, *, progress: Progress | None = None) -> vtkPolyData:
         """The mesh learnt so far; the stream goes on afterwards.
 
         Args:
@@ -152,32 +147,32 @@ def stream(
 ) -> Stream:
     """Begin a mesh that is learnt while points arrive, from a scanner, say.
 
-    The same calls give the same bytes. See Documentation/Streaming.md.
+        The same calls give the same bytes. See Documentation/Streaming.md.
 
-    Args:
-        vertices: The number of vertices of the mesh, from 4 to 1000000000.
-        seed: Seed of the random numbers, from 0 to 2147483647.
-        reservoir: How many points are kept to learn from, from 100 to 4294967295, of any number that
-            come, each with the same chance. About 130 bytes each.
-        up: As in reconstruct().
-        **parameters: Any other property of vtkNeuralMeshStream that counts for a stream, in snake
-            case. Names, defaults and ranges:
+        Args:
+            vertices: The number of vertices of the mesh, from 4 to 1000000000.
+            seed: Seed of the random numbers, from 0 to 2147483647.
+            reservoir: How many points are kept to learn from, from 100 to 4294967295, of any number that
+                come, each with the same chance. About 130 bytes each.
+            up: As in reconstruct().
+            **parameters: Any other property of vtkNeuralMeshStream that counts for a stream, in snake
+                case. Names, defaults and ranges:
 
-{table}
+    {table}
 
-    Returns:
-        A Stream, with the methods add_points(), learn() and mesh().
+        Returns:
+            A Stream, with the methods add_points(), learn() and mesh().
 
-    Raises:
-        ValueError: A parameter is out of its range, which the message names.
-        TypeError: There is no such parameter.
+        Raises:
+            ValueError: A parameter is out of its range, which the message names.
+            TypeError: There is no such parameter.
 
-    Example:
-        >>> stream = neuralmesh.stream(vertices=5000)
-        >>> for points in scanner:
-        ...     stream.add_points(points)
-        ...     stream.learn()
-        >>> mesh = stream.mesh()
+        Example:
+            >>> stream = neuralmesh.stream(vertices=5000)
+            >>> for points in scanner:
+            ...     stream.add_points(points)
+            ...     stream.learn()
+            >>> mesh = stream.mesh()
     """
     refuse_unknown(stream, parameters, PARAMETERS)
     algorithm = _world.NeuralMeshStream()

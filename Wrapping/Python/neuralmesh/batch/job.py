@@ -15,8 +15,8 @@ import warnings
 from pathlib import Path
 from typing import Any
 
-from .._execution import execute
-from .._reconstruct import make_filter, result_of, set_input
+from .. import _world
+from .._reconstruct import make_filter, require_points, take_input
 from .meshes import read_mesh, read_points, require_digits, write_mesh
 from .report import (
     PHASES,
@@ -58,13 +58,11 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
         # If it is there, the job was killed: it goes on from there.
         mesh_filter.SetCheckpointFileName(str(checkpoint_path(folder, job.name, identity)))
         mesh_filter.KeepCheckpointOn()
-        set_input(mesh_filter, points, weights)
-        if first_mesh is not None:
-            mesh_filter.SetFirstMeshData(first_mesh)
+        cloud = take_input(mesh_filter, points, weights)
         path = result_path(folder, job.name, mesh_format)
         require_digits(points, mesh_filter.GetNumberOfVertices(), path, job.shift)
-        execute(mesh_filter, _end_with(os.getppid()))
-        mesh = result_of(mesh_filter)
+        mesh, _ = _world.learn(mesh_filter, cloud, first_mesh, _end_with(os.getppid()))
+        require_points(mesh)
     times.append(time.perf_counter())
     shift = write_mesh(mesh, path, job.shift)
     times.append(time.perf_counter())

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .._execution import check_parameters
+from .._world import check_parameters
 from .._parameters import hint
 from .._reconstruct import ENSEMBLE_PARAMETERS, PARAMETERS, make_filter, require_one_start
 from .meshes import FORMATS

@@ -52,7 +52,9 @@ class NeuralMeshAlgorithm:
         self._preset = min(max(int(preset), self.DEFAULT), self.THESIS)
         values = _engine.preset(self._preset, self._values["Variant"], self._values["Order"])
         if any(self._values[name] != value for name, value in values.items()):
-            self._values.update({name: self.PROPERTIES[name].clamped(v) for name, v in values.items()})
+            self._values.update(
+                {name: self.PROPERTIES[name].clamped(v) for name, v in values.items()}
+            )
             self.Modified()
 
     def GetPreset(self) -> int:

@@ -45,7 +45,9 @@ class Cloud:
     def values(self, name: str) -> np.ndarray | None:
         """The data of that name of all points, one number each; None if a block has none."""
         arrays = [block.data.get(name) for block in self.blocks]
-        if any(array is None or array.ndim != 1 or array.dtype.kind not in "fiub" for array in arrays):
+        if any(
+            array is None or array.ndim != 1 or array.dtype.kind not in "fiub" for array in arrays
+        ):
             return None
         return np.concatenate(arrays).astype(np.float64) if arrays else None
 
@@ -158,7 +160,9 @@ def _block_of(leaf: Any, problems: list[str]) -> Block:
     block = Block(points)
     normals = data.GetNormals() or data.GetArray("Normals")
     if normals and (normals.GetNumberOfComponents() != 3 or not _fits(normals, leaf)):
-        problems.append("The normals of the input are not 3 components for each point and were left out.")
+        problems.append(
+            "The normals of the input are not 3 components for each point and were left out."
+        )
     elif normals:
         block.normals = _of_points(normals, kept)
     ids = (data.GetNormals(), data.GetGlobalIds(), data.GetPedigreeIds())

@@ -123,7 +123,9 @@ class NeuralMesh(NeuralMeshAlgorithm):
     def GetFinishTime(self) -> float:
         return self._time("Finish")
 
-    def run_on_file(self, first_mesh: Mesh | None, progress: Progress | None, **more: Any) -> Outcome:
+    def run_on_file(
+        self, first_mesh: Mesh | None, progress: Progress | None, **more: Any
+    ) -> Outcome:
         """The same as run() with points that are drawn from PointFileName."""
         drawn = _engine.draw_points(
             self._point_file_name, self.GetUsedMaximumPoints(), int(self._values["Seed"]),
@@ -182,8 +184,16 @@ class NeuralMesh(NeuralMeshAlgorithm):
         run.learn(
             self._engine_values(),
             self._ensemble_values(),
-            None if first_mesh is None else np.ascontiguousarray(first_mesh.points, dtype=np.float64),
-            None if first_mesh is None else np.ascontiguousarray(first_mesh.triangles, dtype=np.int64),
+            (
+                None
+                if first_mesh is None
+                else np.ascontiguousarray(first_mesh.points, dtype=np.float64)
+            ),
+            (
+                None
+                if first_mesh is None
+                else np.ascontiguousarray(first_mesh.triangles, dtype=np.int64)
+            ),
             bool(self._values["Automatic"]),
             explains,
             end_of_mesh,
@@ -196,7 +206,9 @@ class NeuralMesh(NeuralMeshAlgorithm):
         self._stop_reason = run.stop_reason
         self._resumed_iterations = run.resumed_iterations
         self._times = run.times()
-        outcome = Outcome(Mesh(**run.mesh(is_double)), run.curve(), warnings=warnings + run.warnings)
+        outcome = Outcome(
+            Mesh(**run.mesh(is_double)), run.curve(), warnings=warnings + run.warnings
+        )
         outcome.mesh.field_data["Warnings"] = outcome.warnings
         if explains:
             outcome.explained = explained_points(cloud, run.explained())

@@ -57,7 +57,9 @@ class NeuralMeshStream(NeuralMeshAlgorithm):
         stream = self.prepare()
         problems: list[str] = []
         if len(cloud) > 0:
-            stream.add_points([block.points for block in cloud.blocks], **self._sides(cloud, problems))
+            stream.add_points(
+                [block.points for block in cloud.blocks], **self._sides(cloud, problems)
+            )
         return problems
 
     def learn(self, samples: int, progress: Progress | None = None) -> int:

@@ -118,7 +118,9 @@ def learnt_mesh(stream: NeuralMeshStream, progress: Progress | None, given: obje
     return present(mesh, given)
 
 
-def compare(comparison: NeuralMeshComparison, reference: Mesh, result: Mesh) -> dict[str, list[Any]]:
+def compare(
+    comparison: NeuralMeshComparison, reference: Mesh, result: Mesh
+) -> dict[str, list[Any]]:
     """Columns of a row for each direction; of none where both surfaces are empty."""
     found = comparison.compare(reference, result)
     return found.table if found else {}

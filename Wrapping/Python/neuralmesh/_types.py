@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Types in the signatures of the functions.
+
+Where VTK is installed a mesh is a vtkPolyData, of which pyvista.PolyData is a subclass. Where it is not, type
+checkers take vtkPolyData for anything: there a mesh is a neuralmesh.Mesh.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Callable
+
+from numpy.typing import ArrayLike
+
+from ._build import VTK_VERSION
+
+if TYPE_CHECKING or VTK_VERSION:
+    from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkPolyData
+else:
+    vtkCompositeDataSet = vtkPointSet = vtkPolyData = Any
+
+__all__ = ["ArrayLike", "Progress", "vtkCompositeDataSet", "vtkPointSet", "vtkPolyData"]
+
+Progress = Callable[[float], "bool | None"]
