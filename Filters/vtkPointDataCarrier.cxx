@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPointDataCarrier.h"
 
-#include "cloud/AttributeFit.h"
+#include "cloud/AttributeNumbers.h"
 #include "cloud/AttributeVote.h"
 #include "vtkPointCloudCollector.h"
 
@@ -16,15 +16,12 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
+#include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 
 namespace
 {
-constexpr std::size_t Lanes = 4; ///< components that are fitted at once
-
 bool IsReal(const vtkAbstractArray* array)
 {
   return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
@@ -116,32 +113,6 @@ std::string KeyOf(vtkAbstractArray* array, vtkIdType id, bool isPlain)
   }
   return key;
 }
-
-/** What a component is fitted as: without its mean, with a range of 1. */
-struct Scale
-{
-  double Minimum = std::numeric_limits<double>::infinity();
-  double Maximum = -std::numeric_limits<double>::infinity();
-  double Mean = 0.0;
-
-  void Add(double value, double count)
-  {
-    this->Minimum = std::min(this->Minimum, value);
-    this->Maximum = std::max(this->Maximum, value);
-    this->Mean += (value - this->Mean) / count;
-  }
-  // Rounded, a mean may lie beside all values.
-  double Center() const { return std::clamp(this->Mean, this->Minimum, this->Maximum); }
-  double Width() const
-  {
-    return this->Maximum > this->Minimum ? this->Maximum - this->Minimum : 1.0;
-  }
-  double ToFit(double value) const { return (value - this->Center()) / this->Width(); }
-  double FromFit(double value) const
-  {
-    return std::clamp(this->Center() + value * this->Width(), this->Minimum, this->Maximum);
-  }
-};
 }
 
 vtkPointDataCarrier::vtkPointDataCarrier(const vtkPointCloudCollector& collector)
@@ -215,104 +186,40 @@ vtkPointDataCarrier::Tuple vtkPointDataCarrier::TupleOf(const Array& array, std:
 void vtkPointDataCarrier::Fit(const Array& array, const neuralmesh::CloudPlaces& places,
   const neuralmesh::Executor& executor, vtkDataArray* result) const
 {
-  std::vector<double> tuple(static_cast<std::size_t>(result->GetNumberOfComponents()));
-  // Calls `use` for each point that has finite values, which are then in `tuple`.
-  const auto forEachTuple = [&](const auto& use)
-  {
-    places.forEach(
-      [&](std::size_t point, const neuralmesh::CloudPlaces::Corners& corners)
-      {
-        const Tuple source = this->TupleOf(array, places.cloud().origins()[point]);
-        static_cast<vtkDataArray*>(source.Array)->GetTuple(source.Id, tuple.data());
-        if (std::all_of(tuple.begin(), tuple.end(), [](double x) { return std::isfinite(x); }))
-        {
-          use(corners, static_cast<double>(places.cloud().weight(point)));
-        }
-      });
-  };
-  std::vector<Scale> scales(tuple.size());
-  double count = 0.0;
-  forEachTuple(
-    [&](const auto&, double)
+  const auto components = static_cast<std::size_t>(result->GetNumberOfComponents());
+  const std::vector<double> numbers = neuralmesh::carryNumbers(
+    places, components,
+    [&](std::uint32_t point, std::span<double> tuple)
     {
-      ++count;
-      for (std::size_t i = 0; i < tuple.size(); ++i)
-      {
-        scales[i].Add(tuple[i], count);
-      }
-    });
-
-  const std::vector<neuralmesh::VertexIndex> nearest = places.nearestSupported();
-  for (std::size_t first = 0; first < tuple.size(); first += Lanes)
+      const Tuple source = this->TupleOf(array, point);
+      static_cast<vtkDataArray*>(source.Array)->GetTuple(source.Id, tuple.data());
+    },
+    executor);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    const std::size_t lanes = std::min(Lanes, tuple.size() - first);
-    neuralmesh::AttributeFit fit(places.mesh(), executor);
-    forEachTuple(
-      [&](const neuralmesh::CloudPlaces::Corners& corners, double weight)
-      {
-        neuralmesh::AttributeFit::Values values = neuralmesh::AttributeFit::Values::Zero();
-        for (std::size_t lane = 0; lane < lanes; ++lane)
-        {
-          values[static_cast<int>(lane)] = scales[first + lane].ToFit(tuple[first + lane]);
-        }
-        fit.add(corners, weight, values);
-      });
-    const std::vector<neuralmesh::AttributeFit::Values> solution = fit.solve();
-    for (neuralmesh::VertexIndex v = 0; v < solution.size(); ++v)
+    const auto tuple = static_cast<vtkIdType>(i / components);
+    const auto component = static_cast<int>(i % components);
+    if (IsReal(result))
     {
-      // Where points have no values, the mesh has none.
-      const bool isKnown = nearest[v] != neuralmesh::NoVertex && fit.isSupported(nearest[v]);
-      for (std::size_t lane = 0; lane < lanes; ++lane)
-      {
-        const auto component = static_cast<int>(first + lane);
-        const double value = isKnown
-          ? scales[first + lane].FromFit(solution[v][static_cast<int>(lane)])
-          : std::numeric_limits<double>::quiet_NaN();
-        if (IsReal(result))
-        {
-          result->SetComponent(v, component, value);
-        }
-        else if (isKnown)
-        {
-          result->SetComponent(v, component, std::round(value));
-        }
-      }
+      result->SetComponent(tuple, component, numbers[i]);
+    }
+    else if (std::isfinite(numbers[i]))
+    {
+      result->SetComponent(tuple, component, std::round(numbers[i]));
     }
   }
-}
-
-std::vector<std::uint32_t> vtkPointDataCarrier::MakeLabels(
-  const Array& array, const neuralmesh::CloudPlaces& places) const
-{
-  const bool isPlain = std::all_of(array.OfLeaf.begin(), array.OfLeaf.end(), HasPlainTuples);
-  const auto origins = places.cloud().origins();
-  std::unordered_map<std::string, std::uint32_t> kinds;
-  std::vector<std::uint32_t> lowest; // point of each kind
-  std::vector<std::uint32_t> labels(origins.size());
-  for (std::size_t point = 0; point < labels.size(); ++point)
-  {
-    const Tuple source = this->TupleOf(array, origins[point]);
-    const auto next = static_cast<std::uint32_t>(lowest.size());
-    const auto place = kinds.try_emplace(KeyOf(source.Array, source.Id, isPlain), next).first;
-    labels[point] = place->second;
-    if (place->second == next)
-    {
-      lowest.push_back(origins[point]);
-    }
-    lowest[place->second] = std::min(lowest[place->second], origins[point]);
-  }
-  for (std::uint32_t& label : labels)
-  {
-    label = lowest[label];
-  }
-  return labels;
 }
 
 void vtkPointDataCarrier::Vote(
   const Array& array, const neuralmesh::CloudPlaces& places, vtkAbstractArray* result) const
 {
-  const std::vector<std::uint32_t> winners =
-    neuralmesh::voteForLabels(places, this->MakeLabels(array, places));
+  const bool isPlain = std::all_of(array.OfLeaf.begin(), array.OfLeaf.end(), HasPlainTuples);
+  const std::vector<std::uint32_t> winners = neuralmesh::voteForKinds(places,
+    [&](std::uint32_t point)
+    {
+      const Tuple source = this->TupleOf(array, point);
+      return KeyOf(source.Array, source.Id, isPlain);
+    });
   for (std::size_t v = 0; v < winners.size(); ++v)
   {
     if (winners[v] != neuralmesh::NoLabel)
