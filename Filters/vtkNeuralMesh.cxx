@@ -5,8 +5,9 @@
 #include "base/ThreadPool.h"
 #include "cloud/CoordinateRange.h"
 #include "cloud/MeshBuilder.h"
+#include "run/AutomaticReconstruction.h"
 #include "run/Reconstruction.h"
-#include "run/Tuning.h"
+#include "run/Warnings.h"
 #include "vtkExplainedPoints.h"
 #include "vtkFilePoints.h"
 #include "vtkNeuralMeshGrowth.h"
@@ -40,13 +41,6 @@ namespace
 {
 /// Where point data begins to be carried over, as a fraction of the run.
 constexpr double EndOfMesh = 0.95;
-/// Where parameters are chosen, if they are.
-constexpr double EndOfChoice = 0.3;
-
-/// How many points are used if nobody says: as many as samples are drawn, but enough to tell the
-/// shape.
-constexpr vtkIdType PointsPerVertex = 50;
-constexpr vtkIdType FewestPoints = 1000000;
 }
 
 vtkNeuralMesh::vtkNeuralMesh()
@@ -132,7 +126,8 @@ void vtkNeuralMesh::SetPointFileName(const char* name)
 vtkIdType vtkNeuralMesh::GetUsedMaximumPoints() const
 {
   return this->MaximumPoints > 0 ? this->MaximumPoints
-                                 : std::max(FewestPoints, PointsPerVertex * this->NumberOfVertices);
+                                 : static_cast<vtkIdType>(neuralmesh::usualPoints(
+                                     static_cast<std::uint64_t>(this->NumberOfVertices)));
 }
 
 vtkInformation* vtkNeuralMesh::GetWeightArrayInformation()
@@ -328,8 +323,7 @@ neuralmesh::CheckpointPlan vtkNeuralMesh::PlanCheckpoint(const vtkNeuralMeshRun&
     .interval = this->CheckpointInterval,
     .warn = [this](const std::string& text)
     { vtkWarningMacro(<< "The run goes on without a checkpoint: " << text); },
-    .isStartWhole = run.IsStartWhole,
-    .areParametersChosen = run.AreParametersChosen };
+    .isStartWhole = run.IsStartWhole };
 }
 
 int vtkNeuralMesh::RequestData(
@@ -452,8 +446,7 @@ bool vtkNeuralMesh::BeginRun(
 {
   if (!run.Cloud.hasExtent())
   {
-    vtkErrorMacro(<< (run.Cloud.points().empty() ? "No point of the input is finite."
-                                                 : "All points of the input coincide."));
+    vtkErrorMacro(<< run.Cloud.whyNoExtent());
     return false;
   }
   this->FillParameters(run.Parameters);
@@ -475,14 +468,13 @@ bool vtkNeuralMesh::BeginRun(
     vtkErrorMacro(<< "Learning cannot start from the first mesh: " << error.what() << ".");
     return false;
   }
-  if (!this->IsHelper() && run.FirstMesh &&
-    run.FirstMesh->vertexCount() > run.Parameters.numberOfVertices)
+  if (!this->IsHelper() && run.FirstMesh)
   {
-    run.Warnings.push_back("The mesh to start from has " +
-      std::to_string(run.FirstMesh->vertexCount()) + " vertices, more than " +
-      std::to_string(this->NumberOfVertices) +
-      (run.Parameters.fitRounds > 0 ? ": it is fitted, but grows no further."
-                                    : ": it comes out as it is."));
+    const std::string warning = neuralmesh::warningOfFirst(*run.FirstMesh, run.Parameters);
+    if (!warning.empty())
+    {
+      run.Warnings.push_back(warning);
+    }
   }
   for (const std::string& warning : run.Warnings)
   {
@@ -494,27 +486,25 @@ bool vtkNeuralMesh::BeginRun(
 /// Chooses parameters, if that is asked for, and learns. False if the checkpoint does not go with it.
 bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& result)
 {
-  if (this->Automatic)
-  {
-    this->Times->enter(neuralmesh::Phase::Choice);
-    run.Tuning = neuralmesh::tune(
-      run.Cloud, run.Parameters, run.Progress.GetPart(0.0, EndOfChoice), run.Executor);
-    run.AreParametersChosen = run.Tuning.has_value();
-    if (!run.Tuning)
-    {
-      // Whoever aborts while parameters are chosen ends the run with them as they were.
-      run.Tuning = neuralmesh::Tuning{ run.Parameters, {}, {}, {} };
-    }
-    run.Parameters = run.Tuning->parameters;
-    this->Times->leave();
-    vtkNeuralMeshReport::Log(*run.Tuning, this);
-  }
+  const neuralmesh::Progress progress = run.Progress.GetPart(0.0, run.EndOfMesh);
   try
   {
-    result = neuralmesh::reconstruct(run.Cloud, run.Parameters,
-      run.Progress.GetPart(this->Automatic ? EndOfChoice : 0.0, run.EndOfMesh), run.FirstMesh,
-      this->WatchGrowth(run.PointsPrecision), this->PlanCheckpoint(run), run.Executor, run.Hints,
-      this->ExplainPoints);
+    if (this->Automatic)
+    {
+      neuralmesh::AutomaticReconstruction automatic = neuralmesh::reconstructAutomatically(
+        run.Cloud, run.Parameters, progress,
+        [this](const neuralmesh::Tuning& tuning) { vtkNeuralMeshReport::Log(tuning, this); },
+        run.FirstMesh, this->WatchGrowth(run.PointsPrecision), this->PlanCheckpoint(run),
+        run.Executor, run.Hints, this->ExplainPoints);
+      run.Tuning = std::move(automatic.tuning);
+      result = std::move(automatic.reconstruction);
+    }
+    else
+    {
+      result = neuralmesh::reconstruct(run.Cloud, run.Parameters, progress, run.FirstMesh,
+        this->WatchGrowth(run.PointsPrecision), this->PlanCheckpoint(run), run.Executor, run.Hints,
+        this->ExplainPoints);
+    }
   }
   catch (const std::runtime_error& error)
   {

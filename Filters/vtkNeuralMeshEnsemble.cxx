@@ -3,7 +3,7 @@
 
 #include "cloud/MeshBuilder.h"
 #include "run/Ensemble.h"
-#include "run/EnsembleAverage.h"
+#include "run/EnsembleRun.h"
 #include "vtkNeuralMeshParameters.h"
 #include "vtkNeuralMeshRun.h"
 #include "vtkTriangleMeshCollector.h"
@@ -22,137 +22,53 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <optional>
+#include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkNeuralMeshEnsemble);
 
 namespace
 {
-/// What phantoms and voxels take, as a fraction of the time in which members are learnt.
-constexpr double TimeOfAveraging = 0.3;
-
-/// Where the parts of a run end, as fractions of its time.
-struct Schedule
+/// The processes of a controller.
+class ControlledProcesses : public neuralmesh::EnsembleProcesses
 {
-  Schedule(const neuralmesh::Ensemble& ensemble, const vtkNeuralMeshRun& run)
+public:
+  explicit ControlledProcesses(vtkMultiProcessController* controller)
+    : Controller(controller)
   {
-    const neuralmesh::Parameters& refinement = run.Parameters;
-    const std::size_t threads = std::min<std::size_t>(run.Executor.threadCount(), ensemble.size());
-    const double population =
-      ensemble.expectedSamples() / static_cast<double>(std::max<std::size_t>(1, threads));
-    const double averaging = TimeOfAveraging * population;
-    const double refining =
-      static_cast<double>(refinement.numberOfVertices) * refinement.samplesPerAddition;
-    const double whole = population + averaging + refining;
-    this->Population = population / whole;
-    this->Averaging = (population + averaging) / whole;
   }
 
-  double Population;
-  double Averaging;
+  neuralmesh::EnsembleShare share() const override
+  {
+    return { static_cast<std::size_t>(this->Controller->GetLocalProcessId()),
+      static_cast<std::size_t>(this->Controller->GetNumberOfProcesses()) };
+  }
+  void findLargest(std::span<int> numbers) const override
+  {
+    this->Reduce(numbers, vtkCommunicator::MAX_OP);
+  }
+  void addUp(std::span<double> numbers) const override
+  {
+    this->Reduce(numbers, vtkCommunicator::SUM_OP);
+  }
+  void addUp(std::span<std::uint8_t> numbers) const override
+  {
+    this->Reduce(numbers, vtkCommunicator::SUM_OP);
+  }
+
+private:
+  template <typename Number>
+  void Reduce(std::span<Number> numbers, int operation) const
+  {
+    const std::vector<Number> own(numbers.begin(), numbers.end());
+    this->Controller->AllReduce(
+      own.data(), numbers.data(), static_cast<vtkIdType>(own.size()), operation);
+  }
+
+  vtkMultiProcessController* Controller;
 };
-
-/// Learns all members. Returns false if there was no time for that, or the filter was aborted, on
-/// whatever process.
-bool LearnMembers(
-  neuralmesh::Ensemble& ensemble, vtkNeuralMeshRun& run, vtkMultiProcessController* controller)
-{
-  const double limit = run.Parameters.timeLimit;
-  for (;;)
-  {
-    const bool goesOn = run.Progress.Report(ensemble.progress());
-    const bool isTimeOver = limit > 0.0 && run.Progress.GetSeconds() >= limit;
-    const std::array<int, 3> own{ !ensemble.isLearnt(), !goesOn, isTimeOver };
-    std::array<int, 3> all{};
-    controller->AllReduce(own.data(), all.data(), own.size(), vtkCommunicator::MAX_OP);
-    const auto [isLearning, isAborted, isOver] = all;
-    if (isAborted)
-    {
-      run.Progress.Abort();
-    }
-    if (!isLearning || isAborted || isOver)
-    {
-      return !isLearning;
-    }
-    run.Executor.forEachPart(ensemble.size(), [&](std::size_t member) { ensemble.learn(member); });
-  }
-}
-
-/// Calls `body` with all members, in groups that run at the same time, and reports between them,
-/// from a fraction of the part on to another. Returns false if the filter was aborted.
-template <typename Body>
-bool ForEachMember(const neuralmesh::Ensemble& ensemble, vtkNeuralMeshRun& run, double from,
-  double to, const Body& body)
-{
-  const std::size_t group = run.Executor.threadCount();
-  for (std::size_t first = 0; first < ensemble.size(); first += group)
-  {
-    const double done = static_cast<double>(first) / static_cast<double>(ensemble.size());
-    if (!run.Progress.Report(from + done * (to - from)))
-    {
-      return false;
-    }
-    const std::size_t count = std::min(group, ensemble.size() - first);
-    run.Executor.forEachPart(count, [&](std::size_t i) { body(first + i); });
-  }
-  return true;
-}
-
-/// Whether no process was told to abort; else all of them abort.
-bool AllGoOn(bool goesOn, vtkNeuralMeshProgress& progress, vtkMultiProcessController* controller)
-{
-  const int own = goesOn ? 0 : 1;
-  int aborts = 0;
-  controller->AllReduce(&own, &aborts, 1, vtkCommunicator::MAX_OP);
-  if (aborts)
-  {
-    progress.Abort();
-  }
-  return !aborts;
-}
-
-template <typename T>
-std::vector<T> SumOfAll(const std::vector<T>& own, vtkMultiProcessController* controller)
-{
-  std::vector<T> sum(own.size());
-  const auto size = static_cast<vtkIdType>(own.size());
-  controller->AllReduce(own.data(), sum.data(), size, vtkCommunicator::SUM_OP);
-  return sum;
-}
-
-/// The votes of all members, of which each process learns its share; none if that was ended before.
-std::optional<neuralmesh::VoxelVotes> Populate(
-  neuralmesh::Ensemble& ensemble, vtkNeuralMeshRun& run, vtkMultiProcessController* controller)
-{
-  const Schedule schedule(ensemble, run);
-  vtkNeuralMeshProgress& progress = run.Progress;
-  progress.EnterPart(0.0, schedule.Population, "Learning the members");
-  bool isDone = LearnMembers(ensemble, run, controller);
-  progress.EnterPart(schedule.Population, schedule.Averaging, "Averaging");
-  isDone = isDone &&
-    AllGoOn(ForEachMember(
-              ensemble, run, 0.0, 0.5, [&](std::size_t member) { ensemble.findPhantoms(member); }),
-      progress, controller);
-  if (isDone)
-  {
-    ensemble.makeGrid(SumOfAll(ensemble.boxes(), controller));
-    isDone = AllGoOn(ForEachMember(ensemble, run, 0.5, 1.0,
-                       [&](std::size_t member) { ensemble.voxelize(member); }),
-      progress, controller);
-  }
-  progress.EnterPart(schedule.Averaging, 1.0, "Refining");
-  if (!isDone)
-  {
-    return std::nullopt;
-  }
-  neuralmesh::VoxelVotes votes = ensemble.votes();
-  votes.votes = SumOfAll(votes.votes, controller);
-  return votes;
-}
 
 /// The grid of the votes has so many points along each axis.
 int CountAlong(int resolution)
@@ -241,46 +157,37 @@ void vtkNeuralMeshEnsemble::PrepareRun(
 
   vtkNew<vtkDummyController> alone;
   vtkMultiProcessController* controller = this->GetMemberController();
-  controller = controller ? controller : alone.Get();
-  const neuralmesh::EnsembleShare share{ static_cast<std::size_t>(controller->GetLocalProcessId()),
-    static_cast<std::size_t>(controller->GetNumberOfProcesses()) };
-  neuralmesh::Ensemble ensemble(run.Cloud, parameters, share);
-  const std::optional<neuralmesh::VoxelVotes> votes = Populate(ensemble, run, controller);
+  neuralmesh::EnsembleStart start = neuralmesh::startByEnsemble(
+    run.Cloud, parameters, run.Parameters, run.Progress.GetPart(0.0, 1.0),
+    [this](neuralmesh::EnsembleStep step) { this->SetProgressText(neuralmesh::name(step).data()); },
+    run.Executor, ControlledProcesses(controller ? controller : alone.Get()));
+  run.Progress.EnterPart(start.end, 1.0);
+  if (start.isCancelled)
+  {
+    run.Progress.Abort();
+  }
   if (this->IsHelper())
   {
     return;
   }
-  if (run.Parameters.timeLimit > 0.0)
+  run.Parameters.timeLimit = start.timeLimit;
+  run.IsStartWhole = start.votes.has_value();
+  if (start.votes)
   {
-    // No time left is not the same as no limit.
-    run.Parameters.timeLimit = std::max(
-      std::numeric_limits<double>::min(), run.Parameters.timeLimit - run.Progress.GetSeconds());
+    FillVotes(*start.votes, vtkImageData::GetData(outputVector, 3));
   }
-  if (!votes)
+  if (!start.warning.empty())
   {
-    run.IsStartWhole = false;
-    run.FirstMesh = ensemble.renumberedMesh(0);
-    return;
+    run.Warnings.push_back(start.warning);
   }
-  FillVotes(*votes, vtkImageData::GetData(outputVector, 3));
-  neuralmesh::EnsembleAverage average =
-    neuralmesh::averageOf(*votes, run.Cloud, run.Parameters.numberOfVertices);
-  if (average.agreement < neuralmesh::EnsembleAverage::GoodAgreement)
+  if (start.isAverage())
   {
-    run.Warnings.push_back("The members agree on " +
-      std::to_string(std::lround(100.0 * average.agreement)) +
-      " % of what they hold only, for the cloud is open, " +
-      (average.mesh ? "thin or of too few points: the topology is left to chance."
-                    : "flat or of too few points: learning starts as Start says."));
-  }
-  if (average.mesh)
-  {
-    const neuralmesh::TriangleMesh triangles = neuralmesh::trianglesOf(*average.mesh, run.Cloud);
+    const neuralmesh::TriangleMesh triangles = neuralmesh::trianglesOf(*start.mesh, run.Cloud);
     vtkPolyData* output = vtkPolyData::GetData(outputVector, 2);
     output->SetPoints(vtkTriangleMeshCollector::MakePoints(triangles, run.PointsPrecision));
     output->SetPolys(vtkTriangleMeshCollector::MakeCells(triangles));
-    run.FirstMesh = std::move(average.mesh);
   }
+  run.FirstMesh = std::move(start.mesh);
 }
 
 void vtkNeuralMeshEnsemble::PrintSelf(ostream& os, vtkIndent indent)

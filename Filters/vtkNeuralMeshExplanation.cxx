@@ -60,8 +60,7 @@ int vtkNeuralMeshExplanation::RequestData(
   const neuralmesh::PointCloud cloud(collector.GetPoints(), {}, true);
   if (!cloud.hasExtent())
   {
-    vtkErrorMacro(<< (cloud.points().empty() ? "No point of the input is finite."
-                                             : "All points of the input coincide."));
+    vtkErrorMacro(<< cloud.whyNoExtent());
     return 0;
   }
   neuralmesh::TriangleMesh mesh;

@@ -7,14 +7,6 @@
 #include <cstdlib>
 #include <thread>
 
-namespace
-{
-/// Progress is reported in steps of this size, and at least so often: whoever wants to abort does
-/// so when told of progress.
-constexpr double ProgressStep = 0.01;
-constexpr std::chrono::milliseconds ProgressInterval(50);
-}
-
 unsigned vtkNeuralMeshThreads(int wanted)
 {
   if (wanted > 0)
@@ -27,21 +19,17 @@ unsigned vtkNeuralMeshThreads(int wanted)
   return most > 0 ? std::min(available, static_cast<unsigned>(most)) : available;
 }
 
-void vtkNeuralMeshProgress::EnterPart(double begin, double end, const char* text)
+void vtkNeuralMeshProgress::EnterPart(double begin, double end)
 {
   this->Begin = begin;
   this->End = end;
-  this->Filter->SetProgressText(text);
 }
 
 bool vtkNeuralMeshProgress::Report(double fraction)
 {
   const double done = this->Begin + fraction * (this->End - this->Begin);
-  const Clock::time_point now = Clock::now();
-  if (done >= this->Reported + ProgressStep || now >= this->ReportTime + ProgressInterval)
+  if (this->Throttle.isDue(done))
   {
-    this->Reported = done;
-    this->ReportTime = now;
     this->Filter->UpdateProgress(done);
   }
   // Not CheckAbort(): it would have the executive throw away the mesh learnt so far.

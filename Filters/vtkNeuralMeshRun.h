@@ -11,6 +11,7 @@
 
 #include "base/Executor.h"
 #include "base/Progress.h"
+#include "base/ProgressThrottle.h"
 #include "cloud/OrientationHints.h"
 #include "cloud/PointCloud.h"
 #include "learn/Parameters.h"
@@ -37,8 +38,8 @@ public:
   {
   }
 
-  /** From now on, fractions count within this part of the whole; `text` says what is done there. */
-  void EnterPart(double begin, double end, const char* text);
+  /** From now on, fractions count within this part of the whole. */
+  void EnterPart(double begin, double end);
   /** How much of the part is done, 0 to 1. Returns false if the filter was told to abort. */
   bool Report(double fraction);
   /** What the core reports to within this part of the whole; not to be kept longer than this object. */
@@ -54,9 +55,8 @@ private:
   vtkAlgorithm* Filter;
   double Begin = 0.0;
   double End = 1.0;
-  double Reported = 0.0;
+  neuralmesh::ProgressThrottle Throttle;
   Clock::time_point Start = Clock::now();
-  Clock::time_point ReportTime = Start;
 };
 
 struct vtkNeuralMeshRun
@@ -72,7 +72,6 @@ struct vtkNeuralMeshRun
   neuralmesh::OrientationHints Hints;
   std::vector<std::string> Warnings{}; ///< that the filter has given
   bool IsStartWhole = true;            ///< not if making the first mesh was cut short
-  bool AreParametersChosen = true;     ///< not if that was, though they were to be
 };
 
 #endif

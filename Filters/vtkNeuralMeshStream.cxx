@@ -18,16 +18,9 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 
 vtkStandardNewMacro(vtkNeuralMeshStream);
-
-namespace
-{
-/// Learnt between two looks at the clock.
-constexpr std::uint64_t SamplesPerLook = 20000;
-}
 
 vtkNeuralMeshStream::vtkNeuralMeshStream() { this->SetNumberOfInputPorts(0); }
 
@@ -43,15 +36,14 @@ bool vtkNeuralMeshStream::Prepare()
   {
     return false;
   }
-  if (this->GetVariant() != NOISE_FILTERING || this->GetOrder() != EXACT ||
-    this->GetTopologyLearning() || this->GetComputeFeatureStrength())
-  {
-    vtkErrorMacro(<< "A stream is learnt in the noise-filtering variant with exact order only, and "
-                     "neither topology nor feature strength are.");
-    return false;
-  }
   neuralmesh::Parameters parameters;
   this->FillParameters(parameters);
+  const std::string error = neuralmesh::StreamingReconstruction::errorOf(parameters);
+  if (!error.empty())
+  {
+    vtkErrorMacro(<< error);
+    return false;
+  }
   parameters.numberOfVertices = static_cast<std::uint64_t>(this->NumberOfVertices);
   parameters.seed = static_cast<std::uint64_t>(this->Seed);
   this->Stream = std::make_unique<neuralmesh::StreamingReconstruction>(
@@ -79,25 +71,7 @@ void vtkNeuralMeshStream::AddPoints(vtkPointSet* points)
   {
     return;
   }
-  const neuralmesh::OrientationHints hints = orientation.GetHints();
-  const auto viewOf = [&hints](std::uint32_t point)
-  { return hints.viewOf ? hints.viewOf(point) : 0; };
-  // Of several viewpoints without a view of each point the mesh tells later what was seen from where.
-  const bool haveViews = hints.viewOf || hints.viewpoints.size() == 1;
-  neuralmesh::StreamingReconstruction::DirectionOf directionOf;
-  if (haveViews || hints.normalOf)
-  {
-    directionOf = [&](std::size_t index) -> Eigen::Vector3d
-    {
-      const auto point = static_cast<std::uint32_t>(index);
-      if (haveViews && viewOf(point) < hints.viewpoints.size())
-      {
-        return hints.viewpoints[viewOf(point)] - collector.GetPoints()[index];
-      }
-      return hints.normalOf ? hints.normalOf(point) : Eigen::Vector3d::Zero();
-    };
-  }
-  this->Stream->addPoints(collector.GetPoints(), directionOf);
+  this->Stream->addPoints(collector.GetPoints(), orientation.GetHints());
 }
 
 vtkIdType vtkNeuralMeshStream::Learn(vtkIdType samples)
@@ -122,21 +96,11 @@ vtkIdType vtkNeuralMeshStream::LearnForSeconds(double seconds)
     return 0;
   }
   vtkNeuralMeshProgress progress(this);
-  bool goesOn = true;
-  std::uint64_t all = 0, learnt = 0;
-  do
-  {
-    learnt = this->Stream->learn(SamplesPerLook,
-      [&](double)
-      {
-        return goesOn = progress.Report(
-                 seconds > 0.0 ? std::min(1.0, progress.GetSeconds() / seconds) : 1.0);
-      });
-    all += learnt;
-  } while (goesOn && learnt > 0 && progress.GetSeconds() < seconds);
+  const std::uint64_t learnt = this->Stream->learnFor(
+    seconds, [&progress](double fraction) { return progress.Report(fraction); });
   this->AbortExecute = 0;
   this->Modified();
-  return static_cast<vtkIdType>(all);
+  return static_cast<vtkIdType>(learnt);
 }
 
 void vtkNeuralMeshStream::Reset()

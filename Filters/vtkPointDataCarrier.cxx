@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPointDataCarrier.h"
 
+#include "cloud/AttributeNumbers.h"
 #include "cloud/AttributeVote.h"
-#include "cloud/CarriedValues.h"
 #include "vtkPointCloudCollector.h"
 
 #include "vtkDataArray.h"
@@ -16,9 +16,9 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 
 namespace
 {
@@ -187,61 +187,39 @@ void vtkPointDataCarrier::Fit(const Array& array, const neuralmesh::CloudPlaces&
   const neuralmesh::Executor& executor, vtkDataArray* result) const
 {
   const auto components = static_cast<std::size_t>(result->GetNumberOfComponents());
-  const std::vector<double> values = neuralmesh::carryValues(
+  const std::vector<double> numbers = neuralmesh::carryNumbers(
     places, components,
-    [&](std::size_t origin, double* tuple)
+    [&](std::uint32_t point, std::span<double> tuple)
     {
-      const Tuple source = this->TupleOf(array, origin);
-      static_cast<vtkDataArray*>(source.Array)->GetTuple(source.Id, tuple);
+      const Tuple source = this->TupleOf(array, point);
+      static_cast<vtkDataArray*>(source.Array)->GetTuple(source.Id, tuple.data());
     },
     executor);
-  for (std::size_t i = 0; i < values.size(); ++i)
+  for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    const auto vertex = static_cast<vtkIdType>(i / components);
+    const auto tuple = static_cast<vtkIdType>(i / components);
     const auto component = static_cast<int>(i % components);
     if (IsReal(result))
     {
-      result->SetComponent(vertex, component, values[i]);
+      result->SetComponent(tuple, component, numbers[i]);
     }
-    else if (!std::isnan(values[i]))
+    else if (std::isfinite(numbers[i]))
     {
-      result->SetComponent(vertex, component, std::round(values[i]));
+      result->SetComponent(tuple, component, std::round(numbers[i]));
     }
   }
-}
-
-std::vector<std::uint32_t> vtkPointDataCarrier::MakeLabels(
-  const Array& array, const neuralmesh::CloudPlaces& places) const
-{
-  const bool isPlain = std::all_of(array.OfLeaf.begin(), array.OfLeaf.end(), HasPlainTuples);
-  const auto origins = places.cloud().origins();
-  std::unordered_map<std::string, std::uint32_t> kinds;
-  std::vector<std::uint32_t> lowest; // point of each kind
-  std::vector<std::uint32_t> labels(origins.size());
-  for (std::size_t point = 0; point < labels.size(); ++point)
-  {
-    const Tuple source = this->TupleOf(array, origins[point]);
-    const auto next = static_cast<std::uint32_t>(lowest.size());
-    const auto place = kinds.try_emplace(KeyOf(source.Array, source.Id, isPlain), next).first;
-    labels[point] = place->second;
-    if (place->second == next)
-    {
-      lowest.push_back(origins[point]);
-    }
-    lowest[place->second] = std::min(lowest[place->second], origins[point]);
-  }
-  for (std::uint32_t& label : labels)
-  {
-    label = lowest[label];
-  }
-  return labels;
 }
 
 void vtkPointDataCarrier::Vote(
   const Array& array, const neuralmesh::CloudPlaces& places, vtkAbstractArray* result) const
 {
-  const std::vector<std::uint32_t> winners =
-    neuralmesh::voteForLabels(places, this->MakeLabels(array, places));
+  const bool isPlain = std::all_of(array.OfLeaf.begin(), array.OfLeaf.end(), HasPlainTuples);
+  const std::vector<std::uint32_t> winners = neuralmesh::voteForKinds(places,
+    [&](std::uint32_t point)
+    {
+      const Tuple source = this->TupleOf(array, point);
+      return KeyOf(source.Array, source.Id, isPlain);
+    });
   for (std::size_t v = 0; v < winners.size(); ++v)
   {
     if (winners[v] != neuralmesh::NoLabel)

@@ -60,8 +60,6 @@ private:
     const neuralmesh::Executor& executor, vtkDataArray* result) const;
   void Vote(
     const Array& array, const neuralmesh::CloudPlaces& places, vtkAbstractArray* result) const;
-  std::vector<std::uint32_t> MakeLabels(
-    const Array& array, const neuralmesh::CloudPlaces& places) const;
 
   const vtkPointCloudCollector& Collector;
   std::vector<Array> Arrays;

@@ -4,6 +4,7 @@
 #include "cloud/NearestMarked.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace neuralmesh
 {
@@ -99,5 +100,29 @@ std::vector<std::uint32_t> voteForLabels(
     result[v] = nearest[v] == NoVertex ? NoLabel : result[nearest[v]];
   }
   return result;
+}
+
+std::vector<std::uint32_t> voteForKinds(const CloudPlaces& places, const KindOf& kindOf)
+{
+  const auto origins = places.cloud().origins();
+  std::unordered_map<std::string, std::uint32_t> kinds;
+  std::vector<std::uint32_t> lowest; // point of each kind
+  std::vector<std::uint32_t> labels(origins.size());
+  for (std::size_t point = 0; point < labels.size(); ++point)
+  {
+    const auto next = std::uint32_t(lowest.size());
+    const auto place = kinds.try_emplace(kindOf(origins[point]), next).first;
+    labels[point] = place->second;
+    if (place->second == next)
+    {
+      lowest.push_back(origins[point]);
+    }
+    lowest[place->second] = std::min(lowest[place->second], origins[point]);
+  }
+  for (std::uint32_t& label : labels)
+  {
+    label = lowest[label];
+  }
+  return voteForLabels(places, labels);
 }
 }

@@ -4,7 +4,9 @@
 #include "cloud/CloudPlaces.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace neuralmesh
@@ -17,4 +19,11 @@ constexpr std::uint32_t NoLabel = std::uint32_t(-1);
 /// there is none in its component. `labels` are those of the points of the cloud.
 std::vector<std::uint32_t> voteForLabels(
   const CloudPlaces& places, std::span<const std::uint32_t> labels);
+
+/// A text that two points, by their indices in the input, have in common only if they are of one kind.
+using KindOf = std::function<std::string(std::uint32_t point)>;
+
+/// The same for points of any kinds: a vertex gets the lowest index in the input of a point of its kind, or
+/// NoLabel. The cloud of the places must know the origins of its points.
+std::vector<std::uint32_t> voteForKinds(const CloudPlaces& places, const KindOf& kindOf);
 }

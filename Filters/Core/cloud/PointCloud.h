@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace neuralmesh
@@ -50,6 +51,12 @@ public:
   std::size_t differentCount() const;
   /// Whether there are two points apart from each other.
   bool hasExtent() const { return diagonal_ > 0.; }
+  /// Why there are not, if so, in a sentence.
+  std::string whyNoExtent() const
+  {
+    return points_.empty() ? "No point of the input is finite."
+                           : "All points of the input coincide.";
+  }
 
   /// Diagonal of the bounding box of all points, after the scaling.
   double diagonal() const { return diagonal_; }

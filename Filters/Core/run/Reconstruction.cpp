@@ -160,6 +160,13 @@ std::size_t firstVertices(std::uint64_t vertices)
   return std::size_t(std::max(vertices / 8, std::min<std::uint64_t>(vertices / 2, 1500)));
 }
 
+std::uint64_t usualPoints(std::uint64_t vertices)
+{
+  constexpr std::uint64_t PointsPerVertex = 50;
+  constexpr std::uint64_t FewestPoints = 1000000;
+  return std::max(FewestPoints, PointsPerVertex * vertices);
+}
+
 Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
   const Progress& report, const std::optional<Mesh>& first, const GrowthWatch& watch,
   const CheckpointPlan& plan, const Executor& executor, const OrientationHints& hints,

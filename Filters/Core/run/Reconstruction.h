@@ -55,6 +55,9 @@ struct Reconstruction
 Parameters learnable(Parameters parameters, const PointCloud& cloud);
 /// Vertices of the first surface: a part of all, but enough for a shape, if all are twice as many.
 std::size_t firstVertices(std::uint64_t vertices);
+/// How many points of a file are used if nobody says: fifty a vertex, as many as samples are drawn, but a
+/// million at least, which tell the shape.
+std::uint64_t usualPoints(std::uint64_t vertices);
 
 // Where the parts of a run begin and end, as fractions of its progress.
 inline constexpr double StartOfLearning = 0.15;

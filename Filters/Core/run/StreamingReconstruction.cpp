@@ -7,6 +7,7 @@
 #include "start/OutlierClusters.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -16,6 +17,8 @@ namespace
 {
 /// With fewer there is nothing to see yet.
 constexpr std::size_t LeastPointsToMesh = 100;
+/// Learnt between two looks at the clock.
+constexpr std::uint64_t SamplesPerLook = 20000;
 
 /// The mesh is begun anew if so much more of the occupied space is away from it than when it was
 /// begun ...
@@ -67,6 +70,16 @@ double uncoveredPart(const PointCloud& cloud, const Mesh& mesh, const PointCloud
 }
 }
 
+std::string StreamingReconstruction::errorOf(const Parameters& parameters)
+{
+  const bool isRight = parameters.variant == Variant::NoiseFiltering &&
+    parameters.order == Order::Exact && !parameters.topologyLearning &&
+    !parameters.computeFeatureStrength;
+  return isRight ? ""
+                 : "A stream is learnt in the noise-filtering variant with exact order only, and "
+                   "neither topology nor feature strength are.";
+}
+
 StreamingReconstruction::StreamingReconstruction(
   const Parameters& parameters, std::size_t reservoirSize)
   : parameters_(parameters)
@@ -96,6 +109,27 @@ void StreamingReconstruction::addPoints(const PointSpans& points, const Directio
     });
 }
 
+void StreamingReconstruction::addPoints(const PointSpans& points, const OrientationHints& hints)
+{
+  const bool haveViews = hints.viewOf || hints.viewpoints.size() == 1;
+  if (!haveViews && !hints.normalOf)
+  {
+    addPoints(points);
+    return;
+  }
+  addPoints(points,
+    [&](std::size_t index) -> Eigen::Vector3d
+    {
+      const auto point = std::uint32_t(index);
+      const std::uint32_t view = hints.viewOf ? hints.viewOf(point) : 0;
+      if (haveViews && view < hints.viewpoints.size())
+      {
+        return hints.viewpoints[view] - points[index];
+      }
+      return hints.normalOf ? hints.normalOf(point) : Eigen::Vector3d::Zero();
+    });
+}
+
 std::uint64_t StreamingReconstruction::sampleCount() const
 {
   return earlierSamples_ + (learner_ ? learner_->counts().iterations : 0);
@@ -121,6 +155,23 @@ std::uint64_t StreamingReconstruction::learn(std::uint64_t samples, const Progre
       samples - learnt, std::max<std::uint64_t>(SamplesPerCheck, learner.batchSize())));
   }
   return learner.counts().iterations - begin;
+}
+
+std::uint64_t StreamingReconstruction::learnFor(double seconds, const Progress& progress)
+{
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const auto passed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  bool goesOn = true;
+  std::uint64_t all = 0, learnt = 0;
+  do
+  {
+    learnt = learn(SamplesPerLook,
+      [&](double)
+      { return goesOn = progress(seconds > 0. ? std::min(1., passed() / seconds) : 1.); });
+    all += learnt;
+  } while (goesOn && learnt > 0 && passed() < seconds);
+  return all;
 }
 
 /// Has the mesh learn from the points that have come. False if there is no mesh then.

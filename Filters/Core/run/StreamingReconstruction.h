@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace neuralmesh
@@ -32,12 +33,20 @@ public:
   /// any length, 0 or not finite if that is not known.
   using DirectionOf = std::function<Eigen::Vector3d(std::size_t)>;
 
+  /// Why a stream cannot be learnt with these parameters, in a sentence; empty if it can.
+  static std::string errorOf(const Parameters& parameters);
+
   /// Points that are not finite are dropped.
   void addPoints(const PointSpans& points, const DirectionOf& directionOf = {});
+  /// The surface looks at where a point was seen from, or in the direction of its normal. Of several
+  /// viewpoints without a view of each point mesh() is to be told: it finds out what was seen from where.
+  void addPoints(const PointSpans& points, const OrientationHints& hints);
 
   /// Learns so many samples, of all points that have come, and returns how many they were: fewer if
   /// `progress` ends it, none if there are too few points for a mesh.
   std::uint64_t learn(std::uint64_t samples, const Progress& progress);
+  /// The same for so many seconds, to some thousand samples.
+  std::uint64_t learnFor(double seconds, const Progress& progress);
 
   bool hasMesh() const { return learner_.has_value(); }
   /// The mesh as it is, if there is one. With `isFinished` it is fitted to the points of the last

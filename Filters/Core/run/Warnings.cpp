@@ -251,4 +251,16 @@ std::vector<std::string> warningsOf(const Reconstruction& result, const PointClo
   warnOfSides(result.orientation, warnings);
   return warnings;
 }
+
+std::string warningOfFirst(const Mesh& first, const Parameters& parameters)
+{
+  if (first.vertexCount() <= parameters.numberOfVertices)
+  {
+    return "";
+  }
+  return "The mesh to start from has " + std::to_string(first.vertexCount()) +
+    " vertices, more than " + std::to_string(parameters.numberOfVertices) +
+    (parameters.fitRounds > 0 ? ": it is fitted, but grows no further."
+                              : ": it comes out as it is.");
+}
 }

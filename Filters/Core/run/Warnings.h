@@ -22,4 +22,8 @@ namespace neuralmesh
 ///   piece of all: that agrees with itself, and can be turned as a whole;
 /// - viewpoints or normals were given, and tell nothing.
 std::vector<std::string> warningsOf(const Reconstruction& result, const PointCloud& cloud);
+
+/// The same of a mesh to start from: that it has more vertices than are asked for, and what becomes of it then.
+/// Empty if it has not.
+std::string warningOfFirst(const Mesh& first, const Parameters& parameters);
 }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Progress.h"
 
+#include "base/ProgressThrottle.h"
+
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
 #include <vector>
 
 namespace neuralmesh::testing
@@ -26,5 +30,24 @@ TEST(Progress, PartsAreOfTheWhole)
   EXPECT_DOUBLE_EQ(told[0], 0.5);
   EXPECT_DOUBLE_EQ(told[1], 0.6);
   EXPECT_DOUBLE_EQ(told[2], 0.9);
+}
+
+// Steps of a hundredth are passed on, and what comes later than the last one by 50 ms; of many reports at once
+// hardly any.
+TEST(ProgressThrottle, PassesOnWhatIsDue)
+{
+  ProgressThrottle throttle;
+  for (const double fraction : { 0.01, 0.5, 0.9, 0.9101 })
+  {
+    EXPECT_TRUE(throttle.isDue(fraction));
+  }
+  int passed = 0;
+  for (int i = 0; i < 10000; ++i)
+  {
+    passed += throttle.isDue(0.915) ? 1 : 0;
+  }
+  EXPECT_LT(passed, 10000);
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  EXPECT_TRUE(throttle.isDue(0.915));
 }
 }

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace neuralmesh::testing
@@ -102,5 +104,30 @@ TEST(NearestMarked, FewestEdges)
   EXPECT_EQ(nearest[fan.ring(0)[1]], first);
   EXPECT_EQ(nearest[fan.ring(0)[2]], opposite);
   EXPECT_EQ(nearest[opposite], opposite);
+}
+
+// Points of a kind vote together, and the first of them in the input stands for it.
+TEST(AttributeVote, Kinds)
+{
+  const std::vector<Eigen::Vector3d> points = sphereCloud();
+  const PointCloud cloud(points, {}, true);
+  const Mesh mesh = buildMesh(makeSphere(16), cloud);
+  const auto kindOf = [&](std::uint32_t point) { return points[point].z() > 0. ? "up" : "down"; };
+  std::array<std::uint32_t, 2> firsts{ NoLabel, NoLabel };
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+  {
+    std::uint32_t& first = firsts[points[i].z() > 0. ? 1 : 0];
+    first = std::min(first, i);
+  }
+  const auto result = voteForKinds(CloudPlaces(cloud, mesh, goOn), kindOf);
+  ASSERT_EQ(result.size(), mesh.indexEnd());
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    const double height = cloud.toInput(mesh.position(v)).z();
+    if (std::abs(height) > 0.1)
+    {
+      EXPECT_EQ(result[v], firsts[height > 0. ? 1 : 0]) << "vertex " << v;
+    }
+  }
 }
 }

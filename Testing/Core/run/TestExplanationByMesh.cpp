@@ -6,6 +6,7 @@
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
 #include "Shapes.h"
+#include "SphereRuns.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +17,6 @@ namespace neuralmesh::testing
 {
 namespace
 {
-bool unhindered(double) { return true; }
-
 /// A unit sphere with noise, a smaller one apart, and a single point.
 std::vector<Eigen::Vector3d> spheres()
 {
@@ -52,7 +51,7 @@ TEST(ExplanationByMesh, LikeThatOfALearntMesh)
 {
   const PointCloud cloud(spheres());
   const TriangleMesh sphere = makeSphere(24);
-  const auto byMesh = explainByMesh(cloud, sphere, {}, unhindered);
+  const auto byMesh = explainByMesh(cloud, sphere, {}, goOn);
   ASSERT_TRUE(byMesh);
   const Explanation learnt =
     explain(cloud, distancesTo(buildMesh(sphere, cloud), cloud, std::size_t(-1)), {});
@@ -74,7 +73,7 @@ TEST(ExplanationByMesh, BeyondTheBoundary)
   CloudOptions options;
   options.count = 8000;
   const PointCloud cloud(generateCloud(makeSphere(), options));
-  const auto explanation = explainByMesh(cloud, above(makeSphere(24), 0.), {}, unhindered);
+  const auto explanation = explainByMesh(cloud, above(makeSphere(24), 0.), {}, goOn);
   ASSERT_TRUE(explanation);
   ASSERT_EQ(explanation->pieces.size(), 1u);
   EXPECT_TRUE(explanation->pieces[0].isBeyondBoundary);
@@ -93,12 +92,12 @@ TEST(ExplanationByMesh, AnyTriangles)
 {
   const PointCloud cloud(spheres());
   TriangleMesh mesh = makeSphere(24);
-  const auto clean = explainByMesh(cloud, mesh, {}, unhindered);
+  const auto clean = explainByMesh(cloud, mesh, {}, goOn);
   mesh.triangles.insert(mesh.triangles.end(), mesh.triangles.begin(), mesh.triangles.begin() + 99);
   mesh.triangles.push_back({ 5, 5, 7 });
   mesh.points.push_back(Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
   mesh.triangles.push_back({ 0, 1, std::uint32_t(mesh.points.size() - 1) });
-  const auto unclean = explainByMesh(cloud, mesh, {}, unhindered);
+  const auto unclean = explainByMesh(cloud, mesh, {}, goOn);
   ASSERT_TRUE(clean && unclean);
   EXPECT_EQ(clean->reasons, unclean->reasons);
   EXPECT_EQ(clean->asked.distances, unclean->asked.distances);
@@ -110,8 +109,8 @@ TEST(ExplanationByMesh, ThreadsDoNotMatter)
   const PointCloud cloud(spheres());
   const TriangleMesh mesh = above(makeSphere(24), -0.5);
   const ThreadPool executor(4);
-  const auto one = explainByMesh(cloud, mesh, {}, unhindered);
-  const auto other = explainByMesh(cloud, mesh, {}, unhindered, executor);
+  const auto one = explainByMesh(cloud, mesh, {}, goOn);
+  const auto other = explainByMesh(cloud, mesh, {}, goOn, executor);
   ASSERT_TRUE(one && other);
   EXPECT_EQ(one->asked.distances, other->asked.distances);
   EXPECT_EQ(one->asked.isBeyondBoundary, other->asked.isBeyondBoundary);
@@ -123,6 +122,6 @@ TEST(ExplanationByMesh, EndAndError)
 {
   const PointCloud cloud(spheres());
   EXPECT_FALSE(explainByMesh(cloud, makeSphere(8), {}, [](double) { return false; }));
-  EXPECT_THROW(explainByMesh(cloud, {}, {}, unhindered), std::runtime_error);
+  EXPECT_THROW(explainByMesh(cloud, {}, {}, goOn), std::runtime_error);
 }
 }

@@ -237,4 +237,62 @@ TEST(StreamingReconstruction, BadPointsAndFewPoints)
   expectSound(stream.mesh(true, goOn));
   EXPECT_EQ(stream.mesh(true, [](double) { return false; }).stopReason, StopReason::Cancelled);
 }
+
+// Hints of what is added turn the mesh as directions of the points do: a viewpoint, views of each point, normals.
+TEST(StreamingReconstruction, HintsAreDirections)
+{
+  const Points cloud = torusCloud(20000);
+  const Eigen::Vector3d above(0., 0., 5.), below(0., 0., -5.);
+  OrientationHints oneView, views, normals;
+  oneView.viewpoints = { above };
+  views.viewpoints = { above, below };
+  views.viewOf = [&](std::uint32_t point) { return cloud[point].z() > 0. ? 0u : 1u; };
+  normals.normalOf = [&](std::uint32_t point) { return Eigen::Vector3d(-cloud[point]); };
+  const auto directions = [&](const OrientationHints& hints) -> StreamingReconstruction::DirectionOf
+  {
+    return [&](std::size_t point) -> Eigen::Vector3d
+    {
+      const auto index = std::uint32_t(point);
+      return hints.normalOf
+        ? hints.normalOf(index)
+        : hints.viewpoints[hints.viewOf ? hints.viewOf(index) : 0] - cloud[point];
+    };
+  };
+  for (const OrientationHints& hints : { oneView, views, normals })
+  {
+    StreamingReconstruction hinted(wanted(500), 100000), directed(wanted(500), 100000);
+    hinted.addPoints(cloud, hints);
+    directed.addPoints(cloud, directions(hints));
+    hinted.learn(50000, goOn);
+    directed.learn(50000, goOn);
+    EXPECT_EQ(hinted.mesh(false, goOn).mesh.triangles, directed.mesh(false, goOn).mesh.triangles);
+  }
+}
+
+// Learning for a time learns something, and no longer than it is let.
+TEST(StreamingReconstruction, LearnsForATime)
+{
+  StreamingReconstruction stream(wanted(500), 100000);
+  EXPECT_EQ(stream.learnFor(10., goOn), 0u);
+  stream.addPoints(torusCloud(20000));
+  EXPECT_GT(stream.learnFor(0., goOn), 0u);
+  int reports = 0;
+  stream.learnFor(1e9, [&](double) { return ++reports < 10; });
+  EXPECT_EQ(reports, 10);
+}
+
+// What a stream cannot do is told.
+TEST(StreamingReconstruction, TellsWhatItCannot)
+{
+  EXPECT_EQ(StreamingReconstruction::errorOf({}), "");
+  std::array<Parameters, 4> bad;
+  bad[0].variant = Variant::Basic;
+  bad[1].order = Order::List;
+  bad[2].topologyLearning = true;
+  bad[3].computeFeatureStrength = true;
+  for (const Parameters& parameters : bad)
+  {
+    EXPECT_NE(StreamingReconstruction::errorOf(parameters), "");
+  }
+}
 }

@@ -6,6 +6,7 @@
 
 #include "base/ThreadPool.h"
 #include "Shapes.h"
+#include "SphereRuns.h"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +19,6 @@ namespace neuralmesh::testing
 {
 namespace
 {
-bool toTheEnd(double) { return true; }
-
 TriangleMesh scaled(TriangleMesh mesh, double factor)
 {
   for (Eigen::Vector3d& point : mesh.points)
@@ -39,7 +38,7 @@ std::string errorOf(const TriangleMesh& reference, const TriangleMesh& result)
 {
   try
   {
-    compareSurfaces(reference, result, {}, toTheEnd);
+    compareSurfaces(reference, result, {}, goOn);
   }
   catch (const std::runtime_error& error)
   {
@@ -56,7 +55,7 @@ TEST(SurfaceComparison, Spheres)
   {
     const TriangleMesh inner = scaled(makeSphere(24), size);
     const TriangleMesh outer = scaled(inner, 1.1);
-    const auto comparison = compareSurfaces(inner, outer, { 5000, 1 }, toTheEnd);
+    const auto comparison = compareSurfaces(inner, outer, { 5000, 1 }, goOn);
     ASSERT_TRUE(comparison);
     EXPECT_NEAR(comparison->referenceDiagonal / size, 2. * std::sqrt(3.), 1e-9);
     for (const DistanceFigures& figures :
@@ -79,19 +78,19 @@ TEST(SurfaceComparison, Spheres)
 TEST(SurfaceComparison, ThreadsDoNotMatter)
 {
   const TriangleMesh reference = makeTorus(0.4, 24), result = makeTorus(0.38, 17);
-  const auto first = compareSurfaces(reference, result, { 5000, 1 }, toTheEnd);
+  const auto first = compareSurfaces(reference, result, { 5000, 1 }, goOn);
   ASSERT_TRUE(first);
   for (const unsigned threads : { 1u, 3u, 8u })
   {
     const ThreadPool executor(threads);
-    const auto other = compareSurfaces(reference, result, { 5000, 1 }, toTheEnd, executor);
+    const auto other = compareSurfaces(reference, result, { 5000, 1 }, goOn, executor);
     ASSERT_TRUE(other);
     EXPECT_EQ(allOf(first->referenceToResult), allOf(other->referenceToResult));
     EXPECT_EQ(allOf(first->resultToReference), allOf(other->resultToReference));
     EXPECT_EQ(first->referenceDistances, other->referenceDistances);
     EXPECT_EQ(first->resultDistances, other->resultDistances);
   }
-  const auto seeded = compareSurfaces(reference, result, { 5000, 2 }, toTheEnd);
+  const auto seeded = compareSurfaces(reference, result, { 5000, 2 }, goOn);
   EXPECT_NE(first->referenceToResult.mean, seeded->referenceToResult.mean);
 }
 
@@ -107,7 +106,7 @@ TEST(SurfaceComparison, UncleanMeshes)
   unclean.triangles.push_back({ 0, 1, count });
   unclean.triangles.push_back({ 0, 0, count + 1 });
   unclean.triangles.push_back({ 0, 1, count + 2 });
-  const auto comparison = compareSurfaces(cube, unclean, { 1000, 1 }, toTheEnd);
+  const auto comparison = compareSurfaces(cube, unclean, { 1000, 1 }, goOn);
   ASSERT_TRUE(comparison);
   EXPECT_LT(comparison->resultToReference.maximum, 1e-9);
   ASSERT_EQ(comparison->resultDistances.size(), unclean.points.size());

@@ -3,6 +3,7 @@
 #include "base/ThreadPool.h"
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
+#include "run/AutomaticReconstruction.h"
 #include "run/Tuning.h"
 #include "run/TuningPatch.h"
 #include "Shapes.h"
@@ -348,5 +349,27 @@ TEST(Tuning, MoreVerticesThanPoints)
   const Tuning tuning = tune(cloud, wanted, goOn).value();
   EXPECT_FALSE(tuning.trials.empty());
   EXPECT_EQ(tuning.parameters.numberOfVertices, 100000u);
+}
+
+// An automatic run is a choice and a run with what was chosen; told of between, and the first to end ends both.
+TEST(Tuning, AutomaticReconstruction)
+{
+  const PointCloud cloud = cubeCloud({}, 10000);
+  Parameters parameters;
+  parameters.numberOfVertices = 500;
+  int times = 0;
+  const auto automatic = reconstructAutomatically(
+    cloud, parameters, goOn, [&](const Tuning& tuning) { times += tuning.trials.empty() ? 0 : 1; });
+  EXPECT_EQ(times, 1);
+  const Tuning tuning = tune(cloud, parameters, goOn).value();
+  EXPECT_EQ(automatic.tuning.reasons(), tuning.reasons());
+  const Reconstruction result = reconstruct(cloud, tuning.parameters, goOn);
+  EXPECT_EQ(automatic.reconstruction.mesh.triangles, result.mesh.triangles);
+  EXPECT_EQ(automatic.reconstruction.mesh.points, result.mesh.points);
+
+  const auto ended = reconstructAutomatically(cloud, parameters, [](double) { return false; });
+  EXPECT_EQ(ended.reconstruction.stopReason, StopReason::Cancelled);
+  EXPECT_TRUE(ended.tuning.choices.empty());
+  EXPECT_EQ(ended.tuning.parameters.fitRounds, parameters.fitRounds);
 }
 }
