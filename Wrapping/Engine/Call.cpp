@@ -5,19 +5,10 @@ namespace nb = nanobind;
 
 namespace neuralmesh::binding
 {
-namespace
-{
-constexpr double Step = 0.01;
-constexpr std::chrono::milliseconds Interval(50);
-}
-
 bool Call::report(double fraction)
 {
-  const Clock::time_point now = Clock::now();
-  if (goesOn_ && (fraction >= reported_ + Step || now >= reportTime_ + Interval))
+  if (goesOn_ && throttle_.isDue(fraction))
   {
-    reported_ = fraction;
-    reportTime_ = now;
     with([&] { tell(fraction); });
   }
   return goesOn_;

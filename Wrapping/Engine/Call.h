@@ -3,10 +3,10 @@
 #pragma once
 
 #include "base/Progress.h"
+#include "base/ProgressThrottle.h"
 
 #include <nanobind/nanobind.h>
 
-#include <chrono>
 #include <optional>
 
 namespace neuralmesh::binding
@@ -23,7 +23,6 @@ public:
   {
   }
 
-  /// Steps of a hundredth, and what comes 50 ms later, are told.
   bool report(double fraction);
   Progress part(double begin, double end);
   /// Calls something else of Python, with the lock held; what that raises ends the run, too.
@@ -31,19 +30,14 @@ public:
   void with(const Use& use);
 
   bool goesOn() const { return goesOn_; }
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   /// Raises what was raised, with the lock held.
   void rethrow();
 
 private:
-  using Clock = std::chrono::steady_clock;
-
   void tell(double fraction);
 
   nanobind::object function_;
-  double reported_ = -1.;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point reportTime_ = Clock::now();
+  ProgressThrottle throttle_;
   bool goesOn_ = true;
   std::optional<nanobind::python_error> error_;
 };

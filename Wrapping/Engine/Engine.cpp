@@ -61,6 +61,8 @@ void bindRun(nb::module_& module)
       "first_triangles"_a.none(), "automatic"_a, "explain"_a, "end_of_mesh"_a, "checkpoint"_a,
       "checkpoint_interval"_a, "snapshots"_a, "take_snapshot"_a.none(), "progress"_a.none())
     .def("mesh", &Run::mesh, "double"_a)
+    .def("average", &Run::average, "double"_a)
+    .def("votes", &Run::votes)
     .def("curve", &Run::curve)
     .def("explained", &Run::explained)
     .def("times", &Run::times)
@@ -195,6 +197,7 @@ void bindFiles(nb::module_& module)
       return points;
     },
     "path"_a, "wanted"_a, "seed"_a, "progress"_a.none());
+  module.def("usual_points", &usualPoints, "vertices"_a);
   module.def("remove_file", &removeAtomicFile, "path"_a);
 }
 
@@ -206,6 +209,11 @@ NB_MODULE(_engine, module)
     [](int preset, int variant, int order)
     { return presetOf(Preset(preset), Variant(variant), Order(order)); },
     "preset"_a, "variant"_a, "order"_a);
+  module.def(
+    "stream_error",
+    [](const nb::dict& parameters)
+    { return StreamingReconstruction::errorOf(parametersOf(parameters)); },
+    "parameters"_a);
   module.def(
     "errors", [](const nb::dict& parameters) { return parametersOf(parameters).errors(); },
     "parameters"_a);

@@ -74,8 +74,7 @@ nb::object explain(
     cloud.emplace(spans, std::span<const double>(), true, executor);
     if (!cloud->hasExtent())
     {
-      throw std::invalid_argument(cloud->points().empty() ? "No point of the input is finite."
-                                                          : "All points of the input coincide.");
+      throw std::invalid_argument(cloud->whyNoExtent());
     }
     ExplanationRules rules;
     rules.leastPiece = leastPiece;

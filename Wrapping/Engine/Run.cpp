@@ -4,10 +4,13 @@
 #include "Report.h"
 #include "Values.h"
 
+#include "cloud/AttributeNumbers.h"
 #include "cloud/AttributeVote.h"
-#include "cloud/CarriedValues.h"
 #include "cloud/CoordinateRange.h"
 #include "cloud/MeshBuilder.h"
+#include "run/AutomaticReconstruction.h"
+#include "run/EnsembleRun.h"
+#include "run/Warnings.h"
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -22,9 +25,6 @@ namespace neuralmesh::binding
 {
 namespace
 {
-/// Where parameters are chosen, if they are.
-constexpr double EndOfChoice = 0.3;
-
 void requireWeights(std::span<const double> weights)
 {
   const auto isPositive = [](double weight) { return weight > 0. && std::isfinite(weight); };
@@ -53,8 +53,7 @@ Run::Run(std::vector<AnyArray> points, std::optional<ArrayOf<double>> weights, S
   times_.leave();
   if (!cloud_->hasExtent())
   {
-    throw std::invalid_argument(cloud_->points().empty() ? "No point of the input is finite."
-                                                         : "All points of the input coincide.");
+    throw std::invalid_argument(cloud_->whyNoExtent());
   }
 }
 
@@ -67,46 +66,52 @@ void Run::learn(Plan plan, Call& call)
 {
   Parameters parameters = parametersOf(plan.parameters);
   seed_ = parameters.seed;
+  std::optional<EnsembleParameters> ensemble;
+  if (plan.ensemble)
+  {
+    ensemble = ensembleParametersOf(*plan.ensemble);
+  }
   const nb::gil_scoped_release unlocked;
   warnings_ = parameters.warnings(cloud_->points().size());
-  std::optional<Mesh> first;
-  try
+  CheckpointPlan checkpoint{ .path = plan.checkpoint,
+    .interval = plan.checkpointInterval,
+    .warn = [this](const std::string& text)
+    { warnings_.push_back("The run goes on without a checkpoint: " + text); } };
+  std::optional<Mesh> first = firstMeshOf(std::move(plan.firstMesh));
+  double begin = 0.;
+  if (ensemble)
   {
-    if (plan.firstMesh)
+    begin = startFrom(*ensemble, parameters, checkpoint, first, call);
+  }
+  if (first)
+  {
+    if (const std::string warning = warningOfFirst(*first, parameters); !warning.empty())
     {
-      first = buildMesh(std::move(*plan.firstMesh), *cloud_);
+      warnings_.push_back(warning);
     }
   }
-  catch (const std::runtime_error& error)
+  GrowthWatch watch;
+  if (plan.snapshots > 0)
   {
-    throw std::invalid_argument(
-      std::string("Learning cannot start from the first mesh: ") + error.what() + ".");
+    watch = { plan.snapshots,
+      [&](const GrowthSnapshot& snapshot)
+      { call.with([&] { plan.takeSnapshot(meshOf(snapshot, true)); }); } };
   }
-  if (first && first->vertexCount() > parameters.numberOfVertices)
-  {
-    warnings_.push_back("The mesh to start from has " + std::to_string(first->vertexCount()) +
-      " vertices, more than " + std::to_string(parameters.numberOfVertices) +
-      (parameters.fitRounds > 0 ? ": it is fitted, but grows no further."
-                                : ": it comes out as it is."));
-  }
-  if (plan.isAutomatic)
-  {
-    chooseParameters(parameters, call);
-  }
-  const GrowthWatch watch{ plan.snapshots,
-    [&](const GrowthSnapshot& snapshot)
-    { call.with([&] { plan.takeSnapshot(meshOf(snapshot, true)); }); } };
-  const CheckpointPlan checkpoint{ .path = plan.checkpoint,
-    .interval = plan.checkpointInterval,
-    .warn =
-      [&](const std::string& text)
-    { warnings_.push_back("The run goes on without a checkpoint: " + text); },
-    .areParametersChosen = isChoiceWhole_ };
+  const Progress progress = call.part(begin, plan.endOfMesh);
   try
   {
-    result_ = reconstruct(*cloud_, parameters,
-      call.part(plan.isAutomatic ? EndOfChoice : 0., plan.endOfMesh), first,
-      plan.snapshots > 0 ? watch : GrowthWatch(), checkpoint, executor_, hints_, plan.explainsAll);
+    if (plan.isAutomatic)
+    {
+      AutomaticReconstruction automatic = reconstructAutomatically(*cloud_, parameters, progress, {},
+        first, watch, checkpoint, executor_, hints_, plan.explainsAll);
+      tuning_ = std::move(automatic.tuning);
+      result_ = std::move(automatic.reconstruction);
+    }
+    else
+    {
+      result_ = reconstruct(*cloud_, parameters, progress, first, watch, checkpoint, executor_,
+        hints_, plan.explainsAll);
+    }
   }
   catch (const std::runtime_error& error)
   {
@@ -116,18 +121,59 @@ void Run::learn(Plan plan, Call& call)
   times_.add(result_.times);
 }
 
-/// Whoever ends the run while parameters are chosen ends it with them as they were.
-void Run::chooseParameters(Parameters& parameters, Call& call)
+std::optional<Mesh> Run::firstMeshOf(std::optional<TriangleMesh> triangles) const
 {
-  times_.enter(Phase::Choice);
-  tuning_ = tune(*cloud_, parameters, call.part(0., EndOfChoice), executor_);
-  isChoiceWhole_ = tuning_.has_value();
-  if (!tuning_)
+  try
   {
-    tuning_ = Tuning{ parameters, {}, {}, {} };
+    return triangles ? std::optional(buildMesh(std::move(*triangles), *cloud_)) : std::nullopt;
   }
-  parameters = tuning_->parameters;
-  times_.leave();
+  catch (const std::runtime_error& error)
+  {
+    throw std::invalid_argument(
+      std::string("Learning cannot start from the first mesh: ") + error.what() + ".");
+  }
+}
+
+/// Returns where the refinement begins, as a fraction of the whole run.
+double Run::startFrom(const EnsembleParameters& ensemble, Parameters& parameters,
+  CheckpointPlan& checkpoint, std::optional<Mesh>& first, Call& call)
+{
+  EnsembleStart start = startByEnsemble(
+    *cloud_, ensemble, parameters, call.part(0., 1.), [](EnsembleStep) {}, executor_);
+  parameters.timeLimit = start.timeLimit;
+  checkpoint.isStartWhole = start.votes.has_value();
+  if (!start.warning.empty())
+  {
+    warnings_.push_back(start.warning);
+  }
+  if (start.isAverage())
+  {
+    average_ = neuralmesh::trianglesOf(*start.mesh, *cloud_);
+  }
+  votes_ = std::move(start.votes);
+  first = std::move(start.mesh);
+  return start.end;
+}
+
+nb::dict Run::average(bool isDouble) const
+{
+  return average_ ? meshOf(*average_, isDouble) : nb::dict();
+}
+
+nb::dict Run::votes() const
+{
+  nb::dict result;
+  if (votes_)
+  {
+    std::vector<float> shares(votes_->votes.size());
+    std::transform(votes_->votes.begin(), votes_->votes.end(), shares.begin(),
+      [&](std::uint8_t count) { return float(count) / float(votes_->voters); });
+    result["values"] = arrayOf(std::move(shares));
+    result["origin"] = nb::make_tuple(
+      votes_->grid.first.x(), votes_->grid.first.y(), votes_->grid.first.z());
+    result["spacing"] = votes_->grid.width;
+  }
+  return result;
 }
 
 nb::dict Run::mesh(bool isDouble) const
@@ -190,10 +236,10 @@ nb::object Run::fit(const ArrayOf<double>& values) const
   std::vector<double> fitted;
   {
     const nb::gil_scoped_release unlocked;
-    fitted = carryValues(
+    fitted = carryNumbers(
       *places_, components,
-      [&](std::size_t origin, double* ofPoint)
-      { std::copy_n(values.data() + components * origin, components, ofPoint); },
+      [&](std::uint32_t point, std::span<double> tuple)
+      { std::copy_n(values.data() + components * point, components, tuple.data()); },
       executor_);
   }
   return arrayOf(std::move(fitted), components);
@@ -204,18 +250,8 @@ nb::object Run::vote(const ArrayOf<std::uint32_t>& kinds) const
   std::vector<std::uint32_t> winners;
   {
     const nb::gil_scoped_release unlocked;
-    const std::span<const std::uint32_t> origins = cloud_->origins();
-    // A kind has the number of its first point that counts.
-    std::vector<std::uint32_t> first(pointCount_, NoLabel);
-    for (const std::uint32_t origin : origins)
-    {
-      std::uint32_t& lowest = first[kinds.data()[origin]];
-      lowest = std::min(lowest, origin);
-    }
-    std::vector<std::uint32_t> labels(origins.size());
-    std::transform(origins.begin(), origins.end(), labels.begin(),
-      [&](std::uint32_t origin) { return first[kinds.data()[origin]]; });
-    winners = voteForLabels(*places_, labels);
+    winners = voteForKinds(*places_,
+      [&](std::uint32_t point) { return std::to_string(kinds.data()[point]); });
   }
   return arrayOf(std::move(winners));
 }

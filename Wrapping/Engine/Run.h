@@ -8,8 +8,10 @@
 #include "base/ThreadPool.h"
 #include "cloud/CloudPlaces.h"
 #include "cloud/PointCloud.h"
+#include "run/EnsembleParameters.h"
 #include "run/Reconstruction.h"
 #include "run/Tuning.h"
+#include "start/VoxelMajority.h"
 
 #include <memory>
 #include <optional>
@@ -50,7 +52,8 @@ public:
 
   nanobind::dict mesh(bool isDouble) const;
   nanobind::dict average(bool isDouble) const; ///< of an ensemble; empty if there is none
-  nanobind::dict votes() const;                ///< likewise
+  /// Likewise: the share of the members that hold each voxel, the first voxel, and their width.
+  nanobind::dict votes() const;
   nanobind::dict curve() const;
   nanobind::dict explained() const;
   nanobind::dict times() const;
@@ -68,7 +71,9 @@ public:
   nanobind::object vote(const ArrayOf<std::uint32_t>& kinds) const;
 
 private:
-  void chooseParameters(Parameters& parameters, Call& call);
+  std::optional<Mesh> firstMeshOf(std::optional<TriangleMesh> triangles) const;
+  double startFrom(const EnsembleParameters& ensemble, Parameters& parameters,
+    CheckpointPlan& checkpoint, std::optional<Mesh>& first, Call& call);
 
   std::vector<AnyArray> points_;
   Sides sides_;
@@ -79,8 +84,9 @@ private:
   std::optional<PointCloud> cloud_;
   Reconstruction result_;
   std::optional<Tuning> tuning_;
+  std::optional<VoxelVotes> votes_;
+  std::optional<TriangleMesh> average_;
   std::vector<std::string> warnings_;
-  bool isChoiceWhole_ = true;
   std::uint64_t seed_ = 0;
   std::optional<CloudPlaces> places_;
 };

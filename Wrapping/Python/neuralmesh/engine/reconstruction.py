@@ -19,8 +19,6 @@ from .mesh import Mesh
 Progress = Callable[[float], "bool | None"]
 
 _END_OF_MESH = 0.95  # of the progress; then point data is carried over
-_POINTS_PER_VERTEX = 50
-_FEWEST_POINTS = 1000000
 _SINGLE, _DOUBLE = 0, 1
 
 
@@ -64,9 +62,7 @@ class NeuralMesh(NeuralMeshAlgorithm):
     def GetUsedMaximumPoints(self) -> int:
         """MaximumPoints, or what stands for 0."""
         wanted = int(self._values["MaximumPoints"])
-        return wanted or max(
-            _FEWEST_POINTS, _POINTS_PER_VERTEX * int(self._values["NumberOfVertices"])
-        )
+        return wanted or _engine.usual_points(int(self._values["NumberOfVertices"]))
 
     def SetWeightArrayName(self, name: str | None) -> None:
         """The point array of weights."""
@@ -209,7 +205,6 @@ class NeuralMesh(NeuralMeshAlgorithm):
         outcome = Outcome(
             Mesh(**run.mesh(is_double)), run.curve(), warnings=warnings + run.warnings
         )
-        outcome.mesh.field_data["Warnings"] = outcome.warnings
         if explains:
             outcome.explained = explained_points(cloud, run.explained())
         if self.IS_ENSEMBLE:

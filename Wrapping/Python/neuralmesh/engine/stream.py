@@ -13,8 +13,6 @@ from .mesh import Mesh
 
 Progress = Callable[[float], "bool | None"]
 
-_NOISE_FILTERING, _EXACT = 1, 0
-
 
 @with_properties(
     *of_name("NumberOfVertices", "Seed"),
@@ -34,22 +32,13 @@ class NeuralMeshStream(NeuralMeshAlgorithm):
         """
         if self._stream is not None:
             return self._stream
-        values = self._values
         problems = self.parameter_errors()
-        is_fixed = (
-            values["Variant"] == _NOISE_FILTERING
-            and values["Order"] == _EXACT
-            and not values["TopologyLearning"]
-            and not values["ComputeFeatureStrength"]
-        )
-        if not is_fixed:
-            problems.append(
-                "A stream is learnt in the noise-filtering variant with exact order only, and neither "
-                "topology nor feature strength are."
-            )
+        error = _engine.stream_error(self._engine_values())
+        if error:
+            problems.append(error)
         if problems:
             raise ValueError(" ".join(problems))
-        self._stream = _engine.Stream(self._engine_values(), int(values["ReservoirSize"]))
+        self._stream = _engine.Stream(self._engine_values(), int(self._values["ReservoirSize"]))
         return self._stream
 
     def add_cloud(self, cloud: Cloud) -> list[str]:
