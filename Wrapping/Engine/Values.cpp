@@ -21,6 +21,10 @@ void take(Value& value, const nb::handle& number)
   {
     value = Value(nb::cast<int>(number));
   }
+  else if constexpr (std::is_same_v<Value, bool>)
+  {
+    value = nb::cast<int>(number) != 0;
+  }
   else
   {
     value = nb::cast<Value>(number);
@@ -30,7 +34,7 @@ void take(Value& value, const nb::handle& number)
 template <typename Value>
 nb::object numberOf(Value value)
 {
-  if constexpr (std::is_enum_v<Value>)
+  if constexpr (std::is_enum_v<Value> || std::is_same_v<Value, bool>)
   {
     return nb::cast(int(value));
   }

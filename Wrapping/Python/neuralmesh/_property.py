@@ -86,4 +86,4 @@ def with_properties(*properties: Property) -> Callable[[type], type]:
 
 def new_values(cls: type) -> dict[str, int | float]:
     """The defaults of all properties of a class."""
-    return {one.name: one.default for one in getattr(cls, "PROPERTIES").values()}
+    return {one.name: one.clamped(one.default) for one in getattr(cls, "PROPERTIES").values()}

@@ -84,14 +84,17 @@ class Mesh:
         data.SetPoints(vtk_points(self.points))
         cells = vtkCellArray()
         if len(self.triangles) > 0:
+            # VTK may keep the memory of these without the array that it was given.
             corners = np.ascontiguousarray(self.triangles, dtype=np.int64)
-            cells.SetData(3, numpy_to_vtkIdTypeArray(corners.reshape(-1)))
+            cells.SetData(3, numpy_to_vtkIdTypeArray(corners.reshape(-1), deep=True))
             data.SetPolys(cells)
         elif len(self.points) > 0:
             # Points alone are to be seen, too: all are one cell.
             numbers = np.arange(len(self.points), dtype=np.int64)
             offsets = np.array([0, len(self.points)], dtype=np.int64)
-            cells.SetData(numpy_to_vtkIdTypeArray(offsets), numpy_to_vtkIdTypeArray(numbers))
+            cells.SetData(
+                numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(numbers, deep=True)
+            )
             data.SetVerts(cells)
         for name, values in self.point_data.items():
             array = named(values, name)
