@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """NeuralMesh beside PyVista: what goes in as PyVista comes out so, by functions and by the accessor.
 
@@ -74,8 +73,9 @@ def run_script(script):
     process = subprocess.run(
         [sys.executable, "-W", "error::RuntimeWarning", "-c", textwrap.dedent(script)],
         capture_output=True, text=True,
-    )
-    assert process.returncode == 0, process.stderr
+    )  # fmt: skip
+    if process.returncode != 0:
+        raise AssertionError(process.stderr)
     return process.stdout
 
 

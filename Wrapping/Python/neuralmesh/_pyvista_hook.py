@@ -35,7 +35,7 @@ class _Finder:
             return None
         others = [finder for finder in sys.meta_path if finder is not self]
         specs = (one.find_spec(name, path, target) for one in others if hasattr(one, "find_spec"))
-        spec = next((spec for spec in specs if spec is not None), None)
+        spec: Any = next((spec for spec in specs if spec is not None), None)
         execute = getattr(spec and spec.loader, "exec_module", None)
         if execute is not None:
 
