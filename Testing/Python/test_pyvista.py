@@ -6,9 +6,14 @@ skipped.
 """
 
 import gc
+import importlib.util
 import inspect
+import os
+import pathlib
+import shutil
 import subprocess
 import sys
+import tempfile
 import textwrap
 import unittest
 import warnings
@@ -24,6 +29,7 @@ except ImportError as error:
     print(f"skipped: there is no PyVista for {sys.executable}: {error}")
     sys.exit()
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 DIRECTIONS = {"reference_to_result", "result_to_reference"}
 
 
@@ -306,6 +312,29 @@ class Data(unittest.TestCase):
             ours = [one for one in caught if one.category is RuntimeWarning]
             self.assertTrue(ours)
             self.assertEqual({one.filename for one in ours}, {__file__})
+
+
+class Page(unittest.TestCase):
+    # Promise: all that the tutorial shows works as it is printed, plots and all.
+    def test_page(self):
+        if importlib.util.find_spec("vtkmodules") is None:
+            self.skipTest("what runs the blocks of a page needs vtkmodules")
+        with tempfile.TemporaryDirectory() as build:
+            runner = [sys.executable, ROOT / "Testing" / "Documentation" / "run_blocks.py"]
+            process = subprocess.run(
+                [*self.screen(), *runner, ROOT, build, "Documentation/PyVista.md"],
+                capture_output=True, text=True,
+            )  # fmt: skip
+        self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
+        self.assertIn("all well", process.stdout)
+
+    def screen(self):
+        """What a command begins with that draws: from version 9.4 on pip's VTK needs no screen."""
+        if os.environ.get("DISPLAY") or pyvista.vtk_version_info >= (9, 4):
+            return []
+        if shutil.which("xvfb-run") is None:
+            self.skipTest("there is no screen, and no xvfb-run")
+        return ["xvfb-run", "-a"]
 
 
 if __name__ == "__main__":
