@@ -31,7 +31,5 @@ for block in page.blocks:
     if block.language == "python":
         exec(block.text, variables)
 for path in folder.glob("pyvista_*.png"):
-    # Few colours are enough, and make small files.
-    picture = Image.open(path).convert("RGB").quantize(128, dither=Image.Dither.NONE)
-    picture.save(root / "Documentation" / "Pictures" / path.name, optimize=True)
+    Image.open(path).convert("RGB").save(root / "Documentation" / "Pictures" / path.name, optimize=True)
 END
