@@ -34,7 +34,9 @@ class Info(unittest.TestCase):
                 writer.Write()
                 printed = subprocess.run(
                     [os.environ["NEURALMESH_COMMAND"], "info", "--json", str(path)],
-                    check=True, capture_output=True, text=True,
+                    check=True,
+                    capture_output=True,
+                    text=True,
                 ).stdout
             wanted = json.loads(printed)
             del wanted["file"]
@@ -61,7 +63,9 @@ class Info(unittest.TestCase):
     # Promise: an empty mesh has figures of 0; what is no mesh is a ValueError that says so.
     def test_bad_input(self):
         figures = neuralmesh.info(vtkPolyData())
-        self.assertEqual((figures["vertices"], figures["surface_area"], figures["valences"]), (0, 0.0, {}))
+        self.assertEqual(
+            (figures["vertices"], figures["surface_area"], figures["valences"]), (0, 0.0, {})
+        )
         for mesh, kind in ((vtkUnstructuredGrid(), "vtkUnstructuredGrid"), (None, "NoneType")):
             with self.assertRaises(ValueError) as caught:
                 neuralmesh.info(mesh)

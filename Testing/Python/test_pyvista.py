@@ -65,7 +65,9 @@ def clouds():
         "PolyData": pyvista.PolyData(points),
         "PointSet": pyvista.PointSet(points),
         "UnstructuredGrid": grid(points),
-        "StructuredGrid": pyvista.StructuredGrid(*(points.reshape(50, 60, 1, 3)[..., i] for i in range(3))),
+        "StructuredGrid": pyvista.StructuredGrid(
+            *(points.reshape(50, 60, 1, 3)[..., i] for i in range(3))
+        ),
         "MultiBlock": pyvista.MultiBlock([pyvista.PolyData(points[:1000]), grid(points[1000:])]),
     }
 
@@ -88,9 +90,12 @@ def run_script(script):
 class Registration(unittest.TestCase):
     # Promise: the accessor is there in whatever order the packages are imported, once.
     def test_orders(self):
-        for imports in ("import pyvista, neuralmesh", "import neuralmesh, pyvista",
-                        "import neuralmesh; from pyvista import examples; import pyvista",
-                        "import pyvista, neuralmesh.pyvista_accessor as a; a.register()"):
+        for imports in (
+            "import pyvista, neuralmesh",
+            "import neuralmesh, pyvista",
+            "import neuralmesh; from pyvista import examples; import pyvista",
+            "import pyvista, neuralmesh.pyvista_accessor as a; a.register()",
+        ):
             with self.subTest(imports):
                 output = run_script(f"""
                     {imports}
@@ -126,8 +131,12 @@ class Registration(unittest.TestCase):
     # Promise: the methods have signature and documentation of the functions, less what they know.
     def test_signatures(self):
         surface = pyvista.PolyData.neuralmesh
-        for name, own in (("reconstruct", "points"), ("explain", "points"), ("compare", "result"),
-                          ("info", "mesh")):
+        for name, own in (
+            ("reconstruct", "points"),
+            ("explain", "points"),
+            ("compare", "result"),
+            ("info", "mesh"),
+        ):
             with self.subTest(name):
                 function, method = getattr(neuralmesh, name), getattr(surface, name)
                 wanted = list(inspect.signature(function).parameters.values())
@@ -136,6 +145,7 @@ class Registration(unittest.TestCase):
                 told = inspect.getdoc(method)
                 self.assertNotRegex(told, rf"(?m)^    {own}: ")
                 self.assertIn("Returns:", told)
+                self.assertEqual("Args:" in told, bool(found))
                 for parameter in found:
                     self.assertIn(f"{parameter.name}: ", told)
 
@@ -143,13 +153,22 @@ class Registration(unittest.TestCase):
     def test_hints(self):
         cloud = pyvista.PolyData(sphere(100))
         for word, meant in {
-            "n_vertices": "vertices", "n_points": "vertices", "target_vertices": "vertices",
-            "targetfacenum": "vertices? They are about half", "n_cells": "vertices? They are about half",
-            "random_state": "seed", "progress_bar": "progress", "n_threads": "number_of_threads",
-            "camera_location": "viewpoints", "hole_size": "close_holes_below", "verticess": "vertices",
+            "n_vertices": "vertices",
+            "n_points": "vertices",
+            "target_vertices": "vertices",
+            "targetfacenum": "vertices? They are about half",
+            "n_cells": "vertices? They are about half",
+            "random_state": "seed",
+            "progress_bar": "progress",
+            "n_threads": "number_of_threads",
+            "camera_location": "viewpoints",
+            "hole_size": "close_holes_below",
+            "verticess": "vertices",
         }.items():
-            for function in (cloud.neuralmesh.reconstruct,
-                             lambda **parameters: neuralmesh.reconstruct(cloud, **parameters)):
+            for function in (
+                cloud.neuralmesh.reconstruct,
+                lambda **parameters: neuralmesh.reconstruct(cloud, **parameters),
+            ):
                 with self.subTest(word), self.assertRaises(TypeError) as caught:
                     function(**{word: 100})
                 self.assertIn(f"did you mean {meant}", str(caught.exception))
@@ -157,7 +176,9 @@ class Registration(unittest.TestCase):
     # Promise: volumes have no accessor, and clouds none of surfaces but advice.
     def test_others(self):
         self.assertFalse(hasattr(pyvista.PointSet(sphere(10)).neuralmesh, "info"))
-        with self.assertRaisesRegex(AttributeError, r"extract_surface\(\)\.neuralmesh\.compare\(\)"):
+        with self.assertRaisesRegex(
+            AttributeError, r"extract_surface\(\)\.neuralmesh\.compare\(\)"
+        ):
             grid(sphere(10)).neuralmesh.compare
         with self.assertRaises(AttributeError):
             pyvista.Sphere().neuralmesh.reconstrct
@@ -223,7 +244,9 @@ class Kinds(unittest.TestCase):
         self.assertIs(told["closed"], True)
         self.assertAlmostEqual(told["volume"], 1.0)
         plane = pyvista.Plane(i_resolution=3, j_resolution=2).neuralmesh.info()
-        self.assertEqual((plane["boundary_loops"], plane["volume"], plane["closed"]), (1, None, False))
+        self.assertEqual(
+            (plane["boundary_loops"], plane["volume"], plane["closed"]), (1, None, False)
+        )
 
     # Promise: a first mesh may be PyVista's, and what is none is named.
     def test_first_mesh(self):
@@ -255,7 +278,9 @@ class Data(unittest.TestCase):
         self.assertLess(np.abs(mesh["Height"] - mesh.points[:, 2]).max(), 0.1)
         self.assertEqual(set(np.unique(mesh["Half"])), {0, 1})
         self.assertTrue(np.issubdtype(mesh["Half"].dtype, np.integer))
-        self.assertIsNone(pyvista.PolyData(sphere()).neuralmesh.reconstruct(300).active_scalars_name)
+        self.assertIsNone(
+            pyvista.PolyData(sphere()).neuralmesh.reconstruct(300).active_scalars_name
+        )
 
     # Promise: normals are those of PyVista, and look outwards; the report is field data.
     def test_normals_and_report(self):
@@ -292,10 +317,17 @@ class Data(unittest.TestCase):
         before = cloud.copy()
         mesh, explained = cloud.neuralmesh.reconstruct(300, explain=True)
         self.assertEqual(cloud, before)
-        copies = [mesh.points.copy(), faces(mesh).copy(), mesh["Height"].copy(), explained["Distance"].copy()]
+        copies = [
+            mesh.points.copy(),
+            faces(mesh).copy(),
+            mesh["Height"].copy(),
+            explained["Distance"].copy(),
+        ]
         del cloud, before
         gc.collect()
-        for array, copy in zip((mesh.points, faces(mesh), mesh["Height"], explained["Distance"]), copies):
+        for array, copy in zip(
+            (mesh.points, faces(mesh), mesh["Height"], explained["Distance"]), copies
+        ):
             np.testing.assert_array_equal(array, copy)
         mesh.points += 1
         self.assertAlmostEqual(mesh.center[0], 1, places=1)
@@ -304,7 +336,10 @@ class Data(unittest.TestCase):
     # Promise: what must be known of a mesh is a warning of the line that asked for it, through whatever.
     def test_warnings(self):
         cloud = pyvista.PolyData(sphere(200))
-        for call in (lambda: neuralmesh.reconstruct(cloud, 400), lambda: cloud.neuralmesh.reconstruct(400)):
+        for call in (
+            lambda: neuralmesh.reconstruct(cloud, 400),
+            lambda: cloud.neuralmesh.reconstruct(400),
+        ):
             # Not assertWarns(), for which PyVista would import its plotting, which cvista need not have.
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")

@@ -38,4 +38,5 @@ else:
         """The classes for pipelines, which import VTK only where they are wanted."""
         return _own_engine.vtk_class(name)
 
+
 _pyvista_hook.install()

@@ -49,6 +49,9 @@ def _without_argument(documentation: str | None, name: str) -> str | None:
     end = begin + 1
     while lines[end].startswith(" " * (indent + 1)):
         end += 1
+    if lines[begin - 1].strip() == "Args:" and not lines[end].strip():
+        # It was the only one.
+        begin, end = begin - 1, end + 1
     return "\n".join(lines[:begin] + lines[end:])
 
 
