@@ -354,6 +354,10 @@ class Page(unittest.TestCase):
     def test_page(self):
         if importlib.util.find_spec("vtkmodules") is None:
             self.skipTest("what runs the blocks of a page needs vtkmodules")
+        try:
+            import pyvista.plotting  # noqa: F401
+        except ImportError as error:
+            self.skipTest(f"PyVista cannot plot here: {error}")
         with tempfile.TemporaryDirectory() as build:
             runner = [sys.executable, ROOT / "Testing" / "Documentation" / "run_blocks.py"]
             process = subprocess.run(
