@@ -248,6 +248,16 @@ class Kinds(unittest.TestCase):
             (plane["boundary_loops"], plane["volume"], plane["closed"]), (1, None, False)
         )
 
+    # Promise: figures of an empty mesh are 0, and a cell without its points is an error.
+    def test_bad_meshes(self):
+        told = pyvista.PolyData().neuralmesh.info()
+        self.assertEqual((told["vertices"], told["surface_area"], told["valences"]), (0, 0.0, {}))
+        broken = pyvista.PolyData()
+        broken.points = np.eye(3)
+        broken.faces = [3, 0, 1, 9]
+        with self.assertRaisesRegex(ValueError, "point 9"):
+            broken.neuralmesh.info()
+
     # Promise: a first mesh may be PyVista's, and what is none is named.
     def test_first_mesh(self):
         cloud = pyvista.PolyData(sphere())
