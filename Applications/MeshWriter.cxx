@@ -26,7 +26,7 @@ void RequireWritableExtension(const std::string& path)
 {
   if (!vtkNeuralMeshWriter::CanWriteFile(path.c_str()))
   {
-    throw std::runtime_error(path + ": unknown extension; writable are .vtp .ply .obj .stl");
+    throw std::runtime_error(path + ": unknown extension; writable are .vtp .ply .obj .stl .glb .off .vtk");
   }
 }
 

@@ -22,7 +22,7 @@ void RequireWritableDigits(
   vtkPointSet* points, vtkIdType numberOfVertices, const MeshShift& shift, const std::string& path);
 
 /**
- * Writes a mesh, by the extension, as vtkNeuralMeshWriter: .vtp .ply .obj .stl. Whole or not at all.
+ * Writes a mesh, by the extension, as vtkNeuralMeshWriter: .vtp .ply .obj .stl .glb .off .vtk. Whole or not at all.
  * Returns what was taken off the coordinates.
  * Throws std::runtime_error, with a message that names the file, on failure.
  */

@@ -44,7 +44,7 @@ for header in Filters/vtkNeuralMesh.h.in Filters/vtkNeuralMeshAlgorithm.h.in \
   Filters/vtkNeuralMeshEnsemble.h.in Filters/vtkNeuralMeshComparison.h Filters/vtkNeuralMeshExplanation.h \
   Filters/vtkNeuralMeshScan.h \
   Filters/vtkNeuralMeshFileSampler.h Filters/vtkNeuralMeshStream.h.in \
-  Filters/vtkNeuralMeshPLYReader.h Filters/vtkNeuralMeshWriter.h \
+  Filters/vtkNeuralMeshPLYReader.h Filters/vtkNeuralMeshReader.h Filters/vtkNeuralMeshWriter.h \
   Filters/vtkPNeuralMesh.h Filters/vtkPNeuralMeshEnsemble.h; do
   if grep -nE '^ *# *include +"[^v]' "$header"; then
     failed=1
