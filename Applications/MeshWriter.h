@@ -11,6 +11,9 @@
 class vtkPointSet;
 class vtkPolyData;
 
+/** Whether WriteMesh() knows the extension. */
+bool IsWritable(const std::string& path);
+
 /** Throws std::runtime_error if WriteMesh() would not know the extension: to be asked early. */
 void RequireWritableExtension(const std::string& path);
 

@@ -273,8 +273,19 @@ vtkSmartPointer<vtkPointSet> DrawPoints(vtkNeuralMeshFileSampler* sampler)
   return sampler->GetOutput();
 }
 
+/** Throws UsageError if the last of several names is no mesh: it was meant for something else. */
+void RequireSoundNames(const ReconstructOptions& options)
+{
+  if (options.Inputs.size() > 1 && !IsWritable(options.Output))
+  {
+    throw UsageError(options.Output +
+      ": this is the last of several files, so it is OUTPUT; but it has no extension of a mesh");
+  }
+}
+
 int Reconstruct(const ReconstructOptions& options)
 {
+  RequireSoundNames(options);
   const vtkSmartPointer<vtkNeuralMesh> filter = MakeFilter(options);
   PrepareFilter(filter, options);
   std::vector<NamedFile> files{ { "--initial", options.Initial },

@@ -35,7 +35,7 @@ FileContents readPwn(const std::string& path)
   FileContents contents;
   if (!file.nextFilledLine())
   {
-    return contents;
+    throw file.error("there are no points in it");
   }
   std::string_view line = file.line();
   std::uint64_t announced = 0;
