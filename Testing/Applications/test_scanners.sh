@@ -176,5 +176,4 @@ test_conversions()
   done
 }
 
-
 "test_$2"

@@ -95,7 +95,7 @@ TEST_F(DamagedFiles, EveryCut)
     EXPECT_GT(whole.size(), 0u);
     const bool isBinary = bytes.find('\0') != std::string::npos;
     const std::size_t needed = isBinary ? bytes.size() : placeOfLastNumber(bytes);
-    for (std::size_t size = 0; size < needed; size += 10)
+    for (std::size_t size = 1; size < needed; size += 10)
     {
       const std::string message = refusal(name, bytes.substr(0, size));
       if (tellsItsEnd)
