@@ -27,7 +27,8 @@ void AddPointsAndOutput(CLI::App* command, std::vector<std::string>& inputs, std
   // order.
   const auto outputOption = std::make_shared<CLI::Option*>();
   command
-    ->add_option_function<std::vector<std::string>>("INPUT",
+    ->add_option_function<std::vector<std::string>>(
+      "INPUT",
       [&inputs, outputOption](const std::vector<std::string>& names)
       {
         inputs = names;
@@ -37,8 +38,7 @@ void AddPointsAndOutput(CLI::App* command, std::vector<std::string>& inputs, std
           inputs.pop_back();
         }
       },
-      PointFileFormats +
-        "; several files are one cloud")
+      PointFileFormats + "; several files are one cloud")
     ->required()
     ->type_name("");
   *outputOption = AddFile(command, "OUTPUT", output, description);

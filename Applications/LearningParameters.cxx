@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LearningParameters.h"
 
-#include "NearestNames.h"
 #include "base/OneLine.h"
+#include "NearestNames.h"
 #include "vtkNeuralMeshEnsemble.h"
 #include "vtkNeuralMeshParameters.h"
 
@@ -114,8 +114,8 @@ LearningParameter Describe(const char* name, const std::vector<std::string>& tex
     const std::optional<ValueT> value = ValueOf<ValueT>(text, words);
     if (!value || !(*value >= minimum && *value <= maximum))
     {
-      throw UsageError(
-        "--set " + std::string(name) + "=" + neuralmesh::oneLine(text) + ": " + name + " must be " + range);
+      throw UsageError("--set " + std::string(name) + "=" + neuralmesh::oneLine(text) + ": " +
+        name + " must be " + range);
     }
     auto* owner = dynamic_cast<OwnerT*>(filter);
     if (!owner)

@@ -32,8 +32,7 @@ vtkSmartPointer<vtkPolyData> MergeEqualPoints(vtkPolyData* mesh)
 
 vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& path)
 {
-  static const std::set<std::string> extensions{ ".ply", ".vtp", ".vtk", ".obj", ".stl",
-    ".off" };
+  static const std::set<std::string> extensions{ ".ply", ".vtp", ".vtk", ".obj", ".stl", ".off" };
   const std::string extension = FileExtension(path);
   if (extensions.count(extension) == 0)
   {

@@ -22,16 +22,14 @@ void Prepare(vtkNeuralMeshWriter* writer, ErrorCollector* errors, const MeshShif
 }
 }
 
-bool IsWritable(const std::string& path)
-{
-  return vtkNeuralMeshWriter::CanWriteFile(path.c_str());
-}
+bool IsWritable(const std::string& path) { return vtkNeuralMeshWriter::CanWriteFile(path.c_str()); }
 
 void RequireWritableExtension(const std::string& path)
 {
   if (!IsWritable(path))
   {
-    throw std::runtime_error(path + ": unknown extension; writable are .vtp .ply .obj .stl .glb .off .vtk");
+    throw std::runtime_error(
+      path + ": unknown extension; writable are .vtp .ply .obj .stl .glb .off .vtk");
   }
 }
 

@@ -58,7 +58,8 @@ void OrientationOptions::AddTo(CLI::App* command)
       ->allow_extra_args(false);
   command
     ->add_option("--views", this->ViewFile,
-      "The places of the scanner, one for each view, as the points of this file; else as --viewpoint")
+      "The places of the scanner, one for each view, as the points of this file; else as "
+      "--viewpoint")
     ->type_name("FILE")
     ->excludes(viewpoint);
   command

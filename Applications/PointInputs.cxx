@@ -66,9 +66,7 @@ void StoreViews(const std::vector<std::uint32_t>& views, vtkPointSet* points)
   array->SetNumberOfValues(static_cast<vtkIdType>(views.size()));
   std::transform(views.begin(), views.end(), array->GetPointer(0),
     [](std::uint32_t view)
-    {
-      return view == neuralmesh::OrientationHints::NoView ? -1 : static_cast<int>(view);
-    });
+    { return view == neuralmesh::OrientationHints::NoView ? -1 : static_cast<int>(view); });
   points->GetPointData()->AddArray(array);
 }
 
@@ -114,8 +112,7 @@ vtkNew<vtkPoints> JoinedPoints(const Parts& parts)
   const auto hasDoubles = [](vtkPointSet* part)
   { return part->GetPoints() && part->GetPoints()->GetDataType() == VTK_DOUBLE; };
   vtkNew<vtkPoints> points;
-  points->SetDataType(
-    std::any_of(parts.begin(), parts.end(), hasDoubles) ? VTK_DOUBLE : VTK_FLOAT);
+  points->SetDataType(std::any_of(parts.begin(), parts.end(), hasDoubles) ? VTK_DOUBLE : VTK_FLOAT);
   for (const auto& part : parts)
   {
     for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i)
@@ -206,7 +203,7 @@ vtkSmartPointer<vtkPointSet> ReadInputs(
     parts.push_back(ReadPoints(path));
     views.push_back(ViewsOf(parts.back()));
   }
-  const vtkSmartPointer<vtkPointSet> points =
+  vtkSmartPointer<vtkPointSet> points =
     parts.size() == 1 ? parts.front() : vtkSmartPointer<vtkPointSet>(Join(parts));
   if (given.NumberOfViewpoints > 0)
   {

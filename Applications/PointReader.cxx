@@ -193,9 +193,10 @@ vtkSmartPointer<vtkPointSet> ReadPoints(const std::string& path)
   {
     const std::string conversion = vtkNeuralMeshReader::GetConversion(path.c_str());
     throw std::runtime_error(path + ": " +
-      (conversion.empty() ? "unknown extension; readable are .ply .vtp .vtk .vtu .obj .stl .off .pcd "
-                            ".ptx .pwn .xyz .pts .txt .csv"
-                          : conversion));
+      (conversion.empty()
+          ? "unknown extension; readable are .ply .vtp .vtk .vtu .obj .stl .off .pcd "
+            ".ptx .pwn .xyz .pts .txt .csv"
+          : conversion));
   }
   auto points = reader->second(path);
   vtkNeuralMeshWriter::UndoShift(path.c_str(), points);

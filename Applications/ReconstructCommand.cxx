@@ -249,7 +249,8 @@ vtkSmartPointer<vtkNeuralMeshFileSampler> MakeSampler(
   }
   if (options.Inputs.size() > 1)
   {
-    throw UsageError(std::string(isRaw ? "--raw" : "--in-place") + ": this goes with one INPUT only");
+    throw UsageError(
+      std::string(isRaw ? "--raw" : "--in-place") + ": this goes with one INPUT only");
   }
   auto sampler = vtkSmartPointer<vtkNeuralMeshFileSampler>::New();
   sampler->SetFileName(options.Inputs.front().c_str());
@@ -325,8 +326,8 @@ int Reconstruct(const ReconstructOptions& options)
   const auto sampler = MakeSampler(options, filter);
   const auto points = sampler
     ? DrawPoints(sampler)
-    : ReadInputs(options.Inputs,
-        { filter->GetNumberOfViewpoints(), options.Orientation.GetViewArray() });
+    : ReadInputs(
+        options.Inputs, { filter->GetNumberOfViewpoints(), options.Orientation.GetViewArray() });
   if (!options.Initial.empty())
   {
     filter->SetFirstMeshData(ReadMesh(options.Initial));

@@ -25,8 +25,7 @@ namespace
 {
 /** An array of so many components a tuple, with these numbers. */
 template <typename ArrayT, typename NumberT>
-vtkNew<ArrayT> ArrayOf(
-  const char* name, int components, const NumberT* numbers, std::size_t count)
+vtkNew<ArrayT> ArrayOf(const char* name, int components, const NumberT* numbers, std::size_t count)
 {
   vtkNew<ArrayT> array;
   array->SetName(name);
@@ -66,9 +65,7 @@ void StoreViews(const neuralmesh::FileContents& contents, vtkPolyData* output)
     views->SetNumberOfValues(static_cast<vtkIdType>(contents.views.size()));
     std::transform(contents.views.begin(), contents.views.end(), views->GetPointer(0),
       [](std::uint32_t view)
-      {
-        return view == neuralmesh::OrientationHints::NoView ? -1 : static_cast<int>(view);
-      });
+      { return view == neuralmesh::OrientationHints::NoView ? -1 : static_cast<int>(view); });
     output->GetPointData()->AddArray(views);
   }
   if (contents.missingReturns > 0)
@@ -118,8 +115,8 @@ void vtkFileContents::Store(const neuralmesh::FileContents& contents, vtkPolyDat
   }
   StoreViews(contents, output);
   vtkNew<vtkCellArray> triangles;
-  triangles->AllocateExact(static_cast<vtkIdType>(contents.triangles.size()),
-    static_cast<vtkIdType>(3 * contents.triangles.size()));
+  const auto count = static_cast<vtkIdType>(contents.triangles.size());
+  triangles->AllocateExact(count, 3 * count);
   for (const auto& [a, b, c] : contents.triangles)
   {
     const vtkIdType corners[3] = { a, b, c };

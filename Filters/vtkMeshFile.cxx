@@ -88,8 +88,8 @@ void WriteVTK(vtkPolyData* mesh, const std::string& path, bool)
 /** What VTK does not write, or not whole. */
 void WriteOther(vtkPolyData* mesh, const std::string& path, bool hasDoubles)
 {
-  neuralmesh::writeText(neuralmesh::meshBytesOf(vtkMeshFile::Extension(path),
-                          vtkFileContents::Of(mesh, hasDoubles)),
+  neuralmesh::writeText(
+    neuralmesh::meshBytesOf(vtkMeshFile::Extension(path), vtkFileContents::Of(mesh, hasDoubles)),
     path);
 }
 

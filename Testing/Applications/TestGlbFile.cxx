@@ -84,10 +84,12 @@ private:
   void CheckAccessors() const
   {
     const std::map<int, std::size_t> sizes{ { 5123, 2 }, { 5125, 4 }, { 5126, 4 } };
-    const std::map<std::string, std::size_t> shapes{ { "SCALAR", 1 }, { "VEC3", 3 }, { "VEC4", 4 } };
+    const std::map<std::string, std::size_t> shapes{ { "SCALAR", 1 }, { "VEC3", 3 },
+      { "VEC4", 4 } };
     for (const Json& accessor : this->Document["accessors"])
     {
-      const Json& view = this->Document["bufferViews"].at(accessor["bufferView"].get<std::size_t>());
+      const Json& view =
+        this->Document["bufferViews"].at(accessor["bufferView"].get<std::size_t>());
       const std::size_t begin = view["byteOffset"], length = view["byteLength"];
       const std::size_t count = accessor["count"];
       const std::size_t element =

@@ -22,8 +22,7 @@ constexpr std::size_t ChunkHeaderSize = 8, GlbHeaderSize = 12;
 std::uint16_t linearOf(std::uint8_t part)
 {
   const double value = double(part) / 255.;
-  const double linear =
-    value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  const double linear = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
   return std::uint16_t(std::lround(65535. * linear));
 }
 
@@ -50,8 +49,8 @@ class GlbBuffer
 {
 public:
   /// Adds what `bytes` has grown by since the last one. Returns its number.
-  std::size_t add(std::size_t count, int type, const std::string& shape, int target,
-    const std::string& more = "")
+  std::size_t add(
+    std::size_t count, int type, const std::string& shape, int target, const std::string& more = "")
   {
     const std::string separator = number_ == 0 ? "" : ",";
     const std::string number = std::to_string(number_);
@@ -123,8 +122,7 @@ std::string primitiveOf(const FileContents& contents, GlbBuffer& buffer)
       appendBytes(buffer.bytes, color.data(), color.size());
     }
     attributes += ",\"COLOR_0\":" +
-      std::to_string(
-        buffer.add(count, TypeUshort, "VEC4", TargetVertices, ",\"normalized\":true"));
+      std::to_string(buffer.add(count, TypeUshort, "VEC4", TargetVertices, ",\"normalized\":true"));
   }
   std::string primitive = "{\"attributes\":{" + attributes + "},\"material\":0";
   if (contents.triangles.empty())

@@ -68,7 +68,8 @@ private:
     {
       readFace(line);
     }
-    else if (!word.starts_with('#') && std::any_of(word.begin(), word.end(), [](char c) { return c <= ' ' || c > '~'; }))
+    else if (!word.starts_with('#') &&
+      std::any_of(word.begin(), word.end(), [](char c) { return c <= ' ' || c > '~'; }))
     {
       throw file_.errorInLine("this is no .obj: " + oneLine(text));
     }
@@ -94,9 +95,8 @@ private:
       std::transform(parts.begin(), parts.end(), color.begin(),
         [](double part)
         {
-          return std::isfinite(part)
-            ? std::uint8_t(std::lround(255. * std::clamp(part, 0., 1.)))
-            : std::uint8_t(0);
+          return std::isfinite(part) ? std::uint8_t(std::lround(255. * std::clamp(part, 0., 1.)))
+                                     : std::uint8_t(0);
         });
     }
   }
@@ -150,7 +150,8 @@ private:
       contents_.normals = normals_;
     }
     const bool areKnown = normalOf_.size() == count &&
-      std::none_of(normalOf_.begin(), normalOf_.end(), [](auto normal) { return normal == NoNormal; });
+      std::none_of(
+        normalOf_.begin(), normalOf_.end(), [](auto normal) { return normal == NoNormal; });
     for (std::size_t i = 0; i < count && areKnown; ++i)
     {
       contents_.normals.push_back(normals_[normalOf_[i]]);

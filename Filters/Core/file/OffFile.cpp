@@ -183,7 +183,8 @@ std::string offOf(const FileContents& contents)
   {
     text += "# " + commentOfShift(*contents.shift) + "\n";
   }
-  text += std::to_string(contents.size()) + " " + std::to_string(contents.triangles.size()) + " 0\n";
+  text +=
+    std::to_string(contents.size()) + " " + std::to_string(contents.triangles.size()) + " 0\n";
   for (std::size_t i = 0; i < contents.size(); ++i)
   {
     text += pointTextOf(contents, i);
@@ -199,8 +200,7 @@ std::string offOf(const FileContents& contents)
   }
   for (const auto& [a, b, c] : contents.triangles)
   {
-    text +=
-      "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+    text += "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
   }
   return text;
 }

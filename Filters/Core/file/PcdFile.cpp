@@ -37,8 +37,8 @@ struct PcdHeader
 {
   std::vector<PcdField> fields;
   std::uint64_t points = 0;
-  std::uint64_t stride = 0;  ///< bytes of a record
-  std::size_t numbers = 0;   ///< of a record
+  std::uint64_t stride = 0; ///< bytes of a record
+  std::size_t numbers = 0;  ///< of a record
   std::optional<Eigen::Vector3d> viewpoint;
   std::string encoding;
 
@@ -126,7 +126,7 @@ void readPcdFields(const InputFile& file, const PcdLines& lines, PcdHeader& head
     }
     // What is only there to fill may be of any size.
     field.type = names[i] == PcdPadding ? PlyType{ size, PlyType::Kind::Signed }
-                                     : pcdTypeOf(file, types[i], size);
+                                        : pcdTypeOf(file, types[i], size);
     header.stride = behind(header.stride, field.count, size);
     header.numbers = std::size_t(behind(header.numbers, field.count, 1));
     header.fields.push_back(field);
@@ -331,7 +331,8 @@ std::string decompressedPcd(const InputFile& file, const std::string& bytes, std
   {
     throw file.error("damaged: it ends before its last point");
   }
-  return decompressLzf(std::string_view(bytes).substr(sizes, std::size_t(packed)), std::size_t(size));
+  return decompressLzf(
+    std::string_view(bytes).substr(sizes, std::size_t(packed)), std::size_t(size));
 }
 
 void readPcdBinary(InputFile& file, const PcdHeader& header, PcdPoints& points)
@@ -352,8 +353,7 @@ void readPcdBinary(InputFile& file, const PcdHeader& header, PcdPoints& points)
   // Field by field.
   const std::string bytes = decompressedPcd(file, file.rest(), size);
   readPcdRecords(
-    bytes, header, points,
-    [&](const PcdField& field) { return header.points * field.offset; },
+    bytes, header, points, [&](const PcdField& field) { return header.points * field.offset; },
     [](const PcdField& field) { return field.count * field.type.size; });
 }
 }

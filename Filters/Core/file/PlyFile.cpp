@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <optional>
+#include <stdexcept>
 
 namespace neuralmesh
 {

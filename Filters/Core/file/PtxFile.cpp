@@ -89,9 +89,8 @@ std::array<std::uint8_t, 3> takeColor(std::string_view line)
   {
     for (std::size_t i = 0; i < parts.size(); ++i)
     {
-      color[i] = std::isfinite(parts[i])
-        ? std::uint8_t(std::lround(std::clamp(parts[i], 0., 255.)))
-        : 0;
+      color[i] =
+        std::isfinite(parts[i]) ? std::uint8_t(std::lround(std::clamp(parts[i], 0., 255.))) : 0;
     }
   }
   return color;

@@ -51,8 +51,7 @@ FileContents readPwn(const std::string& path)
     contents.addPoint(takeVector(file, line, "point"));
     if (!isSeparate)
     {
-      contents.normals.emplace_back(
-        takeVector(file, line, "point with its normal").cast<float>());
+      contents.normals.emplace_back(takeVector(file, line, "point with its normal").cast<float>());
     }
   }
   if (hasCount && contents.size() < announced)

@@ -65,8 +65,8 @@ protected:
 inline FileContents tetrahedron()
 {
   FileContents contents;
-  for (const Eigen::Vector3d& point : { Eigen::Vector3d(0.1, 0.2, 0.3), { 1.1, 0.2, 0.3 },
-         { 0.1, 2.2, 0.3 }, { 0.1, 0.2, 3.3 } })
+  for (const Eigen::Vector3d& point :
+    { Eigen::Vector3d(0.1, 0.2, 0.3), { 1.1, 0.2, 0.3 }, { 0.1, 2.2, 0.3 }, { 0.1, 0.2, 3.3 } })
   {
     contents.addPoint(point);
     contents.normals.emplace_back(point.normalized().cast<float>());

@@ -145,7 +145,8 @@ TEST_F(DamagedFiles, HeadersThatClaimTooMuch)
 {
   const std::string many = "4000000000000000000", stlTitle(80, '\0');
   const std::string pcd = "FIELDS x y z f\nSIZE 4 4 4 4\nTYPE F F F F\n";
-  const std::string ptx = "\n1 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 4\n";
+  const std::string ptx =
+    "\n1 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 4\n";
   for (const auto& [name, bytes] : std::vector<std::pair<std::string, std::string>>{
          { "a.ply",
            "ply\nformat binary_little_endian 1.0\nelement vertex " + many +
@@ -159,16 +160,16 @@ TEST_F(DamagedFiles, HeadersThatClaimTooMuch)
            "0 0 0\n4000000000 0 0 0\n" },
          { "a.stl", stlTitle + "\xff\xff\xff\xff" + std::string(50, '\0') },
          { "a.off", "OFF\n" + many + " 0 0\n0 0 0\n" },
-         { "b.off", "OFF\n1 1 0\n0 0 0\n" + many + " 0 0 0\n" },
-         { "a.pwn", many + "\n0 0 0\n" }, { "a.pts", many + "\n0 0 0\n" },
-         { "a.ptx", many + "\n" + many + ptx }, { "b.ptx", "1000000000\n1000000000" + ptx },
+         { "b.off", "OFF\n1 1 0\n0 0 0\n" + many + " 0 0 0\n" }, { "a.pwn", many + "\n0 0 0\n" },
+         { "a.pts", many + "\n0 0 0\n" }, { "a.ptx", many + "\n" + many + ptx },
+         { "b.ptx", "1000000000\n1000000000" + ptx },
          { "a.pcd", pcd + "WIDTH " + many + "\nHEIGHT 1\nDATA ascii\n0 0 0 0\n" },
          { "b.pcd", pcd + "WIDTH " + many + "\nHEIGHT 1\nDATA binary\n0123456789abcdef" },
          { "c.pcd", pcd + "COUNT 1 1 1 " + many + "\nWIDTH 1\nHEIGHT 1\nDATA ascii\n0 0 0 0\n" },
          { "d.pcd", pcd + "COUNT 1 1 1 1000000000\nWIDTH 1\nHEIGHT 1\nDATA binary\n0123456789ab" },
          { "e.pcd",
-           pcd + "WIDTH 100000000\nHEIGHT 1\nDATA binary_compressed\n" +
-             bytesOf(std::uint32_t(3)) + bytesOf(std::uint32_t(1600000000)) + std::string("\1ab") },
+           pcd + "WIDTH 100000000\nHEIGHT 1\nDATA binary_compressed\n" + bytesOf(std::uint32_t(3)) +
+             bytesOf(std::uint32_t(1600000000)) + std::string("\1ab") },
          { "f.pcd", pcd + "WIDTH " + many + "\nHEIGHT " + many + "\nDATA ascii\n" },
          { "g.pcd",
            "FIELDS x y z _\nSIZE 4 4 4 0\nTYPE F F F F\nCOUNT 1 1 1 " + many +

@@ -142,8 +142,8 @@ TEST_F(MeshFiles, ObjInItsForms)
   const FileContents contents = contentsOf("a.obj",
     "# made by hand\nmtllib \xc3\xa4.mtl\nv 0 0 0 1 0 0.5\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\n"
     "v 0 1 0 1 0 0\nvt 0 0\nvn 0 0 1\nvn 0 1 0\nf 1/1/1 2//1 \\\n 3//2 -1/1/1 # a comment\n");
-  EXPECT_EQ(contents.triangles,
-    (std::vector<std::array<std::uint32_t, 3>>{ { 0, 1, 2 }, { 0, 2, 3 } }));
+  EXPECT_EQ(
+    contents.triangles, (std::vector<std::array<std::uint32_t, 3>>{ { 0, 1, 2 }, { 0, 2, 3 } }));
   EXPECT_EQ(contents.colors[0], (std::array<std::uint8_t, 3>{ 255, 0, 128 }));
   ASSERT_EQ(contents.normals.size(), 4u);
   EXPECT_EQ(contents.normals[2], Eigen::Vector3f(0.f, 1.f, 0.f));

@@ -108,7 +108,8 @@ TEST_F(ScannerFiles, PcdOfText)
   EXPECT_TRUE(std::isnan(whole.doubles[3]));
   EXPECT_EQ(whole.colors[0], (std::array<std::uint8_t, 3>{ 1, 2, 3 }));
   // 2.3418052e-38 has the bytes 0x00ff0000.
-  const FileContents real = contentsOf("b.pcd", head + "F" + tail + "0 1 2 2.3418052e-38\n1 1 1 0\n");
+  const FileContents real =
+    contentsOf("b.pcd", head + "F" + tail + "0 1 2 2.3418052e-38\n1 1 1 0\n");
   EXPECT_EQ(real.colors[0], (std::array<std::uint8_t, 3>{ 255, 0, 0 }));
 }
 
