@@ -216,7 +216,8 @@ template <typename Records>
 void readElements(const PlyHeader& header, Records records, FileContents& contents)
 {
   bool hasVertices = false;
-  // Faces may stand before the vertices.
+  std::vector<std::uint64_t> polygon;
+  // Faces that stand before the vertices.
   std::vector<std::vector<std::uint64_t>> polygons;
   for (const PlyElement& element : header.elements)
   {
@@ -239,13 +240,14 @@ void readElements(const PlyHeader& header, Records records, FileContents& conten
       readPlyRecords(element, records,
         [&](const auto& record)
         {
-          auto& polygon = polygons.emplace_back();
+          polygon.clear();
           for (const double corner : record[place])
           {
             polygon.push_back(corner >= 0. && corner < 4294967296.
                 ? std::uint64_t(corner)
                 : std::numeric_limits<std::uint64_t>::max());
           }
+          hasVertices ? contents.addPolygon(polygon, contents.size()) : polygons.push_back(polygon);
         });
     }
     else
@@ -257,9 +259,9 @@ void readElements(const PlyHeader& header, Records records, FileContents& conten
   {
     throw std::runtime_error("there are no vertices in it");
   }
-  for (const auto& polygon : polygons)
+  for (const auto& early : polygons)
   {
-    contents.addPolygon(polygon, contents.size());
+    contents.addPolygon(early, contents.size());
   }
 }
 
