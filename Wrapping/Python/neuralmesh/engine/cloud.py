@@ -32,7 +32,7 @@ class Cloud:
     blocks: list[Block] = field(default_factory=list)
     viewpoints: np.ndarray | None = None  # that come with the points, of shape (V, 3)
     other_blocks: int = 0  # that are no point sets
-    kind: str = "array"  # "array", "vtk" or "pyvista": what the result should be
+    is_in_blocks: bool = False  # of a composite dataset, however many they are
     problems: list[str] = field(default_factory=list)  # what was left out of it, in words
 
     def __len__(self) -> int:
@@ -87,9 +87,9 @@ def as_cloud(points: object, blocks: bool = True) -> Cloud:
     """
     if isinstance(points, Cloud):
         return points
-    if hasattr(points, "GetPointData") and hasattr(points, "GetPoint"):
+    if hasattr(points, "IsA") and points.IsA("vtkPointSet"):
         return _of_datasets([points], points)
-    if blocks and hasattr(points, "NewIterator"):
+    if blocks and hasattr(points, "IsA") and points.IsA("vtkCompositeDataSet"):
         return _of_datasets(list(_leaves(points)), points)
     return Cloud([Block(as_points(points))])
 
@@ -108,13 +108,6 @@ def as_points(points: object) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.float32 if single else np.float64)
 
 
-def kind_of(data: object) -> str:
-    """What the result of a function should be that was given this."""
-    if any(cls.__module__.partition(".")[0] == "pyvista" for cls in type(data).__mro__):
-        return "pyvista"
-    return "vtk" if hasattr(data, "GetPointData") or hasattr(data, "NewIterator") else "array"
-
-
 def _leaves(composite: Any) -> Iterator[Any]:
     iterator = composite.NewIterator()
     iterator.SkipEmptyNodesOn()
@@ -125,7 +118,7 @@ def _leaves(composite: Any) -> Iterator[Any]:
 
 
 def _of_datasets(leaves: list[Any], whole: Any) -> Cloud:
-    cloud = Cloud(kind=kind_of(whole))
+    cloud = Cloud(is_in_blocks=not whole.IsA("vtkPointSet"))
     for leaf in leaves:
         if not leaf.IsA("vtkPointSet"):
             cloud.other_blocks += 1

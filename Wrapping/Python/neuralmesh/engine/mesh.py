@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._kinds import has_vtk
 from .vtk_arrays import field_array, named, polygons_of, vtk_points
 
 if TYPE_CHECKING:
@@ -121,7 +122,5 @@ def as_mesh(surface: object, parameter: str) -> Mesh:
             return Mesh(points, triangles.astype(np.int64, copy=False))
     elif hasattr(surface, "GetPolys") and hasattr(surface, "GetPoints"):
         return Mesh(*polygons_of(surface))
-    raise ValueError(
-        f"{parameter} must be a vtkPolyData, a neuralmesh.Mesh, or arrays of points and triangles of "
-        f"shape (N, 3) and (T, 3), not {type(surface).__name__}"
-    )
+    wanted = "a vtkPolyData" if has_vtk() else "a neuralmesh.Mesh, or a pair of arrays, points and triangles"
+    raise ValueError(f"{parameter} must be {wanted}, not {type(surface).__name__}")

@@ -40,7 +40,7 @@ __all__ = [
 
 Progress = Callable[[float], "bool | None"]
 
-_OF_CALLER = 4  # the line that a warning is of: who calls the function that calls one of these
+_OF_CALLER = 3  # the line that a warning is of: who calls the function that calls one of these
 
 
 def take_points(points: object, blocks: bool = True) -> Cloud:
@@ -57,6 +57,8 @@ def with_array(cloud: Cloud, values: object, parameter: str, name: str) -> tuple
     array = _array_of_points(cloud, values, parameter, "the name of a point array", ())
     # Whole numbers stay so where they name something: they are not to be averaged on the mesh.
     kind = np.int64 if name == "View" and array.dtype.kind in "iub" else np.float64
+    if not cloud.blocks:
+        return cloud, name
     block = cloud.blocks[0]
     data = {**block.data, name: np.ascontiguousarray(array, dtype=kind)}
     return dataclasses.replace(cloud, blocks=[dataclasses.replace(block, data=data)]), name
@@ -65,6 +67,8 @@ def with_array(cloud: Cloud, values: object, parameter: str, name: str) -> tuple
 def with_normals(cloud: Cloud, normals: object) -> Cloud:
     """The cloud with these normals. ValueError for anything but numbers of shape (N, 3)."""
     array = _array_of_points(cloud, normals, "normals", "given with the blocks", (3,))
+    if not cloud.blocks:
+        return cloud
     block = dataclasses.replace(cloud.blocks[0], normals=np.asarray(array, dtype=np.float64))
     return dataclasses.replace(cloud, blocks=[block])
 
@@ -88,6 +92,8 @@ def learn(
     outcome = (
         mesh.run_on_file(first_mesh, told) if points is None else mesh.run(points, first_mesh, told)
     )
+    if told is not None and mesh.GetStopReason() != "cancelled":
+        told(1.0)
     for text in outcome.warnings:
         warnings.warn(text, RuntimeWarning, stacklevel=_OF_CALLER)
     explained = outcome.explained
@@ -163,7 +169,7 @@ def _told(progress: Progress | None) -> Progress | None:
 def _array_of_points(
     cloud: Cloud, values: object, parameter: str, other: str, shape: tuple[int, ...]
 ) -> np.ndarray:
-    if len(cloud.blocks) != 1:
+    if cloud.is_in_blocks:
         raise ValueError(f"{parameter} must be {other} where points are in blocks")
     array = np.asarray(values)
     wanted = (len(cloud), *shape)
