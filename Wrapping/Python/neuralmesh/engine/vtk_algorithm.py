@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 import re
 import sys
@@ -31,11 +32,9 @@ class vtkEngineAlgorithm(VTKPythonAlgorithmBase):
 
     def __init_subclass__(cls, **more: Any) -> None:
         super().__init_subclass__(**more)
-        for name in _own_names(cls):
-            if name.startswith("Get") and not hasattr(cls, _snake_case(name[3:])):
-                setter = name.replace("Get", "Set", 1)
-                if hasattr(cls, setter):
-                    setattr(cls, _snake_case(name[3:]), _property(name, setter))
+        for name in _values_of(cls):
+            if not hasattr(cls, _snake_case(name)):
+                setattr(cls, _snake_case(name), _property(f"Get{name}", f"Set{name}"))
 
     def __init__(self) -> None:
         VTKPythonAlgorithmBase.__init__(
@@ -50,9 +49,7 @@ class vtkEngineAlgorithm(VTKPythonAlgorithmBase):
 
     def __str__(self) -> str:
         lines = [super().__str__().rstrip()]
-        for name in sorted(_own_names(type(self))):
-            if name.startswith("Get") and hasattr(self, name.replace("Get", "Set", 1)):
-                lines.append(f"  {name[3:]}: {getattr(self, name)()}")
+        lines += [f"  {name}: {getattr(self, f'Get{name}')()}" for name in _values_of(type(self))]
         return "\n".join(lines) + "\n\n"
 
     def GetClassName(self) -> str:
@@ -141,11 +138,16 @@ def fill_table(table: Any, columns: dict[str, Any]) -> None:
         table.AddColumn(table_column(values, name))
 
 
-def _own_names(cls: type) -> set[str]:
-    """Methods of classes of this package, not of VTK."""
+def _values_of(cls: type) -> list[str]:
+    """What follows Get and Set, of classes of this package and not of VTK, where Get asks for nothing."""
     package = __name__.partition(".")[0]
-    ours = (base for base in cls.__mro__ if base.__module__.partition(".")[0] == package)
-    return {name for base in ours if base is not vtkEngineAlgorithm for name in vars(base)}
+    ours = [base for base in cls.__mro__ if base.__module__.partition(".")[0] == package]
+    getters = {name for base in ours for name in vars(base) if name.startswith("Get")}
+    return sorted(
+        name[3:]
+        for name in getters
+        if hasattr(cls, "Set" + name[3:]) and len(inspect.signature(getattr(cls, name)).parameters) == 1
+    )
 
 
 def _snake_case(name: str) -> str:
