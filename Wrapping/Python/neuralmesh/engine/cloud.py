@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass, field
 from typing import Any, Iterator
 
@@ -23,6 +22,27 @@ class Block:
     data: dict[str, np.ndarray] = field(default_factory=dict)  # that the mesh gets, too
     normals: np.ndarray | None = None
     scalars: str = ""  # the name of the active ones
+    # Of a point set of VTK: itself, which of its points these are (None: all), and its arrays.
+    dataset: Any = None
+    kept: np.ndarray | None = None
+    vtk_data: dict[str, Any] = field(default_factory=dict)
+    is_double: bool | None = None  # whether they were 8-byte floats; None: as they are
+
+    @property
+    def has_doubles(self) -> bool:
+        return self.points.dtype == np.float64 if self.is_double is None else self.is_double
+
+    def of_points(self, array: Any) -> np.ndarray:
+        """The values that an array of the point set has for the points."""
+        values = to_numpy(array)
+        return values if self.kept is None else values[self.kept]
+
+    def values(self, name: str) -> np.ndarray | None:
+        """Those of any array of that name, whether the mesh gets it or not."""
+        if name in self.data or self.dataset is None:
+            return self.data.get(name)
+        array = self.dataset.GetPointData().GetArray(name)
+        return self.of_points(array) if array and _fits(array, self.dataset) else None
 
 
 @dataclass
@@ -34,22 +54,18 @@ class Cloud:
     other_blocks: int = 0  # that are no point sets
     is_in_blocks: bool = False  # of a composite dataset, however many they are
     problems: list[str] = field(default_factory=list)  # what was left out of it, in words
+    viewpoint_problems: list[str] = field(default_factory=list)  # likewise, of the viewpoints
 
     def __len__(self) -> int:
         return sum(len(block.points) for block in self.blocks)
 
     @property
     def has_doubles(self) -> bool:
-        return any(block.points.dtype == np.float64 for block in self.blocks)
+        return any(block.has_doubles for block in self.blocks)
 
     def values(self, name: str) -> np.ndarray | None:
         """The data of that name of all points, one number each; None if a block has none."""
-        arrays = [block.data.get(name) for block in self.blocks]
-        if any(
-            array is None or array.ndim != 1 or array.dtype.kind not in "fiub" for array in arrays
-        ):
-            return None
-        return np.concatenate(arrays).astype(np.float64) if arrays else None
+        return numbers_of([block.values(name) for block in self.blocks])
 
     def normals(self) -> np.ndarray | None:
         """Normals of all points, 0 in blocks that have none; None if no block has some."""
@@ -75,8 +91,21 @@ class Cloud:
                 yield name, arrays[0] if len(arrays) == 1 else np.concatenate(arrays)
 
     @property
+    def vtk_data(self) -> dict[str, Any]:
+        """The arrays of VTK whose kind the data has."""
+        return self.blocks[0].vtk_data if self.blocks else {}
+
+    @property
     def scalars(self) -> str:
         return self.blocks[0].scalars if self.blocks else ""
+
+
+def numbers_of(arrays: list[np.ndarray | None]) -> np.ndarray | None:
+    """The arrays of all blocks as one; None if there is none or one is not a number for each point."""
+    found = [array for array in arrays if array is not None]
+    if len(found) < len(arrays) or any(a.ndim != 1 or a.dtype.kind not in "fiub" for a in found):
+        return None
+    return np.concatenate(found).astype(np.float64) if found else None
 
 
 def as_cloud(points: object, blocks: bool = True) -> Cloud:
@@ -126,11 +155,10 @@ def _of_datasets(leaves: list[Any], whole: Any) -> Cloud:
             block = _block_of(leaf, cloud.problems)
             if len(block.points) > 0:
                 cloud.blocks.append(block)
-    sources = itertools.chain([whole], (leaf for leaf in leaves[:1]))
-    for source in sources:
+    for source in [whole, *(block.dataset for block in cloud.blocks[:1])]:
         array = source.GetFieldData().GetArray("Viewpoints")
         if array and array.GetNumberOfComponents() != 3:
-            cloud.problems.append(
+            cloud.viewpoint_problems.append(
                 "The field data Viewpoints of the input has not 3 components and was left out."
             )
             break
@@ -146,25 +174,27 @@ def _block_of(leaf: Any, problems: list[str]) -> Block:
     points = np.ascontiguousarray(coordinates, dtype=coordinates.dtype if is_plain else np.float64)
     data = leaf.GetPointData()
     ghosts = data.GetArray(_GHOSTS)
-    kept = None
-    if ghosts:
-        kept = (to_numpy(ghosts) & _SKIPPED) == 0
-        points = points[kept]
-    block = Block(points)
+    block = Block(points, dataset=leaf, is_double=coordinates.dtype == np.float64)
+    if ghosts and ghosts.IsA("vtkUnsignedCharArray"):
+        block.kept = (to_numpy(ghosts) & _SKIPPED) == 0
+        block.points = points[block.kept]
+        if len(block.points) == 0:
+            return block
     normals = data.GetNormals() or data.GetArray("Normals")
     if normals and (normals.GetNumberOfComponents() != 3 or not _fits(normals, leaf)):
         problems.append(
             "The normals of the input are not 3 components for each point and were left out."
         )
     elif normals:
-        block.normals = _of_points(normals, kept)
+        block.normals = block.of_points(normals)
     ids = (data.GetNormals(), data.GetGlobalIds(), data.GetPedigreeIds())
     for i in range(data.GetNumberOfArrays()):
         array = data.GetAbstractArray(i)
         name = array.GetName() or "Scalars"
         is_left_out = any(array is other for other in ids) or name == _GHOSTS
         if not is_left_out and array.GetNumberOfComponents() > 0 and _fits(array, leaf):
-            block.data[name] = _of_points(array, kept)
+            block.data[name] = block.of_points(array)
+            block.vtk_data[name] = array
             if array is data.GetAbstractAttribute(0):
                 block.scalars = name
     return block
@@ -173,7 +203,3 @@ def _block_of(leaf: Any, problems: list[str]) -> Block:
 def _fits(array: Any, leaf: Any) -> bool:
     return array.GetNumberOfTuples() == leaf.GetNumberOfPoints()
 
-
-def _of_points(array: Any, kept: np.ndarray | None) -> np.ndarray:
-    values = to_numpy(array)
-    return values if kept is None else values[kept]
