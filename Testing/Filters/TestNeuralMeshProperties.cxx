@@ -9,6 +9,7 @@
 #include "vtkNeuralMeshExplanation.h"
 #include "vtkNeuralMeshFileSampler.h"
 #include "vtkNeuralMeshPLYReader.h"
+#include "vtkNeuralMeshReader.h"
 #include "vtkNeuralMeshScan.h"
 #include "vtkNeuralMeshStream.h"
 #include "vtkNeuralMeshWriter.h"

@@ -28,10 +28,10 @@ A recipe is JSON; of its keys only `scans` must be there:
   }
 
 scans    files of points, relative to the recipe, with wildcards or without:
-         .ply .vtp .vtk .vtu .obj .stl .xyz .pts .txt .csv
+         .ply .vtp .vtk .vtu .obj .stl .off .pcd .ptx .pwn .xyz .pts .txt .csv
 matrix   parameters of neuralmesh.reconstruct(), except progress; a list holds the values to try,
          and all lists are crossed; first_mesh is a path, relative to the recipe
-format   of the meshes: vtp (default), ply, obj or stl
+format   of the meshes: vtp (default), ply, obj, stl, glb, off or vtk
 shift    what is taken off their coordinates, and noted in them: [X, Y, Z], or "auto" for a round
          vector where they are too large for floats (default: none)
 time_limit

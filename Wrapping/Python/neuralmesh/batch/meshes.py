@@ -14,14 +14,19 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridRead
 
 from .._execution import execute, observed_call
 from .._points import as_dataset
-from ..vtkFiltersNeuralMesh import vtkNeuralMeshPLYReader, vtkNeuralMeshWriter
+from ..vtkFiltersNeuralMesh import (
+    vtkNeuralMeshPLYReader,
+    vtkNeuralMeshReader,
+    vtkNeuralMeshWriter,
+)
 from .atomic_file import atomic_file
 
 
 def read_points(path: Path) -> vtkPointSet:
-    """Read a scan: .ply .vtp .vtk .vtu .obj .stl, or text: .xyz .pts .txt .csv.
+    """Read a scan: .ply .vtp .vtk .vtu .obj .stl .off .pcd .ptx .pwn, or text: .xyz .pts .txt .csv.
 
-    OSError or ValueError say what is wrong with the file.
+    OSError or ValueError say what is wrong with the file; of .las, .laz and .e57 with the command that
+    makes text of them.
     """
     if not path.exists():
         raise FileNotFoundError("there is no such file")
@@ -32,7 +37,8 @@ def read_points(path: Path) -> vtkPointSet:
         return as_dataset(_read_text(path))
     if extension not in _READERS:
         readable = " ".join((*_READERS, *_TEXT))
-        raise ValueError(f"unknown extension; readable are {readable}")
+        conversion = vtkNeuralMeshReader.GetConversion(str(path))
+        raise ValueError(conversion or f"unknown extension; readable are {readable}")
     _require_end(path, extension)
     reader = _READERS[extension]()
     reader.SetFileName(str(path))
@@ -45,7 +51,7 @@ def read_points(path: Path) -> vtkPointSet:
 
 
 def read_mesh(path: Path) -> vtkPolyData:
-    """Read a mesh to start from: .ply .vtp .vtk .obj .stl.
+    """Read a mesh to start from: .ply .vtp .vtk .obj .stl .off.
 
     OSError or ValueError name the file, and say what is wrong with it.
     """
@@ -110,6 +116,10 @@ _READERS = {
     ".vtu": vtkXMLUnstructuredGridReader,
     ".obj": vtkOBJReader,
     ".stl": vtkSTLReader,
+    ".off": vtkNeuralMeshReader,
+    ".pcd": vtkNeuralMeshReader,
+    ".ptx": vtkNeuralMeshReader,
+    ".pwn": vtkNeuralMeshReader,
 }
 
 
@@ -179,7 +189,7 @@ def _require_end(path: Path, extension: str) -> None:
 
 
 _ENDS = {".vtp": b"</VTKFile>", ".vtu": b"</VTKFile>", ".stl": b"endsolid"}
-FORMATS = ("vtp", "ply", "obj", "stl")
+FORMATS = ("vtp", "ply", "obj", "stl", "glb", "off", "vtk")
 
 
 def colors_of(mesh: vtkPolyData):
