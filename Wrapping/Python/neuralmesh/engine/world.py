@@ -142,7 +142,11 @@ def explain(
 
 
 def present(mesh: Mesh, given: object) -> Any:
-    """A mesh as who has given that has it: as PyVista or VTK; for arrays as VTK, too, if there is one."""
+    """A mesh as who has given that has it: as PyVista or VTK, or as it is; for arrays as VTK, too, if there
+    is one.
+    """
+    if isinstance(given, Mesh):
+        return mesh
     if is_vtk(given) or is_pyvista(given) or has_vtk():
         return as_given(mesh.to_vtk(), given)
     return mesh
