@@ -12,6 +12,7 @@
 #include "Values.h"
 
 #include "base/AtomicFile.h"
+#include "run/RunEstimate.h"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
@@ -186,6 +187,9 @@ void bindMeasures(nb::module_& module)
     [](const ArrayOf<double>& points, const ArrayOf<std::int64_t>& triangles)
     { return report(meshOf(points, triangles)); },
     "points"_a, "triangles"_a);
+  module.attr("tried_vertices") = TriedVertices;
+  module.def("estimate", &estimate, "vertices"_a, "points"_a, "bytes_of_points"_a,
+    "samples_for_features"_a, "is_ensemble"_a, "growth"_a, "seconds_of_trial"_a);
   module.def(
     "tune",
     [](const std::vector<AnyArray>& points, const nb::dict& parameters, unsigned threads,
