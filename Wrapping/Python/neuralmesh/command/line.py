@@ -69,7 +69,7 @@ def _help() -> str:
 
 def _command(name: str) -> Callable[[Sequence[str]], int | None]:
     if name == "batch":
-        from ..batch.command import main as batch
+        from ..batch.command import run as batch
 
         return batch
     if name == "paraview":

@@ -75,6 +75,10 @@ class Parser(argparse.ArgumentParser):
         unknown = text.removeprefix("unrecognized arguments: ")
         if unknown != text:
             text = f"The following argument was not expected: {unknown}"
+        option, expected, _ = text.partition(": expected one argument")
+        if expected:
+            metavar = self._option_string_actions[option].metavar
+            text = f"{option}: 1 required {metavar} missing"
         print(f"{text}\nRun with --help for more information.", file=sys.stderr)
         sys.exit(WRONG_USE)
 
