@@ -9,7 +9,6 @@ from typing import Any, Sequence
 from .. import _engine
 from ..engine import files
 from ..engine.cloud import as_points
-from ..engine.reconstruction import NeuralMesh, thread_count
 from .names import POINTS
 from .parsing import Parser, described
 
@@ -25,13 +24,13 @@ def run(arguments: Sequence[str]) -> int:
     """Choose the parameters for a point cloud; the exit status."""
     options = _parser().parse(arguments)
     points = files.read(options.input).points
-    mesh: Any = NeuralMesh()
-    mesh.SetNumberOfVertices(options.vertices)
-    mesh.SetSeed(options.seed)
-    mesh.SetBoundaries(int(options.close))
-    parameters = mesh.engine_values()
+    parameters = {
+        "NumberOfVertices": options.vertices,
+        "Seed": options.seed,
+        "Boundaries": int(options.close),
+    }
     try:
-        tuning = _engine.tune([as_points(points)], parameters, thread_count(options.threads), None)
+        tuning = _engine.tune([as_points(points)], parameters, options.threads, None)
     except ValueError as error:
         raise ValueError(f"{options.input}: {error}") from None
     if options.json:

@@ -121,9 +121,9 @@ class NeuralMeshAlgorithm:
 
     def parameter_errors(self) -> list[str]:
         """What in the parameters excludes each other, a text each."""
-        return _engine.errors(self.engine_values())
+        return _engine.errors(self._engine_values())
 
-    def engine_values(self) -> dict[str, int | float]:
+    def _engine_values(self) -> dict[str, int | float]:
         """Those of the properties that the engine knows."""
         return {name: value for name, value in self._values.items() if self.PROPERTIES[name].engine}
 

@@ -169,7 +169,7 @@ class NeuralMesh(NeuralMeshAlgorithm):
             weights,
             **sides,
             keeps_origins=bool(carried) or explains,
-            threads=thread_count(int(self._values["NumberOfThreads"])),
+            threads=_threads(int(self._values["NumberOfThreads"])),
         )
         precision = self._values["OutputPointsPrecision"]
         is_double = precision == _DOUBLE or (
@@ -178,7 +178,7 @@ class NeuralMesh(NeuralMeshAlgorithm):
         )
         end_of_mesh = _END_OF_MESH if carried else 1.0
         run.learn(
-            self.engine_values(),
+            self._engine_values(),
             self._ensemble_values(),
             (
                 None
@@ -241,9 +241,9 @@ class NeuralMeshEnsemble(NeuralMesh):
         super().__init__()
         self._values["TopologyLearning"] = 1
 
-    def engine_values(self) -> dict[str, int | float]:
+    def _engine_values(self) -> dict[str, int | float]:
         own = {one.name for one in of_class("vtkNeuralMeshEnsemble")}
-        return {name: value for name, value in super().engine_values().items() if name not in own}
+        return {name: value for name, value in super()._engine_values().items() if name not in own}
 
     def _ensemble_values(self) -> dict[str, int | float] | None:
         own = {one.name: self._values[one.name] for one in of_class("vtkNeuralMeshEnsemble")}
@@ -282,7 +282,7 @@ def _empty_mesh() -> Mesh:
     return Mesh(np.empty((0, 3), dtype=np.float32), np.empty((0, 3), dtype=np.int64))
 
 
-def thread_count(wanted: int) -> int:
+def _threads(wanted: int) -> int:
     """How many, if 0 stands for as many as there are; VTK's limit counts for us, too."""
     if wanted > 0:
         return wanted

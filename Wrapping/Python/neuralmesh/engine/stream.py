@@ -33,12 +33,12 @@ class NeuralMeshStream(NeuralMeshAlgorithm):
         if self._stream is not None:
             return self._stream
         problems = self.parameter_errors()
-        error = _engine.stream_error(self.engine_values())
+        error = _engine.stream_error(self._engine_values())
         if error:
             problems.append(error)
         if problems:
             raise ValueError(" ".join(problems))
-        self._stream = _engine.Stream(self.engine_values(), int(self._values["ReservoirSize"]))
+        self._stream = _engine.Stream(self._engine_values(), int(self._values["ReservoirSize"]))
         return self._stream
 
     def add_cloud(self, cloud: Cloud) -> list[str]:
