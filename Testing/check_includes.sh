@@ -42,7 +42,7 @@ forbid 'vtkPV|vtkSM([^P]|P[^T])|vtkSI|pq|CLI/|ErrorCollector|LearningParameters|
 # The header of a public class is installed; the core is not.
 for header in Filters/vtkNeuralMesh.h.in Filters/vtkNeuralMeshAlgorithm.h.in \
   Filters/vtkNeuralMeshEnsemble.h.in Filters/vtkNeuralMeshComparison.h Filters/vtkNeuralMeshExplanation.h \
-  Filters/vtkNeuralMeshScan.h \
+  Filters/vtkNeuralMeshScan.h Filters/vtkNeuralMeshInformation.h \
   Filters/vtkNeuralMeshFileSampler.h Filters/vtkNeuralMeshStream.h.in \
   Filters/vtkNeuralMeshPLYReader.h Filters/vtkNeuralMeshReader.h Filters/vtkNeuralMeshWriter.h \
   Filters/vtkPNeuralMesh.h Filters/vtkPNeuralMeshEnsemble.h; do

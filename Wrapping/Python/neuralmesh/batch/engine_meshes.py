@@ -5,12 +5,13 @@ wrapped_meshes.py has the same names for where they are.
 
 from __future__ import annotations
 
+import importlib.util
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .._kinds import has_vtk
+from .._kinds import vtk_package
 from ..engine import files
 from ..engine.mesh import Mesh
 from .atomic_file import atomic_file
@@ -31,7 +32,7 @@ __all__ = [
 ]
 
 FORMATS = ("vtp", "ply", "obj", "stl", "glb", "off", "vtk")
-DEFAULT_FORMAT = "vtp" if has_vtk() else "ply"
+DEFAULT_FORMAT = "ply" if vtk_package() is None else "vtp"
 
 
 def problem_of_format(mesh_format: str) -> str:
@@ -45,7 +46,9 @@ def problem_of_format(mesh_format: str) -> str:
 
 def why_no_pictures() -> str:
     """Why meshes cannot be drawn; empty if there is a VTK for that."""
-    return "" if has_vtk() else "no pictures: there is no VTK to draw them (pip install vtk)"
+    # What draws them is a script of its own, for the package that has VTK's name.
+    has_vtk = importlib.util.find_spec("vtkmodules") is not None
+    return "" if has_vtk else "no pictures: there is no VTK to draw them (pip install vtk)"
 
 
 def read_points(path: Path) -> Mesh:

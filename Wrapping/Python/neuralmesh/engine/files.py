@@ -12,7 +12,7 @@ from typing import Any, Callable, Sequence
 import numpy as np
 
 from .. import _engine
-from .._kinds import has_vtk
+from .._kinds import vtk_package
 from .cloud import as_points
 from .mesh import Mesh
 
@@ -121,7 +121,7 @@ def require_writable(path: str) -> None:
     extension = extension_of(path)
     if extension not in WRITABLE:
         raise ValueError(f"{path}: unknown extension; writable are {' '.join(WRITABLE)}")
-    if extension in _WRITTEN_BY_VTK and not has_vtk():
+    if extension in _WRITTEN_BY_VTK and vtk_package() is None:
         raise ValueError(f"{path}: {extension} files are written by VTK: pip install vtk")
 
 
@@ -151,7 +151,7 @@ def _reader_of(path: str) -> Callable[[str], Mesh]:
     if extension == ".npy":
         return _read_npy
     if extension in BY_VTK:
-        if not has_vtk():
+        if vtk_package() is None:
             raise missing_package(path, "VTK", "vtk")
         from .vtk_files import read_by_vtk
 

@@ -7,10 +7,11 @@ from typing import Any, Callable
 
 import numpy as np
 
+from .._kinds import vtk_package, vtk_package_of
 from .cloud import as_cloud
 from .files import extension_of
 from .mesh import Mesh
-from .vtk_arrays import polygons_of, to_numpy
+from .vtk_arrays import polygons_of, to_numpy, vtk_module
 
 _LAST_BYTES = 1024
 _NOTE = "Shift"
@@ -19,7 +20,7 @@ _NOTE = "Shift"
 def read_by_vtk(path: str) -> Mesh:
     """Read a .vtp, .vtk or .vtu. ValueError if it is none, or damaged."""
     _require_end(path)
-    data = _run(path, _reader_class(extension_of(path)))
+    data = _run(path, _reader_of(extension_of(path)))
     if data is None or not data.IsA("vtkPointSet"):
         raise ValueError(f"{path}: this holds no point set")
     if not _has_sound_cells(data):
@@ -52,15 +53,12 @@ def mesh_of(data: Any) -> Mesh:
 
 def vtk_bytes_of(data: Any, extension: str, path: str) -> bytes:
     """What a .vtp or .vtk of a vtkPolyData holds. ValueError if VTK cannot write it."""
+    package = vtk_package_of(data)
     if extension == ".vtp":
-        from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
-
-        writer = vtkXMLPolyDataWriter()
+        writer = vtk_module(package, "vtkIOXML").vtkXMLPolyDataWriter()
         writer.SetDataModeToBinary()
     else:
-        from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
-
-        writer = vtkPolyDataWriter()
+        writer = vtk_module(package, "vtkIOLegacy").vtkPolyDataWriter()
         writer.SetHeader("NeuralMesh")
         writer.SetFileTypeToBinary()
     writer.WriteToOutputStringOn()
@@ -73,18 +71,15 @@ def vtk_bytes_of(data: Any, extension: str, path: str) -> bytes:
     return content.encode("utf-8") if isinstance(content, str) else content
 
 
-def _reader_class(extension: str) -> Callable[[], Any]:
+def _reader_of(extension: str) -> Any:
+    package = vtk_package()
     if extension == ".vtk":
-        from vtkmodules.vtkIOLegacy import vtkGenericDataObjectReader
-
-        return vtkGenericDataObjectReader
-    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
-
-    return vtkXMLPolyDataReader if extension == ".vtp" else vtkXMLUnstructuredGridReader
+        return vtk_module(package, "vtkIOLegacy").vtkGenericDataObjectReader()
+    name = "vtkXMLPolyDataReader" if extension == ".vtp" else "vtkXMLUnstructuredGridReader"
+    return getattr(vtk_module(package, "vtkIOXML"), name)()
 
 
-def _run(path: str, make: Callable[[], Any]) -> Any:
-    reader = make()
+def _run(path: str, reader: Any) -> Any:
     reader.SetFileName(path)
     problems = _observed(reader, reader.Update)
     if problems:
@@ -94,9 +89,8 @@ def _run(path: str, make: Callable[[], Any]) -> Any:
 
 def _observed(algorithm: Any, work: Callable[[], Any]) -> list[str]:
     """Do the work; what VTK says to be wrong, in words. It prints nothing."""
-    from vtkmodules.util.misc import calldata_type
-
     problems: list[str] = []
+    calldata_type = vtk_module(vtk_package_of(algorithm), "util.misc").calldata_type
 
     @calldata_type("string0")
     def take(_sender: Any, _event: str, text: str) -> None:

@@ -6,14 +6,14 @@ for where they are.
 from __future__ import annotations
 
 import dataclasses
-import warnings
 from typing import Any, Callable
 
 import numpy as np
 
-from .._kinds import as_given, has_vtk, is_pyvista, is_vtk
+from .._kinds import as_given, vtk_package, vtk_package_of
+from .._warning import warn
 from .cloud import Cloud, as_cloud
-from .measures import NeuralMeshComparison, NeuralMeshExplanation
+from .measures import NeuralMeshComparison, NeuralMeshExplanation, report
 from .mesh import Mesh, as_mesh as take_surface
 from .reconstruction import NeuralMesh, NeuralMeshEnsemble
 from .stream import NeuralMeshStream
@@ -32,6 +32,7 @@ __all__ = [
     "learn_for_seconds",
     "learn_samples",
     "learnt_mesh",
+    "report",
     "take_points",
     "take_surface",
     "with_array",
@@ -39,8 +40,6 @@ __all__ = [
 ]
 
 Progress = Callable[[float], "bool | None"]
-
-_OF_CALLER = 4  # the line that a warning is of: who calls the function that calls one of these
 
 
 def take_points(points: object, blocks: bool = True) -> Cloud:
@@ -89,7 +88,7 @@ def learn(
         mesh.run_on_file(first_mesh, told) if points is None else mesh.run(points, first_mesh, told)
     )
     for text in outcome.warnings:
-        warnings.warn(text, RuntimeWarning, stacklevel=_OF_CALLER)
+        warn(text)
     explained = outcome.explained
     if explained is None:
         explained = Mesh(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
@@ -98,7 +97,7 @@ def learn(
 
 def add_points(stream: NeuralMeshStream, points: Cloud) -> None:
     for text in stream.add_cloud(points):
-        warnings.warn(text, RuntimeWarning, stacklevel=_OF_CALLER)
+        warn(text)
 
 
 def learn_samples(stream: NeuralMeshStream, samples: int, progress: Progress | None) -> int:
@@ -114,7 +113,7 @@ def learnt_mesh(stream: NeuralMeshStream, progress: Progress | None, given: obje
     if mesh is None:
         mesh = Mesh(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
     for text in mesh.warnings:
-        warnings.warn(text, RuntimeWarning, stacklevel=_OF_CALLER)
+        warn(text)
     return present(mesh, given)
 
 
@@ -147,9 +146,8 @@ def present(mesh: Mesh, given: object) -> Any:
     """
     if isinstance(given, Mesh):
         return mesh
-    if is_vtk(given) or is_pyvista(given) or has_vtk():
-        return as_given(mesh.to_vtk(), given)
-    return mesh
+    package = vtk_package_of(given) or vtk_package()
+    return mesh if package is None else as_given(mesh.to_vtk_of(package), given)
 
 
 def _told(progress: Progress | None) -> Progress | None:
