@@ -203,14 +203,14 @@ int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructO
 {
   vtkNew<ErrorCollector> errors;
   errors->Observe(filter);
-  const RunEstimate estimate = EstimateRun(filter, points);
+  const neuralmesh::RunEstimate estimate = EstimateRun(filter, points);
   RequireResult(filter, *errors, options);
   std::printf("points     %lld\n", static_cast<long long>(points->GetNumberOfPoints()));
   std::printf("vertices   %lld\n", static_cast<long long>(options.Vertices));
-  std::printf("samples    about %.3g million\n", 1e-6 * estimate.Samples);
-  std::printf("memory     about %.0f MB\n", 1e-6 * estimate.Bytes);
+  std::printf("samples    about %.3g million\n", 1e-6 * estimate.samples);
+  std::printf("memory     about %.0f MB\n", 1e-6 * estimate.bytes);
   std::printf(
-    "time       about %.2g s of learning, on this machine as it is now\n", estimate.Seconds);
+    "time       about %.2g s of learning, on this machine as it is now\n", estimate.seconds);
   return 0;
 }
 

@@ -8,6 +8,7 @@ from typing import Any, Iterator
 
 import numpy as np
 
+from .mesh import Mesh
 from .vtk_arrays import to_numpy
 
 _GHOSTS = "vtkGhostType"
@@ -109,18 +110,30 @@ def numbers_of(arrays: list[np.ndarray | None]) -> np.ndarray | None:
 
 
 def as_cloud(points: object, blocks: bool = True) -> Cloud:
-    """The cloud that an array, a vtkPointSet or, with blocks, a vtkCompositeDataSet is.
+    """The cloud that an array, a Mesh, a vtkPointSet or, with blocks, a vtkCompositeDataSet is.
 
     Arrays of 4- and 8-byte floats are referred to where they are contiguous; all other numbers become
     8-byte floats. ValueError for anything but those and numbers of shape (N, 3).
     """
     if isinstance(points, Cloud):
         return points
+    if isinstance(points, Mesh):
+        return _of_mesh(points)
     if hasattr(points, "IsA") and points.IsA("vtkPointSet"):
         return _of_datasets([points], points)
     if blocks and hasattr(points, "IsA") and points.IsA("vtkCompositeDataSet"):
         return _of_datasets(list(_leaves(points)), points)
     return Cloud([Block(as_points(points))])
+
+
+def _of_mesh(mesh: Mesh) -> Cloud:
+    data = {name: np.asarray(values) for name, values in mesh.point_data.items()}
+    block = Block(as_points(mesh.points), data, data.pop("Normals", None), mesh.scalars)
+    cloud = Cloud([block] if len(block.points) > 0 else [])
+    viewpoints = mesh.field_data.get("Viewpoints")
+    if viewpoints is not None:
+        cloud.viewpoints = np.asarray(viewpoints, dtype=np.float64).reshape(-1, 3)
+    return cloud
 
 
 def as_points(points: object) -> np.ndarray:

@@ -147,7 +147,11 @@ def explain(
 
 
 def present(mesh: Mesh, given: object) -> Any:
-    """A mesh as who has given that has it: as PyVista or VTK; for arrays as VTK, too, if there is one."""
+    """A mesh as who has given that has it: as PyVista or VTK, or as it is; for arrays as VTK, too, if there
+    is one.
+    """
+    if isinstance(given, Mesh):
+        return mesh
     package = vtk_package_of(given) or vtk_package()
     return mesh if package is None else as_given(mesh.to_vtk_of(package), given)
 
