@@ -106,6 +106,16 @@ std::string KeyOf(vtkAbstractArray* array, vtkIdType id, bool isPlain)
       static_cast<std::size_t>(components) * static_cast<std::size_t>(array->GetDataTypeSize()) };
   }
   std::string key;
+  if (array->GetDataType() == VTK_BIT)
+  {
+    // Some versions of VTK make no variants of bits.
+    for (int component = 0; component < components; ++component)
+    {
+      const double bit = static_cast<vtkDataArray*>(array)->GetComponent(id, component);
+      key += bit != 0.0 ? '1' : '0';
+    }
+    return key;
+  }
   for (vtkIdType i = id * components; i < (id + 1) * components; ++i)
   {
     const std::string text = array->GetVariantValue(i).ToString();

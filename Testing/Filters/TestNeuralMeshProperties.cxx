@@ -10,6 +10,7 @@
 #include "vtkNeuralMeshFileSampler.h"
 #include "vtkNeuralMeshInformation.h"
 #include "vtkNeuralMeshPLYReader.h"
+#include "vtkNeuralMeshReader.h"
 #include "vtkNeuralMeshScan.h"
 #include "vtkNeuralMeshStream.h"
 #include "vtkNeuralMeshWriter.h"

@@ -13,7 +13,10 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 HANGING = 900
 
 CONFIGURATION = os.environ["NEURALMESH_PLUGIN_CONFIG"]
-PLUGIN = os.path.join(os.path.dirname(CONFIGURATION), "NeuralMesh", "NeuralMesh.so")
+# The compiled one, or that in Python.
+PLUGIN = os.environ.get("NEURALMESH_PLUGIN") or os.path.join(
+    os.path.dirname(CONFIGURATION), "NeuralMesh", "NeuralMesh.so"
+)
 
 paraview.options.batch = True
 

@@ -24,7 +24,8 @@ struct Drawn
 };
 }
 
-nb::object drawPoints(const std::string& path, std::uint64_t wanted, std::uint64_t seed, Call& call)
+nb::object drawPoints(const std::string& path, const RawFile& raw, std::uint64_t wanted,
+  std::uint64_t seed, Call& call)
 {
   PhaseTimes times;
   times.enter(Phase::Drawing);
@@ -34,7 +35,9 @@ nb::object drawPoints(const std::string& path, std::uint64_t wanted, std::uint64
   try
   {
     const nb::gil_scoped_release unlocked;
-    const PointFile file(path);
+    const PointFile file = raw.numbers.empty()
+      ? PointFile(path)
+      : PointFile(path, raw.numbers == "double", raw.skip);
     layout = file.layout();
     const auto count = std::size_t(std::min(wanted, layout.count));
     layout.isDouble ? drawn.doubles.reserve(3 * count) : drawn.floats.reserve(3 * count);
@@ -81,6 +84,7 @@ nb::object drawPoints(const std::string& path, std::uint64_t wanted, std::uint64
   {
     result["normals"] = arrayOf(std::move(drawn.normals), 3);
   }
+  result["file_points"] = layout.count;
   result["seconds"] = times.seconds(Phase::Drawing);
   return result;
 }

@@ -4,17 +4,27 @@
 #include "Arrays.h"
 #include "Call.h"
 #include "Drawing.h"
+#include "Files.h"
 #include "Measures.h"
+#include "Report.h"
 #include "Run.h"
+#include "Scan.h"
 #include "Stream.h"
+#include "Tune.h"
 #include "Values.h"
 
 #include "base/AtomicFile.h"
+#include "run/Ensemble.h"
+#include "run/RunEstimate.h"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
+
+#include <stdexcept>
+#include <string>
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -23,17 +33,33 @@ namespace neuralmesh::binding
 {
 namespace
 {
+/// What is wrong with the mesh is said behind a text.
+TriangleMesh namedMeshOf(const char* before, const ArrayOf<double>& points,
+  const ArrayOf<std::int64_t>& triangles)
+{
+  try
+  {
+    return meshOf(points, triangles);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw std::invalid_argument(std::string(before) + error.what() + ".");
+  }
+}
+
 void learn(Run& run, const nb::dict& parameters, std::optional<nb::dict> ensemble,
   const std::optional<ArrayOf<double>>& firstPoints,
   const std::optional<ArrayOf<std::int64_t>>& firstTriangles, bool automatic, bool explain,
   double endOfMesh, std::string checkpoint, double checkpointInterval, std::size_t snapshots,
-  nb::object takeSnapshot, nb::object progress)
+  nb::object takeSnapshot, nb::object tell, nb::object progress)
 {
   Run::Plan plan{ parameters, std::move(ensemble), {}, automatic, explain, endOfMesh,
-    std::move(checkpoint), checkpointInterval, snapshots, std::move(takeSnapshot) };
+    std::move(checkpoint), checkpointInterval, snapshots, std::move(takeSnapshot),
+    std::move(tell) };
   if (firstPoints && firstTriangles)
   {
-    plan.firstMesh = meshOf(*firstPoints, *firstTriangles);
+    plan.firstMesh =
+      namedMeshOf("Learning cannot start from the first mesh: ", *firstPoints, *firstTriangles);
   }
   Call call(std::move(progress));
   run.learn(std::move(plan), call);
@@ -59,7 +85,8 @@ void bindRun(nb::module_& module)
     .def("needs_doubles", &Run::needsDoubles, "vertices"_a)
     .def("learn", &learn, "parameters"_a, "ensemble"_a.none(), "first_points"_a.none(),
       "first_triangles"_a.none(), "automatic"_a, "explain"_a, "end_of_mesh"_a, "checkpoint"_a,
-      "checkpoint_interval"_a, "snapshots"_a, "take_snapshot"_a.none(), "progress"_a.none())
+      "checkpoint_interval"_a, "snapshots"_a, "take_snapshot"_a.none(), "tell"_a.none(),
+      "progress"_a.none())
     .def("mesh", &Run::mesh, "double"_a)
     .def("average", &Run::average, "double"_a)
     .def("votes", &Run::votes)
@@ -173,30 +200,68 @@ void bindMeasures(nb::module_& module)
       const ArrayOf<std::int64_t>& triangles, double leastPiece, nb::object progress)
     {
       Call call(std::move(progress));
-      nb::object explained = explain(points, meshOf(meshPoints, triangles), leastPiece, call);
+      nb::object explained = explain(points,
+        namedMeshOf("The mesh cannot be used: ", meshPoints, triangles), leastPiece, call);
       call.rethrow();
       return explained;
     },
     "points"_a, "mesh_points"_a, "triangles"_a, "least_piece"_a, "progress"_a.none());
   module.def(
+    "scan",
+    [](const ArrayOf<double>& points, const ArrayOf<std::int64_t>& triangles,
+      const nb::dict& options, const std::optional<ArrayOf<double>>& viewpoint, bool isDouble,
+      nb::object progress)
+    {
+      Call call(std::move(progress));
+      nb::object cloud =
+        scan(meshOf(points, triangles), scanOptionsOf(options), viewpoint, isDouble, call);
+      call.rethrow();
+      return cloud;
+    },
+    "points"_a, "triangles"_a, "options"_a, "viewpoint"_a.none(), "double"_a, "progress"_a.none());
+  module.def(
     "report",
     [](const ArrayOf<double>& points, const ArrayOf<std::int64_t>& triangles)
     { return report(meshOf(points, triangles)); },
     "points"_a, "triangles"_a);
+  module.attr("tried_vertices") = TriedVertices;
+  module.def("estimate", &estimate, "vertices"_a, "points"_a, "bytes_of_points"_a,
+    "samples_for_features"_a, "is_ensemble"_a, "growth"_a, "seconds_of_trial"_a);
+  module.def(
+    "tune",
+    [](const std::vector<AnyArray>& points, const nb::dict& parameters, unsigned threads,
+      nb::object progress)
+    {
+      Call call(std::move(progress));
+      nb::object tuning = tuneFor(points, parametersOf(parameters), threads, call);
+      call.rethrow();
+      return tuning;
+    },
+    "points"_a, "parameters"_a, "threads"_a, "progress"_a.none());
 }
 
 void bindFiles(nb::module_& module)
 {
   module.def(
     "draw_points",
-    [](const std::string& path, std::uint64_t wanted, std::uint64_t seed, nb::object progress)
+    [](const std::string& path, std::uint64_t wanted, std::uint64_t seed, nb::object progress,
+      const std::string& raw, std::uint64_t skip)
     {
       Call call(std::move(progress));
-      nb::object points = drawPoints(path, wanted, seed, call);
+      nb::object points = drawPoints(path, { raw, skip }, wanted, seed, call);
       call.rethrow();
       return points;
     },
-    "path"_a, "wanted"_a, "seed"_a, "progress"_a.none());
+    "path"_a, "wanted"_a, "seed"_a, "progress"_a.none(), "raw"_a = "", "skip"_a = 0);
+  module.def("read_points", &readPoints, "path"_a);
+  module.def("write_mesh", &writeSurface, "path"_a, "points"_a, "triangles"_a, "normals"_a.none(),
+    "colors"_a.none(), "shift"_a.none(), "noted"_a);
+  module.def("require_digits", &requireDigitsFor, "path"_a, "points"_a, "vertices"_a, "shift"_a);
+  module.def("round_shift", &roundShiftOf, "points"_a);
+  module.def("shift_note", &noteOf, "shift"_a);
+  module.def("require_place", &requirePlace, "path"_a);
+  module.def("write_whole", &writeWhole, "path"_a, "content"_a);
+  module.def("join_views", &joinViews, "parts"_a);
   module.def("usual_points", &usualPoints, "vertices"_a);
   module.def("remove_file", &removeAtomicFile, "path"_a);
 }
@@ -217,6 +282,8 @@ NB_MODULE(_engine, module)
   module.def(
     "errors", [](const nb::dict& parameters) { return parametersOf(parameters).errors(); },
     "parameters"_a);
+  module.def("empty_curve", [] { return curveOf(LearningCurve()); });
+  module.def("grid_count", &Ensemble::gridCount, "resolution"_a);
   bindFiles(module);
   bindMeasures(module);
   bindRun(module);

@@ -125,6 +125,18 @@ void addTuning(const Tuning& tuning, nb::dict& fields)
   fields["ReasonsOfChoice"] = tuning.reasons();
 }
 
+std::vector<std::string> textsOf(const Tuning& tuning)
+{
+  std::vector<std::string> texts;
+  for (const TuningChoice& choice : tuning.choices)
+  {
+    texts.push_back("has chosen " + assignment(choice));
+  }
+  const std::vector<std::string> reasons = tuning.reasons();
+  texts.insert(texts.end(), reasons.begin(), reasons.end());
+  return texts;
+}
+
 nb::dict curveOf(const LearningCurve& curve)
 {
   using Row = LearningCurve::Row;

@@ -9,6 +9,9 @@
 
 #include <nanobind/nanobind.h>
 
+#include <string>
+#include <vector>
+
 namespace neuralmesh::binding
 {
 /// A dict of `points`, `triangles` and the dict `point_data`.
@@ -21,6 +24,8 @@ void addSides(const OrientationReport& report, nanobind::dict& fields);
 void addQuality(const Reconstruction& result, double unit, nanobind::dict& fields);
 void addCounts(const Explanation& explanation, nanobind::dict& fields);
 void addTuning(const Tuning& tuning, nanobind::dict& fields);
+/// What is chosen, and why, a text each.
+std::vector<std::string> textsOf(const Tuning& tuning);
 
 /// Columns of the learning curve.
 nanobind::dict curveOf(const LearningCurve& curve);

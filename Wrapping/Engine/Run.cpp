@@ -72,22 +72,32 @@ void Run::learn(Plan plan, Call& call)
     ensemble = ensembleParametersOf(*plan.ensemble);
   }
   const nb::gil_scoped_release unlocked;
-  warnings_ = parameters.warnings(cloud_->points().size());
+  const Tell tell = [&](const char* kind, const std::string& text)
+  {
+    if (!plan.tell.is_none())
+    {
+      call.with([&] { plan.tell(kind, text); });
+    }
+  };
+  std::optional<Mesh> first = firstMeshOf(std::move(plan.firstMesh));
+  warn(parameters.warnings(cloud_->points().size()), tell);
   CheckpointPlan checkpoint{ .path = plan.checkpoint,
     .interval = plan.checkpointInterval,
-    .warn = [this](const std::string& text)
-    { warnings_.push_back("The run goes on without a checkpoint: " + text); } };
-  std::optional<Mesh> first = firstMeshOf(std::move(plan.firstMesh));
+    .warn = [&](const std::string& text)
+    {
+      checkpointWarnings_.push_back("The run goes on without a checkpoint: " + text);
+      tell("warning", checkpointWarnings_.back());
+    } };
   double begin = 0.;
   if (ensemble)
   {
-    begin = startFrom(*ensemble, parameters, checkpoint, first, call);
+    begin = startFrom(*ensemble, parameters, checkpoint, first, tell, call);
   }
   if (first)
   {
     if (const std::string warning = warningOfFirst(*first, parameters); !warning.empty())
     {
-      warnings_.push_back(warning);
+      warn({ warning }, tell);
     }
   }
   GrowthWatch watch;
@@ -102,7 +112,15 @@ void Run::learn(Plan plan, Call& call)
   {
     if (plan.isAutomatic)
     {
-      AutomaticReconstruction automatic = reconstructAutomatically(*cloud_, parameters, progress, {},
+      AutomaticReconstruction automatic = reconstructAutomatically(
+        *cloud_, parameters, progress,
+        [&](const Tuning& tuning)
+        {
+          for (const std::string& text : textsOf(tuning))
+          {
+            tell("choice", text);
+          }
+        },
         first, watch, checkpoint, executor_, hints_, plan.explainsAll);
       tuning_ = std::move(automatic.tuning);
       result_ = std::move(automatic.reconstruction);
@@ -117,8 +135,24 @@ void Run::learn(Plan plan, Call& call)
   {
     throw std::invalid_argument(std::string("Of the checkpoint: ") + error.what() + ".");
   }
-  warnings_.insert(warnings_.end(), result_.warnings.begin(), result_.warnings.end());
+  warn(result_.warnings, tell);
   times_.add(result_.times);
+}
+
+void Run::warn(const std::vector<std::string>& texts, const Tell& tell)
+{
+  for (const std::string& text : texts)
+  {
+    warnings_.push_back(text);
+    tell("warning", text);
+  }
+}
+
+std::vector<std::string> Run::warnings() const
+{
+  std::vector<std::string> all = warnings_;
+  all.insert(all.end(), checkpointWarnings_.begin(), checkpointWarnings_.end());
+  return all;
 }
 
 std::optional<Mesh> Run::firstMeshOf(std::optional<TriangleMesh> triangles) const
@@ -136,15 +170,16 @@ std::optional<Mesh> Run::firstMeshOf(std::optional<TriangleMesh> triangles) cons
 
 /// Returns where the refinement begins, as a fraction of the whole run.
 double Run::startFrom(const EnsembleParameters& ensemble, Parameters& parameters,
-  CheckpointPlan& checkpoint, std::optional<Mesh>& first, Call& call)
+  CheckpointPlan& checkpoint, std::optional<Mesh>& first, const Tell& tell, Call& call)
 {
   EnsembleStart start = startByEnsemble(
-    *cloud_, ensemble, parameters, call.part(0., 1.), [](EnsembleStep) {}, executor_);
+    *cloud_, ensemble, parameters, call.part(0., 1.),
+    [&](EnsembleStep step) { tell("step", std::string(name(step))); }, executor_);
   parameters.timeLimit = start.timeLimit;
   checkpoint.isStartWhole = start.votes.has_value();
   if (!start.warning.empty())
   {
-    warnings_.push_back(start.warning);
+    warn({ start.warning }, tell);
   }
   if (start.isAverage())
   {

@@ -13,6 +13,7 @@
 #include "run/Tuning.h"
 #include "start/VoxelMajority.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,6 +38,8 @@ public:
     double checkpointInterval = 60.;
     std::size_t snapshots = 0;
     nanobind::object takeSnapshot;
+    /// Called with what is said meanwhile, its kind first: "warning", "step" or "choice".
+    nanobind::object tell;
   };
 
   /// Throws std::invalid_argument where no run can be made of the points.
@@ -57,7 +60,7 @@ public:
   nanobind::dict curve() const;
   nanobind::dict explained() const;
   nanobind::dict times() const;
-  std::vector<std::string> warnings() const { return warnings_; }
+  std::vector<std::string> warnings() const;
   std::string stopReason() const;
   bool isComplete() const { return result_.isComplete(); }
   std::uint64_t resumedIterations() const { return result_.resumedIterations; }
@@ -71,9 +74,12 @@ public:
   nanobind::object vote(const ArrayOf<std::uint32_t>& kinds) const;
 
 private:
+  using Tell = std::function<void(const char* kind, const std::string& text)>;
+
   std::optional<Mesh> firstMeshOf(std::optional<TriangleMesh> triangles) const;
   double startFrom(const EnsembleParameters& ensemble, Parameters& parameters,
-    CheckpointPlan& checkpoint, std::optional<Mesh>& first, Call& call);
+    CheckpointPlan& checkpoint, std::optional<Mesh>& first, const Tell& tell, Call& call);
+  void warn(const std::vector<std::string>& texts, const Tell& tell);
 
   std::vector<AnyArray> points_;
   Sides sides_;
@@ -87,6 +93,7 @@ private:
   std::optional<VoxelVotes> votes_;
   std::optional<TriangleMesh> average_;
   std::vector<std::string> warnings_;
+  std::vector<std::string> checkpointWarnings_; ///< of the run, and not of the mesh
   std::uint64_t seed_ = 0;
   std::optional<CloudPlaces> places_;
 };

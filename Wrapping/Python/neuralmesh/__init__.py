@@ -32,6 +32,7 @@ from ._stream import stream
 if VTK_VERSION:
     from .vtkFiltersNeuralMesh import *
 else:
+    from .engine.files import read
     from .engine.mesh import Mesh
 
     def __getattr__(name: str):

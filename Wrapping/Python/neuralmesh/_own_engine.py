@@ -7,9 +7,11 @@ from typing import Any
 
 _CLASSES = (
     "vtkNeuralMesh",
+    "vtkNeuralMeshAlgorithm",
     "vtkNeuralMeshComparison",
     "vtkNeuralMeshEnsemble",
     "vtkNeuralMeshExplanation",
+    "vtkNeuralMeshScan",
     "vtkNeuralMeshStream",
 )
 

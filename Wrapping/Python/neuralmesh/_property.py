@@ -27,21 +27,33 @@ class Property:
     short: str = ""
     text: str = ""
 
-    def clamped(self, value: Any) -> int | float:
-        """What SetX makes of a value."""
+    def clamped(self, value: Any, before: int | float | None = None) -> int | float:
+        """What SetX makes of a value. What is no number is what was there before."""
         if self.kind == "double":
             number: int | float = float(value)
-            # What is no number is the least, as in C++.
-            return min(max(number, self.low), self.high) if number == number else self.low
+            if number != number:
+                return self.low if before is None else before
+            return min(max(number, self.low), self.high)
         number = int(value)
         return min(max(number, int(self.low)), int(self.high))
 
+    def warning(self, value: Any, used: int | float) -> str:
+        """What is said where a value is not the one that is used; empty where it is."""
+        if value == used:
+            return ""
+        shown = "%g" if self.kind == "double" else "%d"
+        low, high, given, clamped = (shown % one for one in (self.low, self.high, value, used))
+        return f"{self.name} must be from {low} to {high}: not {given} but {clamped} is used."
+
     def methods(self) -> dict[str, Callable[..., Any]]:
-        """The methods, by their names, of a class that has _values and Modified()."""
+        """The methods, by their names, of a class that has _values, _warn() and Modified()."""
         name = self.name
 
         def set_value(this: Any, value: Any) -> None:
-            clamped = self.clamped(value)
+            clamped = self.clamped(value, this._values[name])
+            warning = self.warning(value, clamped)
+            if warning:
+                this._warn(warning)
             if this._values[name] != clamped:
                 this._values[name] = clamped
                 this.Modified()

@@ -14,7 +14,7 @@ from vtkmodules.util.misc import calldata_type
 from vtkmodules.vtkCommonCore import VTK_OBJECT
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from .vtkFiltersNeuralMesh import vtkNeuralMesh
+from . import vtkNeuralMesh
 
 
 def watch(

@@ -45,11 +45,18 @@ class NeuralMeshAlgorithm:
         self._up_direction = (0.0, 0.0, 0.0)
 
     def Modified(self) -> None:
-        """Told when a property changes."""
+        """Called when a property changes. Of the classes for pipelines it is that of VTK."""
+
+    def _warn(self, text: str) -> None:
+        """Called with a warning about a property."""
 
     def SetPreset(self, preset: int) -> None:
         """Set all properties that a preset has to its values for the Variant and Order as they are."""
         self._preset = min(max(int(preset), self.DEFAULT), self.THESIS)
+        if preset != self._preset:
+            self._warn(
+                f"Preset must be DEFAULT or THESIS: not {preset} but {self._preset} is used."
+            )
         values = _engine.preset(self._preset, self._values["Variant"], self._values["Order"])
         if any(self._values[name] != value for name, value in values.items()):
             self._values.update(
@@ -71,13 +78,13 @@ class NeuralMeshAlgorithm:
 
     def SetViewpoint(self, *place: Any) -> None:
         """Where the scanner stood, three numbers: the only viewpoint."""
-        if self._viewpoints != [_three(place)]:
-            self._viewpoints = [_three(place)]
+        if self._viewpoints != [three(place)]:
+            self._viewpoints = [three(place)]
             self.Modified()
 
     def AddViewpoint(self, *place: Any) -> None:
         """One more place where it stood."""
-        self._viewpoints.append(_three(place))
+        self._viewpoints.append(three(place))
         self.Modified()
 
     def RemoveAllViewpoints(self) -> None:
@@ -111,8 +118,8 @@ class NeuralMeshAlgorithm:
 
     def SetUpDirection(self, *direction: Any) -> None:
         """Where up is, three numbers; zeros if that is not known."""
-        if self._up_direction != _three(direction):
-            self._up_direction = _three(direction)
+        if self._up_direction != three(direction):
+            self._up_direction = three(direction)
             self.Modified()
 
     def GetUpDirection(self) -> tuple[float, float, float]:
@@ -130,8 +137,9 @@ class NeuralMeshAlgorithm:
     def _sides(self, cloud: Cloud | None, problems: list[str]) -> dict[str, Any]:
         """What tells the outer side, as the engine takes it. ValueError if an array is not there."""
         viewpoints = np.array(self._viewpoints, dtype=np.float64).reshape(-1, 3)
-        if not self._viewpoints and cloud is not None and cloud.viewpoints is not None:
-            viewpoints = cloud.viewpoints
+        if not self._viewpoints and cloud is not None:
+            viewpoints = viewpoints if cloud.viewpoints is None else cloud.viewpoints
+            problems += cloud.viewpoint_problems
         if cloud is not None:
             problems += cloud.problems
         views = None
@@ -158,7 +166,7 @@ def _view_numbers(views: np.ndarray) -> np.ndarray:
     return np.where(is_view, views, _NO_VIEW).astype(np.uint32)
 
 
-def _three(numbers: tuple[Any, ...]) -> tuple[float, float, float]:
+def three(numbers: tuple[Any, ...]) -> tuple[float, float, float]:
     given = numbers[0] if len(numbers) == 1 else numbers
     x, y, z = (float(number) for number in given)
     return (x, y, z)

@@ -7,6 +7,7 @@ from typing import Any, Callable
 
 import numpy as np
 
+from .cloud import Cloud
 from .mesh import Mesh
 
 _BEGIN, _FOUND = 0.95, 0.975  # of the progress
@@ -16,12 +17,12 @@ _NO_LABEL = 2**32 - 1
 
 def carry(
     run: Any,
+    cloud: Cloud,
     arrays: dict[str, np.ndarray],
-    scalars: str,
     mesh: Mesh,
     progress: Callable[[float], "bool | None"] | None,
 ) -> bool:
-    """Add the arrays to the mesh. Floats and colours are fitted; of anything else each vertex takes
+    """Add arrays of the cloud to the mesh. Floats and colours are fitted; of anything else each vertex takes
     what most of its points have. Returns False, with some of them only, if progress ended it.
     """
     is_done = run.find_places(_BEGIN, _FOUND, progress)
@@ -31,7 +32,9 @@ def carry(
             return False
         free = _free_name(name, mesh)
         mesh.point_data[free] = _fitted(run, values) if _is_fitted(values) else _voted(run, values)
-        if name == scalars:
+        if name in cloud.vtk_data:
+            mesh.vtk_kinds[free] = cloud.vtk_data[name]
+        if name == cloud.scalars:
             mesh.scalars = free
     return is_done
 

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass, field
 from typing import Any, Iterator
 
 import numpy as np
 
+from .mesh import Mesh
 from .vtk_arrays import to_numpy
 
 _GHOSTS = "vtkGhostType"
@@ -23,6 +23,27 @@ class Block:
     data: dict[str, np.ndarray] = field(default_factory=dict)  # that the mesh gets, too
     normals: np.ndarray | None = None
     scalars: str = ""  # the name of the active ones
+    # Of a point set of VTK: itself, which of its points these are (None: all), and its arrays.
+    dataset: Any = None
+    kept: np.ndarray | None = None
+    vtk_data: dict[str, Any] = field(default_factory=dict)
+    is_double: bool | None = None  # whether they were 8-byte floats; None: as they are
+
+    @property
+    def has_doubles(self) -> bool:
+        return self.points.dtype == np.float64 if self.is_double is None else self.is_double
+
+    def of_points(self, array: Any) -> np.ndarray:
+        """The values that an array of the point set has for the points."""
+        values = to_numpy(array)
+        return values if self.kept is None else values[self.kept]
+
+    def values(self, name: str) -> np.ndarray | None:
+        """Those of any array of that name, whether the mesh gets it or not."""
+        if name in self.data or self.dataset is None:
+            return self.data.get(name)
+        array = self.dataset.GetPointData().GetArray(name)
+        return self.of_points(array) if array and _fits(array, self.dataset) else None
 
 
 @dataclass
@@ -32,24 +53,20 @@ class Cloud:
     blocks: list[Block] = field(default_factory=list)
     viewpoints: np.ndarray | None = None  # that come with the points, of shape (V, 3)
     other_blocks: int = 0  # that are no point sets
-    kind: str = "array"  # "array", "vtk" or "pyvista": what the result should be
+    is_in_blocks: bool = False  # of a composite dataset, however many they are
     problems: list[str] = field(default_factory=list)  # what was left out of it, in words
+    viewpoint_problems: list[str] = field(default_factory=list)  # likewise, of the viewpoints
 
     def __len__(self) -> int:
         return sum(len(block.points) for block in self.blocks)
 
     @property
     def has_doubles(self) -> bool:
-        return any(block.points.dtype == np.float64 for block in self.blocks)
+        return any(block.has_doubles for block in self.blocks)
 
     def values(self, name: str) -> np.ndarray | None:
         """The data of that name of all points, one number each; None if a block has none."""
-        arrays = [block.data.get(name) for block in self.blocks]
-        if any(
-            array is None or array.ndim != 1 or array.dtype.kind not in "fiub" for array in arrays
-        ):
-            return None
-        return np.concatenate(arrays).astype(np.float64) if arrays else None
+        return numbers_of([block.values(name) for block in self.blocks])
 
     def normals(self) -> np.ndarray | None:
         """Normals of all points, 0 in blocks that have none; None if no block has some."""
@@ -75,23 +92,48 @@ class Cloud:
                 yield name, arrays[0] if len(arrays) == 1 else np.concatenate(arrays)
 
     @property
+    def vtk_data(self) -> dict[str, Any]:
+        """The arrays of VTK whose kind the data has."""
+        return self.blocks[0].vtk_data if self.blocks else {}
+
+    @property
     def scalars(self) -> str:
         return self.blocks[0].scalars if self.blocks else ""
 
 
+def numbers_of(arrays: list[np.ndarray | None]) -> np.ndarray | None:
+    """The arrays of all blocks as one; None if there is none or one is not a number for each point."""
+    found = [array for array in arrays if array is not None]
+    if len(found) < len(arrays) or any(a.ndim != 1 or a.dtype.kind not in "fiub" for a in found):
+        return None
+    return np.concatenate(found).astype(np.float64) if found else None
+
+
 def as_cloud(points: object, blocks: bool = True) -> Cloud:
-    """The cloud that an array, a vtkPointSet or, with blocks, a vtkCompositeDataSet is.
+    """The cloud that an array, a Mesh, a vtkPointSet or, with blocks, a vtkCompositeDataSet is.
 
     Arrays of 4- and 8-byte floats are referred to where they are contiguous; all other numbers become
     8-byte floats. ValueError for anything but those and numbers of shape (N, 3).
     """
     if isinstance(points, Cloud):
         return points
-    if hasattr(points, "GetPointData") and hasattr(points, "GetPoint"):
+    if isinstance(points, Mesh):
+        return _of_mesh(points)
+    if hasattr(points, "IsA") and points.IsA("vtkPointSet"):
         return _of_datasets([points], points)
-    if blocks and hasattr(points, "NewIterator"):
+    if blocks and hasattr(points, "IsA") and points.IsA("vtkCompositeDataSet"):
         return _of_datasets(list(_leaves(points)), points)
     return Cloud([Block(as_points(points))])
+
+
+def _of_mesh(mesh: Mesh) -> Cloud:
+    data = {name: np.asarray(values) for name, values in mesh.point_data.items()}
+    block = Block(as_points(mesh.points), data, data.pop("Normals", None), mesh.scalars)
+    cloud = Cloud([block] if len(block.points) > 0 else [])
+    viewpoints = mesh.field_data.get("Viewpoints")
+    if viewpoints is not None:
+        cloud.viewpoints = np.asarray(viewpoints, dtype=np.float64).reshape(-1, 3)
+    return cloud
 
 
 def as_points(points: object) -> np.ndarray:
@@ -108,13 +150,6 @@ def as_points(points: object) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.float32 if single else np.float64)
 
 
-def kind_of(data: object) -> str:
-    """What the result of a function should be that was given this."""
-    if any(cls.__module__.partition(".")[0] == "pyvista" for cls in type(data).__mro__):
-        return "pyvista"
-    return "vtk" if hasattr(data, "GetPointData") or hasattr(data, "NewIterator") else "array"
-
-
 def _leaves(composite: Any) -> Iterator[Any]:
     iterator = composite.NewIterator()
     iterator.SkipEmptyNodesOn()
@@ -125,7 +160,7 @@ def _leaves(composite: Any) -> Iterator[Any]:
 
 
 def _of_datasets(leaves: list[Any], whole: Any) -> Cloud:
-    cloud = Cloud(kind=kind_of(whole))
+    cloud = Cloud(is_in_blocks=not whole.IsA("vtkPointSet"))
     for leaf in leaves:
         if not leaf.IsA("vtkPointSet"):
             cloud.other_blocks += 1
@@ -133,11 +168,10 @@ def _of_datasets(leaves: list[Any], whole: Any) -> Cloud:
             block = _block_of(leaf, cloud.problems)
             if len(block.points) > 0:
                 cloud.blocks.append(block)
-    sources = itertools.chain([whole], (leaf for leaf in leaves[:1]))
-    for source in sources:
+    for source in [whole, *(block.dataset for block in cloud.blocks[:1])]:
         array = source.GetFieldData().GetArray("Viewpoints")
         if array and array.GetNumberOfComponents() != 3:
-            cloud.problems.append(
+            cloud.viewpoint_problems.append(
                 "The field data Viewpoints of the input has not 3 components and was left out."
             )
             break
@@ -153,25 +187,27 @@ def _block_of(leaf: Any, problems: list[str]) -> Block:
     points = np.ascontiguousarray(coordinates, dtype=coordinates.dtype if is_plain else np.float64)
     data = leaf.GetPointData()
     ghosts = data.GetArray(_GHOSTS)
-    kept = None
-    if ghosts:
-        kept = (to_numpy(ghosts) & _SKIPPED) == 0
-        points = points[kept]
-    block = Block(points)
+    block = Block(points, dataset=leaf, is_double=coordinates.dtype == np.float64)
+    if ghosts and ghosts.IsA("vtkUnsignedCharArray"):
+        block.kept = (to_numpy(ghosts) & _SKIPPED) == 0
+        block.points = points[block.kept]
+        if len(block.points) == 0:
+            return block
     normals = data.GetNormals() or data.GetArray("Normals")
     if normals and (normals.GetNumberOfComponents() != 3 or not _fits(normals, leaf)):
         problems.append(
             "The normals of the input are not 3 components for each point and were left out."
         )
     elif normals:
-        block.normals = _of_points(normals, kept)
+        block.normals = block.of_points(normals)
     ids = (data.GetNormals(), data.GetGlobalIds(), data.GetPedigreeIds())
     for i in range(data.GetNumberOfArrays()):
         array = data.GetAbstractArray(i)
         name = array.GetName() or "Scalars"
         is_left_out = any(array is other for other in ids) or name == _GHOSTS
         if not is_left_out and array.GetNumberOfComponents() > 0 and _fits(array, leaf):
-            block.data[name] = _of_points(array, kept)
+            block.data[name] = block.of_points(array)
+            block.vtk_data[name] = array
             if array is data.GetAbstractAttribute(0):
                 block.scalars = name
     return block
@@ -180,7 +216,3 @@ def _block_of(leaf: Any, problems: list[str]) -> Block:
 def _fits(array: Any, leaf: Any) -> bool:
     return array.GetNumberOfTuples() == leaf.GetNumberOfPoints()
 
-
-def _of_points(array: Any, kept: np.ndarray | None) -> np.ndarray:
-    values = to_numpy(array)
-    return values if kept is None else values[kept]

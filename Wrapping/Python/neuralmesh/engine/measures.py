@@ -23,7 +23,7 @@ DIRECTIONS = ("reference to result", "result to reference")
 _LENGTHS = ("Mean", "RMS", "Percentile99", "Maximum")
 
 
-class _Measure:
+class Measure:
     """A class that has properties."""
 
     PROPERTIES: dict[str, Property]
@@ -32,7 +32,10 @@ class _Measure:
         self._values = new_values(type(self))
 
     def Modified(self) -> None:
-        """Told when a property changes."""
+        """Called when a property changes. Of the classes for pipelines it is that of VTK."""
+
+    def _warn(self, text: str) -> None:
+        """Called with a warning about a property."""
 
 
 @dataclass
@@ -49,7 +52,7 @@ class Comparison:
     Property("NumberOfSamples", "count", 200000, 1000, 100000000),
     *of_name("Seed"),
 )
-class NeuralMeshComparison(_Measure):
+class NeuralMeshComparison(Measure):
     """The properties of vtkNeuralMeshComparison, and what it does."""
 
     def compare(
@@ -79,7 +82,7 @@ class NeuralMeshComparison(_Measure):
 
 
 @with_properties(Property("SmallestPiece", "double", 0.0005, 0.0, 1.0))
-class NeuralMeshExplanation(_Measure):
+class NeuralMeshExplanation(Measure):
     """The properties of vtkNeuralMeshExplanation, and what it does."""
 
     def explain(self, cloud: Cloud, mesh: Mesh, progress: Progress | None = None) -> Mesh | None:

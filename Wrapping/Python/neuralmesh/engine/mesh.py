@@ -34,6 +34,8 @@ class Mesh:
     point_data: dict[str, Any] = field(default_factory=dict)
     field_data: dict[str, Any] = field(default_factory=dict)
     scalars: str = ""
+    # Arrays of VTK by the names of point data that is to be of the same kind there.
+    vtk_kinds: dict[str, Any] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def warnings(self) -> list[str]:
@@ -100,7 +102,7 @@ class Mesh:
             )
             data.SetVerts(cells)
         for name, values in self.point_data.items():
-            array = named(values, name, package)
+            array = named(values, name, package, self.vtk_kinds.get(name))
             if name == "Normals":
                 data.GetPointData().SetNormals(array)
             elif name == self.scalars:
@@ -124,7 +126,9 @@ def as_mesh(surface: object, parameter: str) -> Mesh:
             return Mesh(points, triangles.astype(np.int64, copy=False))
     elif hasattr(surface, "GetPolys") and hasattr(surface, "GetPoints"):
         return Mesh(*polygons_of(surface))
-    raise ValueError(
-        f"{parameter} must be a vtkPolyData, a neuralmesh.Mesh, or arrays of points and triangles of "
-        f"shape (N, 3) and (T, 3), not {type(surface).__name__}"
+    wanted = (
+        "a vtkPolyData"
+        if vtk_package()
+        else "a neuralmesh.Mesh, or a pair of arrays, points and triangles"
     )
+    raise ValueError(f"{parameter} must be {wanted}, not {type(surface).__name__}")

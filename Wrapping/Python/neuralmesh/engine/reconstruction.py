@@ -32,6 +32,7 @@ class Outcome:
     average: Mesh | None = None  # of an ensemble
     votes: dict[str, Any] | None = None  # likewise
     warnings: list[str] = field(default_factory=list)
+    is_drawn: bool = True  # whether there were points: drawing them may be ended
 
 
 @with_properties(*of_class("vtkNeuralMesh"))
@@ -129,7 +130,7 @@ class NeuralMesh(NeuralMeshAlgorithm):
         )  # fmt: skip
         if drawn is None:
             self._stop_reason = "cancelled"
-            return Outcome(_empty_mesh())
+            return Outcome(_empty_mesh(), is_drawn=False)
         block = Block(drawn["points"], scalars="RGB" if "RGB" in drawn else "")
         if "RGB" in drawn:
             block.data["RGB"] = drawn["RGB"]
@@ -144,9 +145,13 @@ class NeuralMesh(NeuralMeshAlgorithm):
         first_mesh: Mesh | None = None,
         progress: Progress | None = None,
         take_snapshot: Callable[[Mesh], None] | None = None,
-        threads: int | None = None,
+        tell: Callable[[str, str], None] | None = None,
     ) -> Outcome:
-        """Learn a mesh of the cloud. ValueError tells why that cannot be."""
+        """Learn a mesh of the cloud. ValueError tells why that cannot be.
+
+        `tell` is called with what is said meanwhile, its kind first: "warning" (all of which are in the
+        outcome, too), "step" or "choice".
+        """
         self._stop_reason, self._resumed_iterations, self._times = "none", 0, {}
         problems = self.parameter_errors()
         if problems:
@@ -156,12 +161,20 @@ class NeuralMesh(NeuralMeshAlgorithm):
                 "CheckpointFileName and GrowthAsTime exclude each other: a checkpoint holds no snapshots."
             )
         warnings: list[str] = []
+
+        def warn(*texts: str) -> None:
+            warnings.extend(texts)
+            for text in texts if tell else ():
+                tell("warning", text)
+
         if cloud.other_blocks:
-            warnings.append(f"{cloud.other_blocks} blocks are no point sets and were left out.")
+            warn(f"{cloud.other_blocks} blocks are no point sets and were left out.")
         if len(cloud) == 0:
             return Outcome(_empty_mesh(), warnings=warnings)
         weights = self._weights(cloud)
-        sides = self._sides(cloud, warnings)
+        problems = []
+        sides = self._sides(cloud, problems)
+        warn(*problems)
         carried = dict(cloud.carried()) if self._values["CarryPointData"] else {}
         explains = bool(self._values["ExplainPoints"])
         run = _engine.Run(
@@ -197,6 +210,7 @@ class NeuralMesh(NeuralMeshAlgorithm):
             float(self._values["CheckpointInterval"]),
             int(self._values["NumberOfSnapshots"]) - 1 if take_snapshot else 0,
             _snapshot_taker(take_snapshot, is_double),
+            tell,
             progress,
         )
         self._stop_reason = run.stop_reason
@@ -211,7 +225,7 @@ class NeuralMesh(NeuralMeshAlgorithm):
             outcome.average, outcome.votes = _average_of(run, is_double), run.votes()
         is_complete = run.is_complete
         if carried and run.stop_reason != "cancelled":
-            is_complete = carry(run, carried, cloud.scalars, outcome.mesh, progress) and is_complete
+            is_complete = carry(run, cloud, carried, outcome.mesh, progress) and is_complete
         if is_complete and not self._values["KeepCheckpoint"]:
             self.RemoveCheckpoint()
         return outcome

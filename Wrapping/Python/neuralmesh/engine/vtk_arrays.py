@@ -27,7 +27,11 @@ def to_numpy(array: vtkAbstractArray) -> np.ndarray:
     are an array of objects.
     """
     components = array.GetNumberOfComponents()
-    if array.IsA("vtkBitArray") or not array.IsA("vtkDataArray"):
+    if array.IsA("vtkBitArray"):
+        bits = [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+        values = np.array(bits, dtype=np.uint8)
+        return values.reshape(-1, components) if components > 1 else values
+    if not array.IsA("vtkDataArray"):
         values = [array.GetVariantValue(i) for i in range(array.GetNumberOfValues())]
         texts = np.empty(len(values), dtype=object)
         texts[:] = [value.ToString() for value in values]
@@ -41,9 +45,15 @@ def to_numpy(array: vtkAbstractArray) -> np.ndarray:
     return vtk_module(vtk_package_of(array), "util.numpy_support").vtk_to_numpy(array)
 
 
-def named(values: Any, name: str, package: str | None = None) -> vtkAbstractArray:
-    """A VTK array that refers to the values, or, of texts, has them."""
+def named(
+    values: Any, name: str, package: str | None = None, kind: vtkAbstractArray | None = None
+) -> vtkAbstractArray:
+    """A VTK array that refers to the values, or, of texts, has them; of the same kind as another one
+    where that is given.
+    """
     values = np.asarray(values)
+    if kind is not None:
+        return _of_kind(values, name, kind)
     if values.dtype.kind in "OU":
         array = vtk_module(package, "vtkCommonCore").vtkStringArray()
         array.SetNumberOfComponents(values.shape[1] if values.ndim > 1 else 1)
@@ -54,6 +64,42 @@ def named(values: Any, name: str, package: str | None = None) -> vtkAbstractArra
         array = support.numpy_to_vtk(np.ascontiguousarray(values))
     array.SetName(name)
     return array
+
+
+def _of_kind(values: np.ndarray, name: str, kind: vtkAbstractArray) -> vtkAbstractArray:
+    package = vtk_package_of(kind)
+    core = vtk_module(package, "vtkCommonCore")
+    numpy_to_vtk = vtk_module(package, "util.numpy_support").numpy_to_vtk
+    array = core.vtkAbstractArray.CreateArray(kind.GetDataType())
+    is_bit = array.IsA("vtkBitArray")
+    if is_bit or not array.IsA("vtkDataArray"):
+        array.SetNumberOfComponents(kind.GetNumberOfComponents())
+        array.SetNumberOfTuples(len(values))
+        for i, value in enumerate(values.reshape(-1)):
+            if is_bit:
+                array.SetValue(i, int(value))
+            else:
+                array.SetVariantValue(i, core.vtkVariant(value))
+    else:
+        array = numpy_to_vtk(np.ascontiguousarray(values), array_type=kind.GetDataType())
+    array.CopyComponentNames(kind)
+    if kind.GetName():
+        array.SetName(name)
+    return array
+
+
+def table_column(values: Any, name: str) -> vtkAbstractArray:
+    """A column: whole numbers as VTK counts, others as 8-byte floats, texts as texts."""
+    numpy_to_vtk = vtk_module(None, "util.numpy_support").numpy_to_vtk
+    array = np.asarray(values)
+    if array.dtype.kind in "OU":
+        return named(array, name)
+    if array.dtype.kind in "iu":
+        column = numpy_to_vtk(array.astype(np.int64), array_type=vtk_module(None, "vtkCommonCore").VTK_ID_TYPE)
+    else:
+        column = numpy_to_vtk(array.astype(np.float64))
+    column.SetName(name)
+    return column
 
 
 def field_array(value: Any, name: str, package: str | None = None) -> vtkAbstractArray:

@@ -56,6 +56,8 @@ def with_array(cloud: Cloud, values: object, parameter: str, name: str) -> tuple
     array = _array_of_points(cloud, values, parameter, "the name of a point array", ())
     # Whole numbers stay so where they name something: they are not to be averaged on the mesh.
     kind = np.int64 if name == "View" and array.dtype.kind in "iub" else np.float64
+    if not cloud.blocks:
+        return cloud, name
     block = cloud.blocks[0]
     data = {**block.data, name: np.ascontiguousarray(array, dtype=kind)}
     return dataclasses.replace(cloud, blocks=[dataclasses.replace(block, data=data)]), name
@@ -64,6 +66,8 @@ def with_array(cloud: Cloud, values: object, parameter: str, name: str) -> tuple
 def with_normals(cloud: Cloud, normals: object) -> Cloud:
     """The cloud with these normals. ValueError for anything but numbers of shape (N, 3)."""
     array = _array_of_points(cloud, normals, "normals", "given with the blocks", (3,))
+    if not cloud.blocks:
+        return cloud
     block = dataclasses.replace(cloud.blocks[0], normals=np.asarray(array, dtype=np.float64))
     return dataclasses.replace(cloud, blocks=[block])
 
@@ -87,6 +91,8 @@ def learn(
     outcome = (
         mesh.run_on_file(first_mesh, told) if points is None else mesh.run(points, first_mesh, told)
     )
+    if told is not None and mesh.GetStopReason() != "cancelled":
+        told(1.0)
     for text in outcome.warnings:
         warn(text)
     explained = outcome.explained
@@ -141,7 +147,11 @@ def explain(
 
 
 def present(mesh: Mesh, given: object) -> Any:
-    """A mesh as who has given that has it: as PyVista or VTK; for arrays as VTK, too, if there is one."""
+    """A mesh as who has given that has it: as PyVista or VTK, or as it is; for arrays as VTK, too, if there
+    is one.
+    """
+    if isinstance(given, Mesh):
+        return mesh
     package = vtk_package_of(given) or vtk_package()
     return mesh if package is None else as_given(mesh.to_vtk_of(package), given)
 
@@ -161,7 +171,7 @@ def _told(progress: Progress | None) -> Progress | None:
 def _array_of_points(
     cloud: Cloud, values: object, parameter: str, other: str, shape: tuple[int, ...]
 ) -> np.ndarray:
-    if len(cloud.blocks) != 1:
+    if cloud.is_in_blocks:
         raise ValueError(f"{parameter} must be {other} where points are in blocks")
     array = np.asarray(values)
     wanted = (len(cloud), *shape)

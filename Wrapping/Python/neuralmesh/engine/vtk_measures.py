@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""vtkNeuralMeshComparison, vtkNeuralMeshExplanation and vtkNeuralMeshScan for any VTK."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData, vtkTable
+
+from .cloud import as_cloud
+from .measures import DIRECTIONS, Comparison, NeuralMeshComparison, NeuralMeshExplanation
+from .scan import NeuralMeshScan
+from .vtk_algorithm import fill_table, vtkEngineAlgorithm
+from .vtk_arrays import named
+
+
+class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
+    """How far a mesh is from a reference, over the surfaces and both ways.
+
+    Input port 0 takes the mesh, port 1 the reference. Outputs are both with the point data `Distance`,
+    and a vtkTable of the figures, a row for each direction.
+    """
+
+    _INPUTS = (("vtkPolyData",), ("vtkPolyData",))
+    _OUTPUTS = ("vtkPolyData", "vtkPolyData", "vtkTable")
+    REFERENCE_TO_RESULT, RESULT_TO_REFERENCE = 0, 1
+
+    def __init__(self, **properties: Any) -> None:
+        vtkEngineAlgorithm.__init__(self)
+        NeuralMeshComparison.__init__(self)
+        self._found: Comparison | None = None
+        self._set(properties)
+
+    def SetReferenceConnection(self, port: Any) -> None:
+        """The reference, input port 1."""
+        self.SetInputConnection(1, port)
+
+    def SetReferenceData(self, reference: Any) -> None:
+        """The same as data."""
+        self.SetInputData(1, reference)
+
+    def GetReferenceOutput(self) -> Any:
+        """Output port 1."""
+        return self.GetOutputDataObject(1)
+
+    def GetTableOutput(self) -> Any:
+        """Output port 2."""
+        return self.GetOutputDataObject(2)
+
+    def _figure(self, name: str, direction: int) -> float:
+        exists = self._found is not None and 0 <= direction < len(DIRECTIONS)
+        return self._found.table[name][direction] if exists else math.nan
+
+    def GetMean(self, direction: int) -> float:
+        """A figure of the last run, in units of the input, as the next ones; NaN if there is none."""
+        return self._figure("Mean", direction)
+
+    def GetRMS(self, direction: int) -> float:
+        """Root of the mean square."""
+        return self._figure("RMS", direction)
+
+    def GetPercentile99(self, direction: int) -> float:
+        """The distance that 99 % of the samples do not exceed."""
+        return self._figure("Percentile99", direction)
+
+    def GetMaximum(self, direction: int) -> float:
+        """The largest distance found."""
+        return self._figure("Maximum", direction)
+
+    def GetNormalAngle(self, direction: int) -> float:
+        """Mean angle between normals, in degrees."""
+        return self._figure("NormalAngle", direction)
+
+    def GetReferenceDiagonal(self) -> float:
+        """That of the bounding box of the reference, to which percentages refer."""
+        return self._found.diagonal if self._found is not None else math.nan
+
+    def _advance(self, fraction: float) -> bool:
+        self.UpdateProgress(fraction)
+        return not (self.CheckAbort() if hasattr(self, "CheckAbort") else self.GetAbortExecute())
+
+    def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
+        """Compares."""
+        self._found = None
+        surfaces = [vtkPolyData.GetData(inputs[port]) for port in (0, 1)]
+        result, reference = (self._surface(inputs, port) for port in (0, 1))
+        if all(one.GetNumberOfPoints() == 0 and one.GetNumberOfCells() == 0 for one in surfaces):
+            return 1
+        try:
+            found = self.compare(reference, result, self._advance)
+        except (ValueError, RuntimeError, MemoryError) as error:
+            self._error(str(error))
+            return 0
+        if found is None:
+            return 1
+        self._found = found
+        distances = (found.result_distances, found.reference_distances)
+        for port, (surface, values) in enumerate(zip(surfaces, distances)):
+            output = vtkPolyData.GetData(outputs, port)
+            output.ShallowCopy(surface)
+            output.GetPointData().AddArray(named(values, "Distance"))
+            output.GetPointData().SetActiveScalars("Distance")
+        table = {"Direction": list(DIRECTIONS), **found.table}
+        fill_table(vtkTable.GetData(outputs, 2), table)
+        return 1
+
+
+class vtkNeuralMeshExplanation(vtkEngineAlgorithm, NeuralMeshExplanation):
+    """How far each point of a cloud is from a mesh, whatever made that, and why.
+
+    Input port 0 takes the cloud, port 1 the mesh.
+    """
+
+    _INPUTS = (("vtkPointSet", "vtkCompositeDataSet"), ("vtkPolyData",))
+
+    def __init__(self, **properties: Any) -> None:
+        vtkEngineAlgorithm.__init__(self)
+        NeuralMeshExplanation.__init__(self)
+        self._set(properties)
+
+    def SetMeshConnection(self, port: Any) -> None:
+        """The mesh, input port 1."""
+        self.SetInputConnection(1, port)
+
+    def SetMeshData(self, mesh: Any) -> None:
+        """The same as data."""
+        self.SetInputData(1, mesh)
+
+    def GetMesh(self) -> Any:
+        """None if there is none."""
+        return self.GetInput(1)
+
+    def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
+        """Explains."""
+        cloud = as_cloud(vtkDataObject.GetData(inputs[0]))
+        if len(cloud) == 0:
+            return 1
+        try:
+            explained = self.explain(cloud, self._surface(inputs, 1), self._progress())
+        except (ValueError, RuntimeError, MemoryError) as error:
+            self._error(str(error))
+            return 0
+        if explained is not None:
+            explained.fill(vtkPolyData.GetData(outputs))
+        return 1
+
+
+class vtkNeuralMeshScan(vtkEngineAlgorithm, NeuralMeshScan):
+    """The point cloud that a scan of a surface might give, with noise, outliers, holes and shadows."""
+
+    def __init__(self, **properties: Any) -> None:
+        vtkEngineAlgorithm.__init__(self)
+        NeuralMeshScan.__init__(self)
+        self._set(properties)
+
+    def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
+        """Scans."""
+        data = vtkPolyData.GetData(inputs[0])
+        if data.GetNumberOfPoints() == 0 and data.GetNumberOfCells() == 0:
+            return 1
+        try:
+            cloud = self.scan(self._surface(inputs, 0), self._progress())
+        except (ValueError, RuntimeError, MemoryError) as error:
+            self._error(str(error))
+            return 0
+        self._obey_abort()
+        cloud.fill(vtkPolyData.GetData(outputs))
+        return 1
