@@ -118,8 +118,8 @@ nb::dict report(TriangleMesh mesh)
   result["components"] = surface.components;
   result["genus"] = orNone(surface.genus);
   result["boundary_loops"] = surface.boundaryLoops;
-  result["folded_edges"] = surface.foldedEdges;
   result["boundary_edges"] = surface.boundaryEdges;
+  result["folded_edges"] = surface.foldedEdges;
   result["non_manifold_edges"] = surface.nonManifoldEdges;
   result["non_manifold_vertices"] = surface.nonManifoldVertices;
   result["inconsistent_edges"] = surface.inconsistentEdges;

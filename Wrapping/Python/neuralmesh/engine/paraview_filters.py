@@ -12,12 +12,14 @@ from .vtk_filters import (
     vtkNeuralMeshComparison,
     vtkNeuralMeshEnsemble,
     vtkNeuralMeshExplanation,
+    vtkNeuralMeshInformation,
     vtkNeuralMeshScan,
 )
 
 __all__ = [
     "vtkNeuralMeshComparison",
     "vtkNeuralMeshExplanation",
+    "vtkNeuralMeshInformation",
     "vtkNeuralMeshScan",
     "vtkPNeuralMesh",
     "vtkPNeuralMeshEnsemble",
