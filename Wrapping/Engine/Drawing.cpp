@@ -7,6 +7,7 @@
 #include "cloud/PointFile.h"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 namespace nb = nanobind;
@@ -24,7 +25,8 @@ struct Drawn
 };
 }
 
-nb::object drawPoints(const std::string& path, std::uint64_t wanted, std::uint64_t seed, Call& call)
+nb::dict drawPoints(const std::string& path, const std::optional<RawPoints>& raw,
+  std::uint64_t wanted, std::uint64_t seed, Call& call)
 {
   PhaseTimes times;
   times.enter(Phase::Drawing);
@@ -34,11 +36,12 @@ nb::object drawPoints(const std::string& path, std::uint64_t wanted, std::uint64
   try
   {
     const nb::gil_scoped_release unlocked;
-    const PointFile file(path);
-    layout = file.layout();
+    const auto file = raw ? std::make_unique<PointFile>(path, raw->isDouble, raw->skip)
+                          : std::make_unique<PointFile>(path);
+    layout = file->layout();
     const auto count = std::size_t(std::min(wanted, layout.count));
     layout.isDouble ? drawn.doubles.reserve(3 * count) : drawn.floats.reserve(3 * count);
-    isDone = file.draw(
+    isDone = file->draw(
       wanted, seed,
       [&](const PointFile::Point& point)
       {
@@ -59,18 +62,20 @@ nb::object drawPoints(const std::string& path, std::uint64_t wanted, std::uint64
           }
         }
       },
-      [&](double) { return call.report(0.); });
+      call.part(0., 1.));
   }
   catch (const std::runtime_error& error)
   {
     throw std::invalid_argument(error.what());
   }
   times.leave();
+  nb::dict result;
+  result["count"] = layout.count;
+  result["seconds"] = times.seconds(Phase::Drawing);
   if (!isDone)
   {
-    return nb::none();
+    return result;
   }
-  nb::dict result;
   result["points"] =
     layout.isDouble ? arrayOf(std::move(drawn.doubles), 3) : arrayOf(std::move(drawn.floats), 3);
   if (layout.color)
@@ -81,7 +86,6 @@ nb::object drawPoints(const std::string& path, std::uint64_t wanted, std::uint64
   {
     result["normals"] = arrayOf(std::move(drawn.normals), 3);
   }
-  result["seconds"] = times.seconds(Phase::Drawing);
   return result;
 }
 }

@@ -16,6 +16,7 @@
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -226,14 +227,17 @@ void bindFiles(nb::module_& module)
 {
   module.def(
     "draw_points",
-    [](const std::string& path, std::uint64_t wanted, std::uint64_t seed, nb::object progress)
+    [](const std::string& path, std::uint64_t wanted, std::uint64_t seed,
+      std::optional<std::pair<bool, std::uint64_t>> raw, nb::object progress)
     {
       Call call(std::move(progress));
-      nb::object points = drawPoints(path, wanted, seed, call);
+      const auto layout =
+        raw ? std::optional(RawPoints{ raw->first, raw->second }) : std::nullopt;
+      nb::dict points = drawPoints(path, layout, wanted, seed, call);
       call.rethrow();
       return points;
     },
-    "path"_a, "wanted"_a, "seed"_a, "progress"_a.none());
+    "path"_a, "wanted"_a, "seed"_a, "raw"_a.none(), "progress"_a.none());
   module.def("usual_points", &usualPoints, "vertices"_a);
   module.def("remove_file", &removeAtomicFile, "path"_a);
 }

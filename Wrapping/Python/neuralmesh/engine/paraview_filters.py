@@ -12,12 +12,14 @@ from .vtk_filters import (
     vtkNeuralMeshComparison,
     vtkNeuralMeshEnsemble,
     vtkNeuralMeshExplanation,
+    vtkNeuralMeshFileSampler,
     vtkNeuralMeshScan,
 )
 
 __all__ = [
     "vtkNeuralMeshComparison",
     "vtkNeuralMeshExplanation",
+    "vtkNeuralMeshFileSampler",
     "vtkNeuralMeshScan",
     "vtkPNeuralMesh",
     "vtkPNeuralMeshEnsemble",

@@ -4,7 +4,12 @@ any VTK, on VTKPythonAlgorithmBase.
 """
 
 from .vtk_learning import vtkNeuralMesh, vtkNeuralMeshAlgorithm, vtkNeuralMeshEnsemble
-from .vtk_measures import vtkNeuralMeshComparison, vtkNeuralMeshExplanation, vtkNeuralMeshScan
+from .vtk_measures import (
+    vtkNeuralMeshComparison,
+    vtkNeuralMeshExplanation,
+    vtkNeuralMeshFileSampler,
+    vtkNeuralMeshScan,
+)
 from .vtk_stream import vtkNeuralMeshStream
 
 __all__ = [
@@ -13,6 +18,7 @@ __all__ = [
     "vtkNeuralMeshComparison",
     "vtkNeuralMeshEnsemble",
     "vtkNeuralMeshExplanation",
+    "vtkNeuralMeshFileSampler",
     "vtkNeuralMeshScan",
     "vtkNeuralMeshStream",
 ]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtkNeuralMeshComparison, vtkNeuralMeshExplanation and vtkNeuralMeshScan for any VTK."""
+"""vtkNeuralMeshComparison and its sisters that do not learn, for any VTK."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from typing import Any
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData, vtkTable
 
 from .cloud import as_cloud
+from .file_sampler import NeuralMeshFileSampler
 from .measures import DIRECTIONS, Comparison, NeuralMeshComparison, NeuralMeshExplanation
 from .scan import NeuralMeshScan
 from .vtk_algorithm import fill_table, vtkEngineAlgorithm
-from .vtk_arrays import named
+from .vtk_arrays import named, vtk_points
 
 
 class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
@@ -166,4 +167,33 @@ class vtkNeuralMeshScan(vtkEngineAlgorithm, NeuralMeshScan):
             return 0
         self._obey_abort()
         cloud.fill(vtkPolyData.GetData(outputs))
+        return 1
+
+
+class vtkNeuralMeshFileSampler(vtkEngineAlgorithm, NeuralMeshFileSampler):
+    """Some points of a file that may be larger than the memory, drawn at random."""
+
+    _INPUTS = ()
+
+    def __init__(self, **properties: Any) -> None:
+        vtkEngineAlgorithm.__init__(self)
+        NeuralMeshFileSampler.__init__(self)
+        self._set(properties)
+
+    def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
+        """Draws."""
+        try:
+            block = self.draw(self._progress())
+        except (ValueError, RuntimeError, MemoryError) as error:
+            self._error(str(error))
+            return 0
+        self._obey_abort()
+        if block is None:
+            return 1
+        output = vtkPolyData.GetData(outputs)
+        output.SetPoints(vtk_points(block.points))
+        if block.scalars:
+            output.GetPointData().SetScalars(named(block.data[block.scalars], block.scalars))
+        if block.normals is not None:
+            output.GetPointData().SetNormals(named(block.normals, "Normals"))
         return 1

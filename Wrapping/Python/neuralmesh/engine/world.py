@@ -40,7 +40,7 @@ __all__ = [
 
 Progress = Callable[[float], "bool | None"]
 
-_OF_CALLER = 4  # the line that a warning is of: who calls the function that calls one of these
+_OF_CALLER = 3  # the line that a warning is of: who calls the function that calls one of these
 
 
 def take_points(points: object, blocks: bool = True) -> Cloud:
@@ -88,6 +88,8 @@ def learn(
     outcome = (
         mesh.run_on_file(first_mesh, told) if points is None else mesh.run(points, first_mesh, told)
     )
+    if told is not None:
+        told(1.0)
     for text in outcome.warnings:
         warnings.warn(text, RuntimeWarning, stacklevel=_OF_CALLER)
     explained = outcome.explained
