@@ -47,17 +47,28 @@ print(test_state.results())
 """
 
 
-def run(script, command=(), **variables):
-    """Run a script in a process of its own; its output, with that on stderr."""
+# This process is one of MPI, too; what it has put there would be meant for its children.
+ENVIRONMENT = {
+    name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_"))
+}
+
+
+def output_of(command, **variables):
+    """What a process writes, with that on stderr."""
     process = subprocess.run(
-        [*(command or [os.environ["NEURALMESH_PVPYTHON"]]), "-c", script],
+        command,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
         timeout=support.HANGING,
-        env={**os.environ, **variables},
+        env={**ENVIRONMENT, **variables},
     )
     return process.stdout
+
+
+def run(script, **variables):
+    """What a script writes in a process of its own."""
+    return output_of([ENVIRONMENT["NEURALMESH_PVPYTHON"], "-c", script], **variables)
 
 
 class Loading(unittest.TestCase):
@@ -108,13 +119,10 @@ class Loading(unittest.TestCase):
             path = os.path.join(folder, "script.py")
             with open(path, "w", encoding="utf-8") as script:
                 script.write(LOAD.format(support.PLUGIN) + MAKE)
-            process = subprocess.run(
-                [os.environ["NEURALMESH_MPIRUN"], "--allow-run-as-root", "--oversubscribe", "-np", "2",
-                 os.environ["NEURALMESH_PVBATCH"], "--sym", path],
-                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=support.HANGING,
-            )  # fmt: skip
-        self.assertIn("learns in one process, and here are 2", process.stdout)
-        self.assertIn("\n0 vertices\n", "\n" + process.stdout)
+            mpi = [os.environ["NEURALMESH_MPIRUN"], "--allow-run-as-root", "--oversubscribe"]
+            output = output_of([*mpi, "-np", "2", os.environ["NEURALMESH_PVBATCH"], "--sym", path])
+        self.assertIn("learns in one process, and here are 2", output)
+        self.assertIn("0 vertices", output.splitlines())
 
 
 class States(unittest.TestCase):
