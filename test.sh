@@ -9,7 +9,9 @@ labels=${NEURALMESH_TEST_LABELS:-fast|full}
 packages=("${build_packages[@]}" "${test_packages[@]}")
 [[ $labels != *nightly* ]] || packages+=("${night_packages[@]}")
 install_packages "${packages[@]}"
-build build all -DNEURALMESH_BUILD_TESTING=ON -DNEURALMESH_WARNINGS_AS_ERRORS="${CI:+ON}"
+fetch_nanobind build
+build build all -DNEURALMESH_BUILD_TESTING=ON -DNEURALMESH_WARNINGS_AS_ERRORS="${CI:+ON}" \
+  ${engine_options[@]+"${engine_options[@]}"}
 # One more at a time than there are cores: some wait for something else.
 ctest --test-dir build -j $(($(nproc) + 1)) -L "$labels" \
   --output-on-failure --no-tests=error "$@"

@@ -138,7 +138,8 @@ std::function<int()> AddCompareCommand(CLI::App& application)
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command =
     application.add_subcommand("compare", "Tell how far a mesh is from a reference");
-  command->add_option("REFERENCE", options->Reference, "The true surface: .ply .vtp .vtk .obj .stl")
+  command
+    ->add_option("REFERENCE", options->Reference, "The true surface: .ply .vtp .vtk .obj .stl .off")
     ->required();
   command->add_option("RESULT", options->Result, "The mesh to judge, in the same coordinates")
     ->required();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ErrorCollector.h"
 
-#include "OneLine.h"
+#include "base/OneLine.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkExecutive.h"
@@ -27,7 +27,7 @@ std::string PlainText(const char* vtkMessage)
   {
     text.erase(0, object + 3);
   }
-  return OneLine(text);
+  return neuralmesh::oneLine(text);
 }
 
 void Show(const std::string& warning)

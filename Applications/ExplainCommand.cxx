@@ -95,7 +95,7 @@ std::function<int()> AddExplainCommand(CLI::App& application)
     application.add_subcommand("explain", "Tell of each point how far it is from a mesh, and why");
   AddPoints(command, options->Input);
   AddFile(command, "MESH", options->Mesh,
-    "Any mesh of them, in the same coordinates: .ply .vtp .vtk .obj .stl");
+    "Any mesh of them, in the same coordinates: .ply .vtp .vtk .obj .stl .off");
   AddFile(command, "OUTPUT", options->Output, "The points with Distance and Reason: .vtp");
   AddNumber(command, "--keep-pieces", options->SmallestPiece, smallest,
     "Missed points that are less than this part of all are a small piece, " + Described(smallest),

@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FileArguments.h"
 
+#include <memory>
+
+namespace
+{
+const std::string PointFileFormats =
+  "Points: .ply .vtp .vtk .vtu .obj .stl .off .pcd .ptx .pwn, or text: .xyz .pts .txt .csv";
+}
+
 CLI::Option* AddFile(
   CLI::App* command, const std::string& name, std::string& path, const std::string& description)
 {
@@ -9,6 +17,29 @@ CLI::Option* AddFile(
 
 CLI::Option* AddPoints(CLI::App* command, std::string& path)
 {
-  return AddFile(
-    command, "INPUT", path, "Points: .ply .vtp .vtk .vtu .obj .stl, or text: .xyz .pts .txt .csv");
+  return AddFile(command, "INPUT", path, PointFileFormats);
+}
+
+void AddPointsAndOutput(CLI::App* command, std::vector<std::string>& inputs, std::string& output,
+  const std::string& description)
+{
+  // The last of all names is OUTPUT. CLI11 would take it for an INPUT: it hands out what there is in
+  // order.
+  const auto outputOption = std::make_shared<CLI::Option*>();
+  command
+    ->add_option_function<std::vector<std::string>>(
+      "INPUT",
+      [&inputs, outputOption](const std::vector<std::string>& names)
+      {
+        inputs = names;
+        if ((*outputOption)->count() == 0 && names.size() > 1)
+        {
+          (*outputOption)->add_result(names.back());
+          inputs.pop_back();
+        }
+      },
+      PointFileFormats + "; several files are one cloud")
+    ->required()
+    ->type_name("");
+  *outputOption = AddFile(command, "OUTPUT", output, description);
 }

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <vector>
 
 /** An argument that must be given and names a file. */
 CLI::Option* AddFile(
@@ -12,5 +13,12 @@ CLI::Option* AddFile(
 
 /** The argument INPUT: a file that ReadPoints reads. */
 CLI::Option* AddPoints(CLI::App* command, std::string& path);
+
+/**
+ * The arguments INPUT..., one file or several, and OUTPUT, the last one. The references must live as long as
+ * the command.
+ */
+void AddPointsAndOutput(CLI::App* command, std::vector<std::string>& inputs, std::string& output,
+  const std::string& description);
 
 #endif

@@ -178,7 +178,7 @@ std::function<int()> AddInfoCommand(CLI::App& application)
   auto options = std::make_shared<InfoOptions>();
   CLI::App* command =
     application.add_subcommand("info", "Tell whether meshes are sound, and how good they are");
-  command->add_option("MESH", options->Meshes, "Meshes: .ply .vtp .vtk .obj .stl")->required();
+  command->add_option("MESH", options->Meshes, "Meshes: .ply .vtp .vtk .obj .stl .off")->required();
   command->add_flag(
     "--json", options->JSON, "Print a JSON object for each mesh, on a line of its own");
   command->footer(

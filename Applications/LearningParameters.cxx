@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LearningParameters.h"
 
+#include "base/OneLine.h"
 #include "NearestNames.h"
-#include "OneLine.h"
 #include "vtkNeuralMeshEnsemble.h"
 #include "vtkNeuralMeshParameters.h"
 
@@ -114,8 +114,8 @@ LearningParameter Describe(const char* name, const std::vector<std::string>& tex
     const std::optional<ValueT> value = ValueOf<ValueT>(text, words);
     if (!value || !(*value >= minimum && *value <= maximum))
     {
-      throw UsageError(
-        "--set " + std::string(name) + "=" + OneLine(text) + ": " + name + " must be " + range);
+      throw UsageError("--set " + std::string(name) + "=" + neuralmesh::oneLine(text) + ": " +
+        name + " must be " + range);
     }
     auto* owner = dynamic_cast<OwnerT*>(filter);
     if (!owner)
@@ -153,7 +153,7 @@ std::string DescribeUnknown(const std::string& name)
   {
     names.push_back(parameter.Name);
   }
-  std::string message = "--set: there is no parameter " + OneLine(name) + "; ";
+  std::string message = "--set: there is no parameter " + neuralmesh::oneLine(name) + "; ";
   const std::vector<std::string> nearest = NearestNames(name, names);
   for (std::size_t i = 0; i < nearest.size(); ++i)
   {

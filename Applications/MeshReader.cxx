@@ -32,12 +32,12 @@ vtkSmartPointer<vtkPolyData> MergeEqualPoints(vtkPolyData* mesh)
 
 vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& path)
 {
-  static const std::set<std::string> extensions{ ".ply", ".vtp", ".vtk", ".obj", ".stl" };
+  static const std::set<std::string> extensions{ ".ply", ".vtp", ".vtk", ".obj", ".stl", ".off" };
   const std::string extension = FileExtension(path);
   if (extensions.count(extension) == 0)
   {
     throw std::runtime_error(
-      path + ": no mesh is read from this extension; readable are .ply .vtp .vtk .obj .stl");
+      path + ": no mesh is read from this extension; readable are .ply .vtp .vtk .obj .stl .off");
   }
   const auto data = ReadPoints(path);
   vtkSmartPointer<vtkPolyData> mesh = vtkPolyData::SafeDownCast(data);

@@ -22,11 +22,14 @@ void Prepare(vtkNeuralMeshWriter* writer, ErrorCollector* errors, const MeshShif
 }
 }
 
+bool IsWritable(const std::string& path) { return vtkNeuralMeshWriter::CanWriteFile(path.c_str()); }
+
 void RequireWritableExtension(const std::string& path)
 {
-  if (!vtkNeuralMeshWriter::CanWriteFile(path.c_str()))
+  if (!IsWritable(path))
   {
-    throw std::runtime_error(path + ": unknown extension; writable are .vtp .ply .obj .stl");
+    throw std::runtime_error(
+      path + ": unknown extension; writable are .vtp .ply .obj .stl .glb .off .vtk");
   }
 }
 

@@ -11,6 +11,9 @@
 class vtkPointSet;
 class vtkPolyData;
 
+/** Whether WriteMesh() knows the extension. */
+bool IsWritable(const std::string& path);
+
 /** Throws std::runtime_error if WriteMesh() would not know the extension: to be asked early. */
 void RequireWritableExtension(const std::string& path);
 
@@ -22,7 +25,7 @@ void RequireWritableDigits(
   vtkPointSet* points, vtkIdType numberOfVertices, const MeshShift& shift, const std::string& path);
 
 /**
- * Writes a mesh, by the extension, as vtkNeuralMeshWriter: .vtp .ply .obj .stl. Whole or not at all.
+ * Writes a mesh, by the extension, as vtkNeuralMeshWriter: .vtp .ply .obj .stl .glb .off .vtk. Whole or not at all.
  * Returns what was taken off the coordinates.
  * Throws std::runtime_error, with a message that names the file, on failure.
  */

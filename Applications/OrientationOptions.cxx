@@ -51,13 +51,15 @@ void OrientationOptions::AddTo(CLI::App* command)
   CLI::Option* const viewpoint =
     command
       ->add_option("--viewpoint", this->Viewpoints,
-        "Where the scanner stood: the surface looks there; may be given several times")
+        "Where the scanner stood: the surface looks there; may be given several times, and counts "
+        "instead of what INPUT tells; as many as there are INPUTs are one for each")
       ->type_name("X,Y,Z")
       ->take_all()
       ->allow_extra_args(false);
   command
     ->add_option("--views", this->ViewFile,
-      "The places of the scanner, one for each view, as the points of this file")
+      "The places of the scanner, one for each view, as the points of this file; else as "
+      "--viewpoint")
     ->type_name("FILE")
     ->excludes(viewpoint);
   command

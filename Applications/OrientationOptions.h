@@ -26,6 +26,9 @@ public:
   /** That of --views; empty: none. */
   const std::string& GetViewFile() const { return this->ViewFile; }
 
+  /** That of --view-array; empty: none. */
+  const std::string& GetViewArray() const { return this->ViewArray; }
+
 private:
   std::vector<std::string> Viewpoints;
   std::string ViewFile;

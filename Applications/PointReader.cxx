@@ -3,11 +3,11 @@
 
 #include "ErrorCollector.h"
 #include "FileExtension.h"
-#include "PointTextReader.h"
 #include "ReadingGuard.h"
 #include "SoundCells.h"
 
 #include "vtkNeuralMeshPLYReader.h"
+#include "vtkNeuralMeshReader.h"
 #include "vtkNeuralMeshWriter.h"
 
 #include "vtkGenericDataObjectReader.h"
@@ -124,6 +124,21 @@ vtkSmartPointer<vtkPointSet> ReadSTL(const std::string& path)
   return ReadWith<vtkSTLReader>(path);
 }
 
+/** What VTK has no reader for. */
+vtkSmartPointer<vtkPointSet> ReadOther(const std::string& path)
+{
+  vtkNew<ErrorCollector> errors;
+  vtkNew<vtkNeuralMeshReader> reader;
+  reader->SetFileName(path.c_str());
+  errors->Observe(reader);
+  reader->Update();
+  if (errors->HasError())
+  {
+    throw std::runtime_error(errors->GetMessage());
+  }
+  return reader->GetOutput();
+}
+
 using Read = std::function<vtkSmartPointer<vtkPointSet>(const std::string&)>;
 
 const std::map<std::string, Read>& Readers()
@@ -135,10 +150,14 @@ const std::map<std::string, Read>& Readers()
     { ".vtu", ReadXML<vtkXMLUnstructuredGridReader> },
     { ".obj", ReadWith<vtkOBJReader> },
     { ".stl", ReadSTL },
-    { ".xyz", ReadPointText },
-    { ".pts", ReadPointText },
-    { ".txt", ReadPointText },
-    { ".csv", ReadPointText },
+    { ".off", ReadOther },
+    { ".pcd", ReadOther },
+    { ".ptx", ReadOther },
+    { ".pwn", ReadOther },
+    { ".xyz", ReadOther },
+    { ".pts", ReadOther },
+    { ".txt", ReadOther },
+    { ".csv", ReadOther },
   };
   return readers;
 }
@@ -172,9 +191,12 @@ vtkSmartPointer<vtkPointSet> ReadPoints(const std::string& path)
   const auto reader = Readers().find(FileExtension(path));
   if (reader == Readers().end())
   {
-    throw std::runtime_error(path +
-      ": unknown extension; readable are .ply .vtp .vtk .vtu .obj "
-      ".stl .xyz .pts .txt .csv");
+    const std::string conversion = vtkNeuralMeshReader::GetConversion(path.c_str());
+    throw std::runtime_error(path + ": " +
+      (conversion.empty()
+          ? "unknown extension; readable are .ply .vtp .vtk .vtu .obj .stl .off .pcd "
+            ".ptx .pwn .xyz .pts .txt .csv"
+          : conversion));
   }
   auto points = reader->second(path);
   vtkNeuralMeshWriter::UndoShift(path.c_str(), points);

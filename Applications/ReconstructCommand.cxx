@@ -13,7 +13,7 @@
 #include "MeshShift.h"
 #include "MeshWriter.h"
 #include "OrientationOptions.h"
-#include "PointReader.h"
+#include "PointInputs.h"
 #include "ProgressBar.h"
 #include "PropertyOptions.h"
 #include "RunEstimate.h"
@@ -52,7 +52,7 @@ constexpr int DefaultTopology = -1;
 /** What is typed. Properties have the defaults of their options. */
 struct ReconstructOptions
 {
-  std::string Input;
+  std::vector<std::string> Inputs;
   std::string Output;
   std::string Initial;
   bool InPlace = false;
@@ -173,6 +173,16 @@ void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
   RequireSoundParameters(filter);
 }
 
+std::string NamesOf(const std::vector<std::string>& paths)
+{
+  std::string names = paths.front();
+  for (std::size_t i = 1; i < paths.size(); ++i)
+  {
+    names += ", " + paths[i];
+  }
+  return names;
+}
+
 /** Throws if the filter could not do anything with what it was given. */
 void RequireResult(
   vtkNeuralMesh* filter, const ErrorCollector& errors, const ReconstructOptions& options)
@@ -181,11 +191,11 @@ void RequireResult(
   {
     const std::string first =
       options.Initial.empty() ? "" : " (first mesh " + options.Initial + ")";
-    throw std::runtime_error(options.Input + first + ": " + errors.GetMessage());
+    throw std::runtime_error(NamesOf(options.Inputs) + first + ": " + errors.GetMessage());
   }
   if (filter->GetOutput()->GetNumberOfPoints() == 0)
   {
-    throw std::runtime_error(options.Input + ": there are no points in it");
+    throw std::runtime_error(NamesOf(options.Inputs) + ": there are no points in it");
   }
 }
 
@@ -193,14 +203,14 @@ int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructO
 {
   vtkNew<ErrorCollector> errors;
   errors->Observe(filter);
-  const RunEstimate estimate = EstimateRun(filter, points);
+  const neuralmesh::RunEstimate estimate = EstimateRun(filter, points);
   RequireResult(filter, *errors, options);
   std::printf("points     %lld\n", static_cast<long long>(points->GetNumberOfPoints()));
   std::printf("vertices   %lld\n", static_cast<long long>(options.Vertices));
-  std::printf("samples    about %.3g million\n", 1e-6 * estimate.Samples);
-  std::printf("memory     about %.0f MB\n", 1e-6 * estimate.Bytes);
+  std::printf("samples    about %.3g million\n", 1e-6 * estimate.samples);
+  std::printf("memory     about %.0f MB\n", 1e-6 * estimate.bytes);
   std::printf(
-    "time       about %.2g s of learning, on this machine as it is now\n", estimate.Seconds);
+    "time       about %.2g s of learning, on this machine as it is now\n", estimate.seconds);
   return 0;
 }
 
@@ -237,8 +247,13 @@ vtkSmartPointer<vtkNeuralMeshFileSampler> MakeSampler(
   {
     return nullptr;
   }
+  if (options.Inputs.size() > 1)
+  {
+    throw UsageError(
+      std::string(isRaw ? "--raw" : "--in-place") + ": this goes with one INPUT only");
+  }
   auto sampler = vtkSmartPointer<vtkNeuralMeshFileSampler>::New();
-  sampler->SetFileName(options.Input.c_str());
+  sampler->SetFileName(options.Inputs.front().c_str());
   sampler->SetFormat(options.Raw);
   sampler->SetHeaderBytes(options.Skip);
   sampler->SetSeed(options.Seed);
@@ -259,19 +274,38 @@ vtkSmartPointer<vtkPointSet> DrawPoints(vtkNeuralMeshFileSampler* sampler)
   return sampler->GetOutput();
 }
 
+/** Throws UsageError if the last of several names is no mesh: it was meant for something else. */
+void RequireSoundNames(const ReconstructOptions& options)
+{
+  if (options.Inputs.size() > 1 && !IsWritable(options.Output))
+  {
+    throw UsageError(options.Output +
+      ": this is the last of several files, so it is OUTPUT; but it has no extension of a mesh");
+  }
+}
+
 int Reconstruct(const ReconstructOptions& options)
 {
+  RequireSoundNames(options);
   const vtkSmartPointer<vtkNeuralMesh> filter = MakeFilter(options);
   PrepareFilter(filter, options);
-  RequireDistinctFiles({ { "INPUT", options.Input }, { "--initial", options.Initial },
-    { "--views", options.Orientation.GetViewFile() }, { "OUTPUT", options.Output, true },
-    { "--statistics", options.Statistics, true }, { "--explain", options.Explanation, true },
-    { "--checkpoint", options.Checkpoint, true } });
+  std::vector<NamedFile> files{ { "--initial", options.Initial },
+    { "--views", options.Orientation.GetViewFile() } };
+  for (const std::string& input : options.Inputs)
+  {
+    files.push_back({ "INPUT", input });
+  }
+  files.insert(files.end(),
+    { { "OUTPUT", options.Output, true }, { "--statistics", options.Statistics, true },
+      { "--explain", options.Explanation, true }, { "--checkpoint", options.Checkpoint, true } });
+  RequireDistinctFiles(files);
   RequireWritableExtension(options.Output);
   const MeshShift shift = ParseShift(options.Shift);
-  if (options.Features && FileExtension(options.Output) != ".vtp")
+  const std::string extension = FileExtension(options.Output);
+  if (options.Features && extension != ".vtp" && extension != ".vtk")
   {
-    throw UsageError("--features: " + options.Output + " must be a .vtp; no other format keeps it");
+    throw UsageError(
+      "--features: " + options.Output + " must be a .vtp or .vtk; no other format keeps it");
   }
   neuralmesh::requireWritablePlace(options.Output);
   if (!options.Statistics.empty())
@@ -290,7 +324,10 @@ int Reconstruct(const ReconstructOptions& options)
 
   Stopwatch stopwatch;
   const auto sampler = MakeSampler(options, filter);
-  const auto points = sampler ? DrawPoints(sampler) : ReadPoints(options.Input);
+  const auto points = sampler
+    ? DrawPoints(sampler)
+    : ReadInputs(
+        options.Inputs, { filter->GetNumberOfViewpoints(), options.Orientation.GetViewArray() });
   if (!options.Initial.empty())
   {
     filter->SetFirstMeshData(ReadMesh(options.Initial));
@@ -381,9 +418,8 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
 
   CLI::App* command =
     application.add_subcommand("reconstruct", "Make a triangle mesh from a point cloud");
-  AddPoints(command, options->Input);
-  AddFile(
-    command, "OUTPUT", options->Output, "Mesh: .vtp .ply .obj .stl; another file than all others");
+  AddPointsAndOutput(command, options->Inputs, options->Output,
+    "Mesh: .vtp .ply .obj .stl .glb .off .vtk; another file than all others");
   AddNumber(command, "--vertices", options->Vertices, vertices,
     "Vertices of the mesh, " + Described(vertices), "N");
   AddNumber(command, "--seed", options->Seed, seed,
@@ -391,7 +427,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   CLI::Option* const initial =
     command
       ->add_option("--initial", options->Initial,
-        "Start from the triangles of this file: .ply .vtp .vtk .obj .stl")
+        "Start from the triangles of this file: .ply .vtp .vtk .obj .stl .off")
       ->type_name("FILE");
   AddNumber(command, "--ensemble", options->Members, members.Minimum, members.Maximum,
     "Start from the average of so many coarse meshes, " +
@@ -444,7 +480,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   command->add_flag("--automatic", options->Automatic,
     "Choose FitRounds, FitSmoothness and CurvatureDensity for INPUT by some seconds of short runs");
   command->add_flag("--features", options->Features,
-    "Give each vertex its FeatureStrength, high at edges and corners; OUTPUT must be .vtp");
+    "Give each vertex its FeatureStrength, high at edges and corners; OUTPUT must be .vtp or .vtk");
   AddNumber(command, "--time-limit", options->TimeLimit, seconds,
     "Learn for so many seconds at most, " + Described(seconds) +
       ", and write the mesh learnt so far; 0: as long as it takes",

@@ -139,6 +139,12 @@ void PrintPointCount(vtkPointSet* points, vtkNeuralMeshFileSampler* sampler, vtk
   {
     std::printf("points     %lld (%lld dropped)\n", count, dropped);
   }
+  if (points->GetFieldData()->HasArray("MissingReturns"))
+  {
+    std::printf("no return  %lld directions in which the scanner saw nothing\n",
+      static_cast<long long>(
+        points->GetFieldData()->GetArray("MissingReturns")->GetComponent(0, 0)));
+  }
 }
 }
 

@@ -3,6 +3,9 @@
 
 #include "base/AtomicFile.h"
 #include "cloud/PlyContents.h"
+#include "file/FileExtension.h"
+#include "file/WriteMesh.h"
+#include "vtkFileContents.h"
 #include "vtkInnerAlgorithm.h"
 #include "vtkShift.h"
 
@@ -15,11 +18,11 @@
 #include "vtkPLYWriter.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkPolyDataWriter.h"
 #include "vtkSTLWriter.h"
 #include "vtkXMLPolyDataWriter.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -69,6 +72,25 @@ void WriteVTP(vtkPolyData* mesh, const std::string& path, bool)
   writer->WriteToOutputStringOn();
   WriteWith(writer.Get(), mesh);
   neuralmesh::writeText(writer->GetOutputString(), path);
+}
+
+/** Legacy, binary; by way of a string, too. */
+void WriteVTK(vtkPolyData* mesh, const std::string& path, bool)
+{
+  vtkNew<vtkPolyDataWriter> writer;
+  writer->SetHeader("NeuralMesh");
+  writer->SetFileTypeToBinary();
+  writer->WriteToOutputStringOn();
+  WriteWith(writer.Get(), mesh);
+  neuralmesh::writeText(writer->GetOutputStdString(), path);
+}
+
+/** What VTK does not write, or not whole. */
+void WriteOther(vtkPolyData* mesh, const std::string& path, bool hasDoubles)
+{
+  neuralmesh::writeText(
+    neuralmesh::meshBytesOf(vtkMeshFile::Extension(path), vtkFileContents::Of(mesh, hasDoubles)),
+    path);
 }
 
 void RequireWholePLY(const std::string& path)
@@ -188,6 +210,9 @@ const std::map<std::string, WriteFunction>& Writers()
     { ".ply", WritePLY },
     { ".obj", WriteOBJ },
     { ".stl", WriteSTL },
+    { ".glb", WriteOther },
+    { ".off", WriteOther },
+    { ".vtk", WriteVTK },
   };
   return writers;
 }
@@ -195,13 +220,15 @@ const std::map<std::string, WriteFunction>& Writers()
 
 std::string vtkMeshFile::Extension(const std::string& path)
 {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return neuralmesh::fileExtension(path);
 }
 
 bool vtkMeshFile::IsKnown(const std::string& extension) { return Writers().count(extension) > 0; }
+
+bool vtkMeshFile::HasOnlyFloats(const std::string& extension)
+{
+  return neuralmesh::hasOnlyFloats(extension);
+}
 
 void vtkMeshFile::Write(vtkPolyData* mesh, const std::string& path, bool hasDoubles)
 {

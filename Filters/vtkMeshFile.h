@@ -23,10 +23,10 @@ public:
   /** Whether files of this extension are written. */
   static bool IsKnown(const std::string& extension);
   /** Whether the format knows floats only. */
-  static bool HasOnlyFloats(const std::string& extension) { return extension == ".stl"; }
+  static bool HasOnlyFloats(const std::string& extension);
   /**
    * Writes a file, and looks whether it is whole: VTK's writers do not all notice a full disk. A .ply
-   * has doubles if that is told. A shift that vtkShift has stored is noted. Throws std::runtime_error,
+   * or an .off has doubles if that is told. A shift that vtkShift has stored is noted. Throws std::runtime_error,
    * without the name of the file.
    */
   static void Write(vtkPolyData* mesh, const std::string& path, bool hasDoubles);

@@ -3,6 +3,7 @@
 
 #include "base/AtomicFile.h"
 #include "cloud/CoordinateRange.h"
+#include "file/WriteMesh.h"
 #include "vtkMeshFile.h"
 #include "vtkShift.h"
 
@@ -12,7 +13,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -47,17 +47,9 @@ bool NeedsDoubles(vtkPolyData* mesh)
 void RequireDigits(
   vtkPointSet* points, vtkIdType vertices, const Eigen::Vector3d& shift, const std::string& path)
 {
-  if (vtkMeshFile::HasOnlyFloats(vtkMeshFile::Extension(path)) &&
-    !RangeOf(points).fitsFloats(static_cast<std::size_t>(vertices), shift))
+  if (vtkMeshFile::HasOnlyFloats(vtkMeshFile::Extension(path)))
   {
-    const neuralmesh::CoordinateRange range = RangeOf(points);
-    std::ostringstream text;
-    text.precision(2);
-    text << path << ": cannot be written: .stl has floats only, which are "
-         << range.floatStep(shift) << " apart at these coordinates, for edges of about "
-         << range.edgeLength(static_cast<std::size_t>(vertices))
-         << "; write .ply, .vtp or .obj, or shift the mesh (--shift auto)";
-    throw std::runtime_error(text.str());
+    neuralmesh::requireDigits(path, RangeOf(points), static_cast<std::size_t>(vertices), shift);
   }
 }
 }
@@ -119,7 +111,7 @@ void vtkNeuralMeshWriter::WriteMesh(vtkPolyData* mesh)
   if (!vtkNeuralMeshWriter::CanWriteFile(this->FileName.c_str()))
   {
     throw std::runtime_error(
-      this->FileName + ": unknown extension; writable are .vtp .ply .obj .stl");
+      this->FileName + ": unknown extension; writable are .vtp .ply .obj .stl .glb .off .vtk");
   }
   const vtkIdType vertices = mesh ? mesh->GetNumberOfPoints() : 0;
   if (vertices == 0)

@@ -4,23 +4,30 @@
  * @brief   a mesh as a file, whole or not at all, with the digits that its coordinates need
  *
  * vtkNeuralMeshWriter writes a vtkPolyData in the format that the extension of FileName tells: .vtp,
- * .ply, .obj or .stl. A .vtp keeps all data. A .ply keeps the active scalars if they are colours
- * (unsigned char, 3 or 4 components). The file is written under another name in the same folder,
+ * .ply, .obj, .stl, .glb, .off or .vtk (legacy, binary). A .vtp and a .vtk keep all data. A .ply and a .glb
+ * keep normals and the active scalars if they are colours (unsigned char, 3 or 4 components), an .off the
+ * colours, an .obj the normals. The file is written under another name in the same folder,
  * looked over and then renamed: if anything goes wrong, what was there before stays.
+ *
+ * @par .glb
+ * Binary glTF 2.0. Coordinates stay as they are, though glTF takes y for up: what is up in a mesh it
+ * does not tell. Normals are of length 1; colours, taken for sRGB, are linear of 16 bits. The material is
+ * matt, and seen from both sides. What is not finite is an error.
  *
  * @par Digits
  * Far from the origin floats are far apart: by 0.5 at 5400000. If points are of double precision, and
  * less than a hundred steps of floats go into an edge at the largest coordinate, floats do not hold
  * the mesh. (An edge is taken for the diagonal of the bounding box by the root of the number of
  * vertices; outliers of a hundredth at each end of each axis do not count.) Such a mesh is written as
- * a .ply of doubles, while others are of floats; .vtp and .obj have all digits anyway; as an .stl,
- * which knows floats only, it is refused: it is an error, and nothing is written.
+ * a .ply of doubles, while others are of floats; .vtp, .vtk, .obj and .off have all digits anyway; as an
+ * .stl or a .glb, which know floats only, it is refused: it is an error, and nothing is written.
  *
  * @par Shift
  * Shift, or one that AutomaticShift chooses, is taken off the coordinates that are written, and is
- * stored in the file: in the field data `Shift` of a .vtp, a line `comment shift X Y Z` in the header
- * of a .ply, a line `# shift X Y Z` at the end of an .obj, the title of an .stl. Added to the
- * coordinates of the file it gives the true ones, which vtkNeuralMeshPLYReader and UndoShift() do.
+ * stored in the file: in the field data `Shift` of a .vtp or .vtk, a line `comment shift X Y Z` in the
+ * header of a .ply, a line `# shift X Y Z` at the end of an .obj or the beginning of an .off, the title of
+ * an .stl, `asset.extras.shift` of a .glb. Added to the coordinates of the file it gives the true ones,
+ * which vtkNeuralMeshPLYReader, vtkNeuralMeshReader and UndoShift() do.
  * The input stays as it is. One that has the field data `Shift` already was shifted before: both are
  * stored as one.
  *

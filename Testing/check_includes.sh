@@ -20,7 +20,7 @@ forbid()
 
 forbid 'vtk|pq|paraview' Filters/Core/*/*.{h,h.in,cpp}
 # A room knows itself and those before it.
-rooms=(base mesh cloud learn fit start run)
+rooms=(base mesh cloud file learn fit start run)
 for ((room = 0; room < ${#rooms[@]}; ++room)); do
   later=$(IFS='|'; echo "${rooms[*]:room + 1}")
   files=(Filters/Core/"${rooms[room]}"/*.{h,h.in,cpp})
@@ -42,9 +42,9 @@ forbid 'vtkPV|vtkSM([^P]|P[^T])|vtkSI|pq|CLI/|ErrorCollector|LearningParameters|
 # The header of a public class is installed; the core is not.
 for header in Filters/vtkNeuralMesh.h.in Filters/vtkNeuralMeshAlgorithm.h.in \
   Filters/vtkNeuralMeshEnsemble.h.in Filters/vtkNeuralMeshComparison.h Filters/vtkNeuralMeshExplanation.h \
-  Filters/vtkNeuralMeshScan.h \
+  Filters/vtkNeuralMeshScan.h Filters/vtkNeuralMeshInformation.h \
   Filters/vtkNeuralMeshFileSampler.h Filters/vtkNeuralMeshStream.h.in \
-  Filters/vtkNeuralMeshPLYReader.h Filters/vtkNeuralMeshWriter.h \
+  Filters/vtkNeuralMeshPLYReader.h Filters/vtkNeuralMeshReader.h Filters/vtkNeuralMeshWriter.h \
   Filters/vtkPNeuralMesh.h Filters/vtkPNeuralMeshEnsemble.h; do
   if grep -nE '^ *# *include +"[^v]' "$header"; then
     failed=1

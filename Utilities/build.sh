@@ -45,6 +45,18 @@ install_packages()
     apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
 
+# Fetches nanobind from PyPI, if it is reached, and tells CMake of it: fetch_nanobind FOLDER. Without it the
+# engine for Python is not built, and its tests are not there.
+fetch_nanobind()
+{
+  local tools=$PWD/$1-tools
+  [ -d "$tools/nanobind" ] ||
+    PIP_ROOT_USER_ACTION=ignore /usr/bin/python3 -m pip install --quiet --retries 1 --target "$tools" 'nanobind>=2.9,<4' ||
+    { echo "PyPI is not reached: what pip installs is not built, nor tested"; return 0; }
+  engine_options=(-DNEURALMESH_BUILD_ENGINE=ON "-Dnanobind_DIR=$tools/nanobind/cmake")
+}
+engine_options=()
+
 # Configures if there is need: configure FOLDER [CMAKE-OPTION...]. Some sources at a time are compiled,
 # in half of the time; presets agree, so that a folder is not built twice.
 configure()

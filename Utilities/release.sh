@@ -2,14 +2,17 @@
 # Releases the version that stands in the project() call of CMakeLists.txt.
 #
 #   Utilities/release.sh                        checks all, makes the packages of both Debians and both
-#                                               VTKs in packages/, and the tag; root, for Debians of their own
-#   Utilities/release.sh --check [BUILD [DEB...]]
+#                                               VTKs, the wheels and the source distribution in packages/,
+#                                               and the tag; root, for Debians of their own
+#   Utilities/release.sh --check [BUILD [PACKAGE...]]
 #                                               only tells whether the version agrees: in the files, in
 #                                               what was built in BUILD, and in packages
 set -euo pipefail
 cd "$(dirname "$0")/.."
 version=$(sed -nE 's/^project\(NeuralMesh VERSION ([0-9]+\.[0-9]+\.[0-9]+) .*/\1/p' CMakeLists.txt)
 disagree=0
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
 
 fail()
 {
@@ -70,14 +73,25 @@ check_build()
   fi
 }
 
-# check [BUILD [DEB...]]
+# Of a .deb, a wheel or a source distribution, by its content: version_in PACKAGE.
+version_in()
+{
+  case $1 in
+    *.deb) dpkg-deb -f "$1" Version | sed 's/-[^-]*$//' ;;
+    *.whl) python3 -m zipfile -e "$1" "$scratch" && cat "$scratch"/neuralmesh-*.dist-info/METADATA ;;
+    *.tar.gz) tar -xzOf "$1" --wildcards '*/PKG-INFO' ;;
+  esac | sed -nE 's/^Version: //; /^[0-9][0-9.]*$/{p;q}'
+}
+
+# check [BUILD [PACKAGE...]]
 check()
 {
   local package
   check_files
   [ $# -eq 0 ] || check_build "$1"
   for package in "${@:2}"; do
-    agrees "$(basename "$package")" "$(dpkg-deb -f "$package" Version | sed 's/-[^-]*$//')"
+    rm -rf "$scratch"/*
+    agrees "$(basename "$package")" "$(version_in "$package")"
   done
   [ "$disagree" -eq 0 ] || fail "the version does not agree"
 }
@@ -95,6 +109,7 @@ rm -rf packages
 bash Utilities/make_packages.sh
 rm -rf packages
 bash Utilities/make_packages.sh all
-check build-package packages/*.deb
+bash Utilities/make_wheels.sh all
+check build-package packages/*.deb packages/*.whl packages/*.tar.gz
 git tag --annotate "v$version" --message "NeuralMesh $version"
 echo "Tagged v$version; packages are in packages/"

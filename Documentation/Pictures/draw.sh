@@ -11,6 +11,7 @@ declare -A pictures=(
   [draw_house.py]="rooms"
   [draw_tutorial.sh]="tutorial_scan tutorial_mesh tutorial_window tutorial_colours
     tutorial_distances tutorial_step12 tutorial_step17 tutorial_step23"
+  [draw_pyvista.sh]="pyvista_mesh pyvista_distance pyvista_left_out"
   [draw_laboratory.sh]="laboratory_smoothing_rate laboratory_smoothing_rate_meshes
     laboratory_sparse_meshes laboratory_cost laboratory_models laboratory_jumps"
   [../../Testing/Benchmarks/peers.sh]="peers"
@@ -46,6 +47,7 @@ for maker in draw.py draw_charts.py draw_house.py; do
 done
 # They are steps of one tutorial, and drawn together.
 [ -z "$(wanted_of draw_tutorial.sh)" ] || bash "$folder/draw_tutorial.sh"
+[ -z "$(wanted_of draw_pyvista.sh)" ] || bash "$folder/draw_pyvista.sh"
 # Half an hour each.
 [ -z "$(wanted_of draw_laboratory.sh)" ] || bash "$folder/draw_laboratory.sh"
 [ -z "$(wanted_of ../../Testing/Benchmarks/peers.sh)" ] || bash Testing/Benchmarks/peers.sh

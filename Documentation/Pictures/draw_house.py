@@ -17,12 +17,13 @@ ROOMS = {
     "base": (0.5, 0.0, "threads, random numbers,\narchives, vectors"),
     "mesh": (0.5, 1.0, "mesh, operations,\nboundaries, repair"),
     "cloud": (0.5, 2.0, "points, samples,\nplaces on the mesh"),
+    "file": (1.75, 2.0, "formats of points\nand meshes"),
     "learn": (-0.75, 3.0, "the algorithm:\nNeuralMesh, Learner"),
     "fit": (0.5, 3.0, "least squares,\ngaps, finish"),
     "start": (1.75, 3.0, "the first\nsurface"),
     "run": (0.5, 4.0, "begin, learn, finish, describe:\nwhole runs"),
 }
-COLOURS = dict(zip(ROOMS, ["#dddddd", "#c8d8ec", "#cfe6cf", "#f6d9b0", "#f3c8c8", "#e0d0ec", "#f4f0b8"]))
+COLOURS = dict(zip(ROOMS, ["#dddddd", "#c8d8ec", "#cfe6cf", "#cfe3e3", "#f6d9b0", "#f3c8c8", "#e0d0ec", "#f4f0b8"]))
 
 
 def sources(room):

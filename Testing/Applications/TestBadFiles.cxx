@@ -114,6 +114,14 @@ protected:
     {
       this->WriteText(name, text.str());
     }
+    const std::string points = text.str(), count = std::to_string(mesh->GetNumberOfPoints());
+    this->WriteText("text.off", "OFF\n" + count + " 1 0\n" + points + "3 0 1 2\n");
+    this->WriteText("text.pcd",
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + count +
+        "\nHEIGHT 1\nPOINTS " + count + "\nDATA ascii\n" + points);
+    this->WriteText("text.pwn", count + "\n" + points + points);
+    this->WriteText("text.ptx",
+      count + "\n1\n0 0 9\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 9 1\n" + points);
     for (const auto& entry : std::filesystem::directory_iterator(this->Folder))
     {
       this->Samples.push_back(entry.path());
@@ -170,7 +178,8 @@ TEST_F(BadFiles, HalfIsAnError)
   for (const auto& sample : this->Samples)
   {
     const std::string extension = sample.extension().string();
-    if (extension == ".ply" || extension == ".stl" || extension.starts_with(".vt"))
+    if (extension == ".ply" || extension == ".stl" || extension.starts_with(".vt") ||
+      extension == ".off" || extension == ".pcd" || extension == ".ptx" || extension == ".pwn")
     {
       SCOPED_TRACE(sample.filename().string());
       const std::string bytes = BytesOf(sample);

@@ -26,7 +26,8 @@ TEST(MeshWriter, WritesWhatCanBeReadBack)
   vtkNew<vtkSphereSource> sphere;
   sphere->Update();
   std::size_t files = 0;
-  for (const char* name : { "mesh.vtp", "mesh.ply", "mesh.obj", "mesh.stl" })
+  for (const char* name :
+    { "mesh.vtp", "mesh.ply", "mesh.obj", "mesh.stl", "mesh.off", "mesh.vtk" })
   {
     SCOPED_TRACE(name);
     const std::string path = (folder / name).string();

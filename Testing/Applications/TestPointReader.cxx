@@ -57,6 +57,14 @@ TEST_F(PointReader, ReadsEveryFormat)
     this->WriteWith<vtkXMLUnstructuredGridWriter>("a.vtu", grid),
     this->WriteWith<vtkOBJWriter>("a.obj", polyData),
     this->WriteWith<vtkSTLWriter>("a.stl", polyData),
+    this->WriteText("a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n0 2 0\n0 0 3\n3 0 2 1\n"),
+    this->WriteText("a.pcd",
+      "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 4\nHEIGHT 1\nDATA ascii\n0 0 0\n1 0 0\n"
+      "0 2 0\n0 0 3\n"),
+    this->WriteText("a.pwn", "0 0 0 0 0 1\n1 0 0 0 0 1\n0 2 0 0 0 1\n0 0 3 0 0 1\n"),
+    this->WriteText("a.ptx",
+      "4\n1\n0 0 9\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 9 1\n"
+      "0 0 -9 1\n1 0 -9 1\n0 2 -9 1\n0 0 -6 1\n"),
     this->WriteText("a.xyz", "0 0 0\n1 0 0\n0 2 0\n0 0 3\n"),
     this->WriteText("a.pts", "4\n0 0 0 -12 1 2 3\n1 0 0 0 1 2 3\n0 2 0 0 1 2 3\n0 0 3 0 1 2 3\n"),
     this->WriteText("a.txt", "# a comment\n\n 0\t0\t0\n1;0;0\r\n0 2 0 // more\n0 0 3"),
@@ -155,7 +163,7 @@ TEST_F(PointReader, KeepsPlaces)
   }
   const auto mesh = Tetrahedron<vtkPolyData>();
   mesh->SetPoints(points);
-  for (const char* name : { "a.ply", "a.vtp", "a.obj", "a.stl" })
+  for (const char* name : { "a.ply", "a.vtp", "a.obj", "a.stl", "a.off", "a.vtk" })
   {
     for (const bool isShifted : { false, true })
     {
@@ -205,6 +213,7 @@ TEST_F(PointReader, RefusesWhatItCannotRead)
   EXPECT_THROW(ReadPoints(this->Path("missing.ply")), std::runtime_error);
   EXPECT_THROW(ReadPoints(this->Folder.string()), std::runtime_error);
   EXPECT_THROW(ReadPoints(this->WriteText("a.doc", "0 0 0\n")), std::runtime_error);
+  EXPECT_NE(Refusal(this->WriteText("a.laz", "LASF")).find("python3 -c"), std::string::npos);
   EXPECT_THROW(ReadPoints(this->WriteText("a.vtp", "this is no XML")), std::runtime_error);
 }
 }

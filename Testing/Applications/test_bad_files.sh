@@ -3,8 +3,8 @@
 # should be. A run that takes long is stuck, which is a failure.
 source "$(dirname "$0")/command_testing.sh"
 
-readable=(ply vtp vtk vtu obj stl xyz pts txt csv)
-writable=(vtp ply obj stl)
+readable=(ply vtp vtk vtu obj stl off pcd ptx pwn xyz pts txt csv)
+writable=(vtp ply obj stl glb off vtk)
 
 # reconstruct INPUT OUTPUT: with a limit of time, and few vertices.
 reconstruct() { within_limits "$neuralmesh" reconstruct "$1" "$2" --vertices 100; }
@@ -78,7 +78,7 @@ test_no_points()
 test_truncated()
 {
   local extension size part
-  for extension in ply vtp stl; do
+  for extension in ply vtp stl off; do
     expect 0 reconstruct cloud.xyz "whole.$extension"
     size=$(stat -c %s "whole.$extension")
     for part in 1 5 20 40 60 80 95; do
@@ -130,7 +130,7 @@ test_few_points()
 test_cells_and_attributes()
 {
   local extension
-  for extension in "${writable[@]}"; do
+  for extension in vtp ply obj stl off vtk; do
     expect 0 reconstruct cloud.xyz "first.$extension"
     expect 0 "$neuralmesh" reconstruct "first.$extension" "second.$extension" --vertices 50
     [ ! -s err ] || { cat err; fail "there is something on stderr"; }

@@ -17,7 +17,7 @@ test_reconstructs()
 test_formats_out()
 {
   local extension
-  for extension in vtp ply obj stl PLY; do
+  for extension in vtp ply obj stl PLY glb off vtk; do
     expect 0 "$neuralmesh" reconstruct cloud.xyz "mesh.$extension" --vertices 100
     [ -s "mesh.$extension" ] || fail "no mesh.$extension"
   done
@@ -65,6 +65,9 @@ test_wrong_use()
 nonsense
 reconstruct
 reconstruct cloud.xyz
+reconstruct cloud.xyz mesh.ply mesh.doc
+reconstruct cloud.xyz cloud.xyz mesh.ply --in-place
+reconstruct cloud.xyz cloud.xyz mesh.ply --raw float
 reconstruct cloud.xyz mesh.ply --vertices 3
 reconstruct cloud.xyz mesh.ply --vertices many
 reconstruct cloud.xyz mesh.ply --seed -1

@@ -100,10 +100,10 @@ test_info_formats()
   awk 'BEGIN { for (i = 0; i < 500; ++i) { z = 1 - (2 * i + 1) / 500; r = sqrt(1 - z * z);
     printf "%.9f %.9f %.9f\n", r * cos(2.39996 * i), r * sin(2.39996 * i), z } }' > cloud.xyz
   local extension
-  for extension in vtp ply obj stl; do
+  for extension in vtp ply obj stl off vtk; do
     expect 0 "$neuralmesh" reconstruct cloud.xyz "mesh.$extension" --vertices 100 --quiet
   done
-  expect 0 "$neuralmesh" info --json mesh.vtp mesh.ply mesh.obj mesh.stl
+  expect 0 "$neuralmesh" info --json mesh.vtp mesh.ply mesh.obj mesh.stl mesh.off mesh.vtk
   json 'all(line["vertices"] == 100 and line["triangles"] == 196 and line["closed"] and
             line["oriented"] and line["genus"] == 0 and line["valences"] == lines[0]["valences"]
             for line in lines)'

@@ -32,7 +32,10 @@ REASONS = {
 RUN = {"sh", "python"}
 LANGUAGES = {*RUN, "cpp", "cmake", "json", "diff", "text"}
 # Run by a test that knows what stands on the page.
-ELSEWHERE = {"Documentation/Tutorial.md": "ParaView.tutorial"}
+ELSEWHERE = {
+    "Documentation/PyVista.md": "Testing/Python/test_pyvista.py",
+    "Documentation/Tutorial.md": "ParaView.tutorial",
+}
 
 
 @dataclasses.dataclass

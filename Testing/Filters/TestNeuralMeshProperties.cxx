@@ -8,7 +8,9 @@
 #include "vtkNeuralMeshEnsemble.h"
 #include "vtkNeuralMeshExplanation.h"
 #include "vtkNeuralMeshFileSampler.h"
+#include "vtkNeuralMeshInformation.h"
 #include "vtkNeuralMeshPLYReader.h"
+#include "vtkNeuralMeshReader.h"
 #include "vtkNeuralMeshScan.h"
 #include "vtkNeuralMeshStream.h"
 #include "vtkNeuralMeshWriter.h"
@@ -47,7 +49,8 @@ int CheckPrinting()
   for (const auto& [name, count] : counts)
   {
     std::cout << name << ": " << count << std::endl;
-    CHECK(count >= 1);
+    // What only looks at a mesh has none.
+    CHECK(count >= (name == "vtkNeuralMeshInformation" ? 0 : 1));
   }
   // Of each kind of declaration one.
   for (const char* property : { "Preset", "WinnerRate", "EdgeFlips", "PointFileName", "StopReason",

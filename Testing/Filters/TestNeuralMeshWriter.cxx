@@ -225,7 +225,7 @@ int CheckErrors()
   writer->SetShift(1e100, 0.0, 0.0);
   CHECK(!Write(writer, mesh, PathOf("long.stl")));
   CHECK(std::filesystem::is_empty(Folder));
-  CHECK(vtkNeuralMeshWriter::CanWriteFile("a.PLY") && !vtkNeuralMeshWriter::CanWriteFile("a.vtk"));
+  CHECK(vtkNeuralMeshWriter::CanWriteFile("a.PLY") && !vtkNeuralMeshWriter::CanWriteFile("a.vtu"));
   CHECK(!vtkNeuralMeshWriter::CanWriteFile(nullptr));
   return EXIT_SUCCESS;
 }

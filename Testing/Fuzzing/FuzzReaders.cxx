@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files as the command reads them; the first byte says of which kind. Text is read here. VTK's
-// readers may end the process, as they may end the command: each file of theirs is read in a process
+// Files as the command reads them; the first byte says of which kind. What our own readers know is read
+// here, though the command leaves some of it to VTK. VTK's readers may end the process, as they may end the command: each file of theirs is read in a process
 // of its own, which must end with status 0 or, after one line on stderr, 1.
+#include "file/ReadFile.h"
+#include "file/WriteMesh.h"
 #include "FuzzTarget.h"
 #include "MeshReader.h"
 #include "PointReader.h"
@@ -47,8 +49,11 @@ namespace
 {
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::array Extensions{ ".xyz", ".ply", ".vtp", ".vtk", ".vtu", ".obj", ".stl" };
+constexpr std::array Extensions{ ".xyz", ".off", ".pcd", ".ptx", ".pwn", ".ply", ".vtp", ".vtk",
+  ".vtu", ".obj", ".stl" };
 constexpr std::size_t Text = 0;
+/** Those before are read by no reader of VTK. */
+constexpr std::size_t FirstOfVTK = 5;
 
 /** What a process of our own has said counts as covered for libFuzzer, which does not see into it. */
 __attribute__((section("__libfuzzer_extra_counters"))) std::array<std::uint8_t, 4096> Outcomes;
@@ -101,6 +106,33 @@ void RequireSoundCells(vtkPointSet* points)
   }
 }
 
+/** Reads a file without VTK. */
+void ReadContents(const std::string& path)
+{
+  try
+  {
+    const neuralmesh::FileContents contents = neuralmesh::readFile(path);
+    const std::size_t points = contents.size();
+    for (const auto& triangle : contents.triangles)
+    {
+      Require(*std::max_element(triangle.begin(), triangle.end()) < points,
+        "triangles have points that exist");
+    }
+    Require(contents.normals.empty() || contents.normals.size() == points,
+      "each point has a normal, or none has");
+    Require(contents.colors.empty() || contents.colors.size() == points,
+      "each point has a colour, or none has");
+    Require(contents.views.empty() || contents.views.size() == points,
+      "each point has a view, or none has");
+  }
+  catch (const std::runtime_error& error)
+  {
+    const std::string message = error.what();
+    Require(message.starts_with(path), "a message names its file");
+    Require(message.find('\n') == std::string::npos, "a message is one line");
+  }
+}
+
 /** Reads a file of points and, if it can be one, of a mesh; true if there was no error. In a process
  * apart, tells the error as the command does. */
 bool Read(const std::string& path, bool isApart)
@@ -108,7 +140,9 @@ bool Read(const std::string& path, bool isApart)
   try
   {
     RequireSoundCells(ReadPoints(path));
-    if (path.find(".vtu") == std::string::npos && path.find(".xyz") == std::string::npos)
+    static constexpr std::array meshes{ ".off", ".ply", ".vtp", ".vtk", ".obj", ".stl" };
+    if (std::any_of(meshes.begin(), meshes.end(),
+          [&path](const char* extension) { return path.ends_with(extension); }))
     {
       RequireSoundCells(ReadMesh(path));
     }
@@ -211,6 +245,33 @@ Bytes WriteWith(const std::string& extension, vtkDataObject* data, PrepareT prep
   const auto kind = std::find(Extensions.begin(), Extensions.end(), extension);
   return Seed(static_cast<std::size_t>(kind - Extensions.begin()), bytes.str());
 }
+
+/** Small files of the formats that VTK does not know, by their extensions. */
+std::vector<std::pair<std::string, std::string>> ScannerFiles()
+{
+  neuralmesh::FileContents mesh;
+  for (const Eigen::Vector3d& point :
+    { Eigen::Vector3d(0.0, 0.0, 0.0), { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 } })
+  {
+    mesh.addPoint(point);
+    mesh.colors.push_back({ 1, 2, 3 });
+  }
+  mesh.triangles.push_back({ 0, 1, 2 });
+  const std::string header = "VERSION 0.7\nFIELDS x y z rgb _ ring\nSIZE 4 4 4 4 1 2\n"
+                             "TYPE F F F F U U\nCOUNT 1 1 1 1 2 1\nWIDTH 2\nHEIGHT 1\n"
+                             "VIEWPOINT 0 0 5 1 0 0 0\nPOINTS 2\nDATA ";
+  const std::string scan = "2\n1\n0 0 9\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 9 1\n"
+                           "0 0 0 0.5 0 0 0\n1 2 3 0.25 9 8 7\n";
+  // Two runs of literals: 40 bytes in 42.
+  std::string packed("\x2a\0\0\0\x28\0\0\0\x1f", 9);
+  packed += std::string(32, '1') + '\x07' + std::string(8, '2');
+  return { { ".off", neuralmesh::meshBytesOf(".off", mesh) },
+    { ".off", "NOFF 1 0 0\n1 2 3 0 0 1\n" },
+    { ".pcd", header + "ascii\n1 2 3 4e6 0 0 7\nnan nan nan 0 0 0 7\n" },
+    { ".pcd", header + "binary\n" + std::string(40, '1') },
+    { ".pcd", header + "binary_compressed\n" + packed }, { ".ptx", scan + scan },
+    { ".pwn", "1\n1 2 3\n0 0 1\n" }, { ".pwn", "1 2 3 0 0 1\n" } };
+}
 }
 
 std::vector<Bytes> neuralmesh::testing::fuzzSeeds()
@@ -243,6 +304,11 @@ std::vector<Bytes> neuralmesh::testing::fuzzSeeds()
   {
     seeds.push_back(Seed(Text, text));
   }
+  for (const auto& [extension, content] : ScannerFiles())
+  {
+    const auto kind = std::find(Extensions.begin(), Extensions.end(), extension);
+    seeds.push_back(Seed(static_cast<std::size_t>(kind - Extensions.begin()), content));
+  }
   return seeds;
 }
 
@@ -257,7 +323,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
   }
   file.close();
   Require(static_cast<bool>(file), "there is room for a file");
-  if (kind == Text)
+  if (neuralmesh::canReadFile(path))
+  {
+    ReadContents(path);
+  }
+  if (kind < FirstOfVTK)
   {
     Read(path, false);
   }

@@ -17,7 +17,7 @@ def arrays(fields):
 
 class Filters(unittest.TestCase):
     # Promise: after LoadPlugin the filters are functions in the namespace of the script that loaded
-    # it, and no other than the six.
+    # it, and no other than the seven.
     def test_names(self):
         namespace = {}
         exec(
@@ -30,7 +30,7 @@ class Filters(unittest.TestCase):
         self.assertEqual(support.information_of(namespace["mesh"]).GetNumberOfPoints(), 100)
         ours = {name for name in namespace if name.startswith("NeuralMesh")}
         names = {"NeuralMesh", "NeuralMeshComparison", "NeuralMeshEnsemble", "NeuralMeshExplanation",
-                 "NeuralMeshFileSampler", "NeuralMeshScan"}
+                 "NeuralMeshFileSampler", "NeuralMeshInformation", "NeuralMeshScan"}
         self.assertEqual(ours, names)
 
     # Promise: a scan gives the points that are asked for, visible in any representation; the view
@@ -152,6 +152,14 @@ class Filters(unittest.TestCase):
         table = support.fetch(comparison, 2)
         self.assertEqual(table.GetNumberOfRows(), 2)
         self.assertAlmostEqual(table.GetColumnByName("Mean").GetValue(0), 0.1, places=2)
+
+    # Promise: what a mesh is by itself stands in its field data, which the Information panel shows.
+    def test_information(self):
+        information = simple.NeuralMeshInformation(Input=simple.Cylinder(Resolution=30))
+        information.UpdatePipeline()
+        self.assertEqual(information.FieldData["Components"].GetRange(), (3.0, 3.0))
+        self.assertEqual(information.FieldData["Closed"].GetRange(), (0.0, 0.0))
+        self.assertGreater(support.information_of(information).GetNumberOfPoints(), 100)
 
 
 if __name__ == "__main__":

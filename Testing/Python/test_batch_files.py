@@ -24,7 +24,7 @@ class Files(BatchTest):
     # Promise: each format of meshes can be had, in the folder that is named.
     def test_formats(self):
         write_scan(self.folder / "ball.xyz")
-        for mesh_format in ("vtp", "ply", "obj", "stl"):
+        for mesh_format in ("vtp", "ply", "obj", "stl", "off", "vtk"):
             with self.subTest(mesh_format):
                 self.write_recipe(
                     scans=["ball.xyz"], matrix={"vertices": 100}, format=mesh_format
@@ -35,6 +35,36 @@ class Files(BatchTest):
                 self.assertEqual(mesh.GetNumberOfPoints(), 100)
                 self.assertTrue(support.is_closed_manifold(mesh))
         self.assertFalse(self.results.exists())
+
+    # Promise: files of scanners are scans, whose viewpoints turn the mesh unasked; and a .glb can be had.
+    def test_scanners(self):
+        points = support.sphere(500)
+        points = points[points[:, 2] < 0.5]
+        lines = "".join("{} {} {}\n".format(*point) for point in points)
+        count = len(points)
+        header = f"FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nWIDTH {count}\nHEIGHT 1\n"
+        grid = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"
+        files = {
+            "a.pcd": f"{header}VIEWPOINT 0 0 0.1 1 0 0 0\nDATA ascii\n{lines}",
+            "b.ptx": f"{count}\n1\n{grid}{lines}",
+            "c.pwn": f"{count}\n{lines}{lines}",
+            "d.off": f"OFF\n{count} 0 0\n{lines}",
+        }
+        for name, text in files.items():
+            (self.folder / name).write_text(text, encoding="utf-8")
+            self.assertTrue((support.coordinates(read_points(self.folder / name)) == points).all())
+        self.write_recipe(scans=[*files], matrix={"vertices": 100}, format="glb")
+        _, errors, status = self.run_batch()
+        self.assertEqual((errors, status), ("", 0))
+        for name in ("a", "b", "c", "d"):
+            self.assertEqual((self.results / f"{name}.glb").read_bytes()[:4], b"glTF")
+        for name in ("a.pcd", "b.ptx"):
+            mesh = neuralmesh.reconstruct(read_points(self.folder / name), 100)
+            by = mesh.GetFieldData().GetAbstractArray("OrientedBy")
+            self.assertEqual(by.GetValue(0), "viewpoints")
+        (self.folder / "e.laz").write_bytes(b"LASF")
+        with self.assertRaisesRegex(ValueError, "python3 -c"):
+            read_points(self.folder / "e.laz")
 
     # Promise: coordinates far from the origin keep their digits, from a .ply and into one; an .stl of
     # them is refused in words, or shifted, which is told and undone.

@@ -68,7 +68,8 @@ class Functions(unittest.TestCase):
     # its types can be read.
     def test_documentation(self):
         self.assertEqual(FUNCTIONS, [
-            neuralmesh.compare, neuralmesh.explain, neuralmesh.reconstruct, neuralmesh.stream
+            neuralmesh.compare, neuralmesh.explain, neuralmesh.info, neuralmesh.reconstruct,
+            neuralmesh.stream,
         ])
         for function in FUNCTIONS:
             with self.subTest(function.__name__):

@@ -48,7 +48,7 @@ def texts_of(outcome):
 class Worlds(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        processes = [start(os.environ[f"NEURALMESH_{name}_PATH"]) for name in ("WRAPPED", "WHEEL")]
+        processes = [start(os.environ[f"NEURALMESH_{name}_PATH"]) for name in ("WRAPPED", "ENGINE")]
         cls.wrapped, cls.engine = (everything(process) for process in processes)
 
     # Promise: the same input, properties and seed give the same points, triangles, arrays of all kinds,

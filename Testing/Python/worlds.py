@@ -469,6 +469,11 @@ CASES = {
                                     (blocks(), sphere_mesh())),
     "explanation_bad": lambda: measured("vtkNeuralMeshExplanation", {},
                                         (rich(), polygons([0, 1, 99]))),
+    "information": lambda: measured("vtkNeuralMeshInformation", {}, (sphere_mesh(),)),
+    "information_open": lambda: measured("vtkNeuralMeshInformation", {},
+                                         (polygons([0, 1, 2], [0, 1, 3], [0, 1, 4], [5, 6, 7, 8]),)),
+    "information_bad": lambda: measured("vtkNeuralMeshInformation", {}, (polygons([0, 1, 99]),)),
+    "information_empty": lambda: measured("vtkNeuralMeshInformation", {}, (vtkPolyData(),)),
     "scan": lambda: measured("vtkNeuralMeshScan", {
         "NumberOfPoints": 3000, "Noise": 0.01, "Outliers": 0.1, "Holes": 2, "Occlusion": 1,
         "Viewpoint": (0, 0, 9)}, (sphere_mesh(),)),

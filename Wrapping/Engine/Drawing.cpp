@@ -7,7 +7,6 @@
 #include "cloud/PointFile.h"
 
 #include <algorithm>
-#include <memory>
 #include <stdexcept>
 
 namespace nb = nanobind;
@@ -25,8 +24,8 @@ struct Drawn
 };
 }
 
-nb::dict drawPoints(const std::string& path, const std::optional<RawPoints>& raw,
-  std::uint64_t wanted, std::uint64_t seed, Call& call)
+nb::object drawPoints(const std::string& path, const RawFile& raw, std::uint64_t wanted,
+  std::uint64_t seed, Call& call)
 {
   PhaseTimes times;
   times.enter(Phase::Drawing);
@@ -36,12 +35,13 @@ nb::dict drawPoints(const std::string& path, const std::optional<RawPoints>& raw
   try
   {
     const nb::gil_scoped_release unlocked;
-    const auto file = raw ? std::make_unique<PointFile>(path, raw->isDouble, raw->skip)
-                          : std::make_unique<PointFile>(path);
-    layout = file->layout();
+    const PointFile file = raw.numbers.empty()
+      ? PointFile(path)
+      : PointFile(path, raw.numbers == "double", raw.skip);
+    layout = file.layout();
     const auto count = std::size_t(std::min(wanted, layout.count));
     layout.isDouble ? drawn.doubles.reserve(3 * count) : drawn.floats.reserve(3 * count);
-    isDone = file->draw(
+    isDone = file.draw(
       wanted, seed,
       [&](const PointFile::Point& point)
       {
@@ -69,13 +69,11 @@ nb::dict drawPoints(const std::string& path, const std::optional<RawPoints>& raw
     throw std::invalid_argument(error.what());
   }
   times.leave();
-  nb::dict result;
-  result["count"] = layout.count;
-  result["seconds"] = times.seconds(Phase::Drawing);
   if (!isDone)
   {
-    return result;
+    return nb::none();
   }
+  nb::dict result;
   result["points"] =
     layout.isDouble ? arrayOf(std::move(drawn.doubles), 3) : arrayOf(std::move(drawn.floats), 3);
   if (layout.color)
@@ -86,6 +84,8 @@ nb::dict drawPoints(const std::string& path, const std::optional<RawPoints>& raw
   {
     result["normals"] = arrayOf(std::move(drawn.normals), 3);
   }
+  result["file_points"] = layout.count;
+  result["seconds"] = times.seconds(Phase::Drawing);
   return result;
 }
 }

@@ -4,21 +4,20 @@
 #include "Call.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 
 namespace neuralmesh::binding
 {
-/// Coordinates alone, of 4 or of 8 bytes each, behind so many bytes.
-struct RawPoints
+/// What a file without a header is.
+struct RawFile
 {
-  bool isDouble = false;
-  std::uint64_t skip = 0;
+  std::string numbers; ///< "float" or "double"; empty for a file that has a header
+  std::uint64_t skip = 0; ///< bytes before the first point
 };
 
 /// Points that are drawn from a file where they lie: `points`, and `RGB` and `normals` where the file has
-/// some, none of these if it was ended; `count`, how many the file has, and the CPU `seconds`. Throws
+/// some, the CPU `seconds`, and `file_points`, how many the file has; None if it was ended. Throws
 /// std::invalid_argument with a text that names the file.
-nanobind::dict drawPoints(const std::string& path, const std::optional<RawPoints>& raw,
-  std::uint64_t wanted, std::uint64_t seed, Call& call);
+nanobind::object drawPoints(const std::string& path, const RawFile& raw, std::uint64_t wanted,
+  std::uint64_t seed, Call& call);
 }

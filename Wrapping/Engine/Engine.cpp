@@ -4,20 +4,23 @@
 #include "Arrays.h"
 #include "Call.h"
 #include "Drawing.h"
+#include "Files.h"
 #include "Measures.h"
 #include "Report.h"
 #include "Run.h"
 #include "Scan.h"
 #include "Stream.h"
+#include "Tune.h"
 #include "Values.h"
 
 #include "base/AtomicFile.h"
 #include "run/Ensemble.h"
+#include "run/RunEstimate.h"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <stdexcept>
@@ -221,23 +224,44 @@ void bindMeasures(nb::module_& module)
     [](const ArrayOf<double>& points, const ArrayOf<std::int64_t>& triangles)
     { return report(meshOf(points, triangles)); },
     "points"_a, "triangles"_a);
+  module.attr("tried_vertices") = TriedVertices;
+  module.def("estimate", &estimate, "vertices"_a, "points"_a, "bytes_of_points"_a,
+    "samples_for_features"_a, "is_ensemble"_a, "growth"_a, "seconds_of_trial"_a);
+  module.def(
+    "tune",
+    [](const std::vector<AnyArray>& points, const nb::dict& parameters, unsigned threads,
+      nb::object progress)
+    {
+      Call call(std::move(progress));
+      nb::object tuning = tuneFor(points, parametersOf(parameters), threads, call);
+      call.rethrow();
+      return tuning;
+    },
+    "points"_a, "parameters"_a, "threads"_a, "progress"_a.none());
 }
 
 void bindFiles(nb::module_& module)
 {
   module.def(
     "draw_points",
-    [](const std::string& path, std::uint64_t wanted, std::uint64_t seed,
-      std::optional<std::pair<bool, std::uint64_t>> raw, nb::object progress)
+    [](const std::string& path, std::uint64_t wanted, std::uint64_t seed, nb::object progress,
+      const std::string& raw, std::uint64_t skip)
     {
       Call call(std::move(progress));
-      const auto layout =
-        raw ? std::optional(RawPoints{ raw->first, raw->second }) : std::nullopt;
-      nb::dict points = drawPoints(path, layout, wanted, seed, call);
+      nb::object points = drawPoints(path, { raw, skip }, wanted, seed, call);
       call.rethrow();
       return points;
     },
-    "path"_a, "wanted"_a, "seed"_a, "raw"_a.none(), "progress"_a.none());
+    "path"_a, "wanted"_a, "seed"_a, "progress"_a.none(), "raw"_a = "", "skip"_a = 0);
+  module.def("read_points", &readPoints, "path"_a);
+  module.def("write_mesh", &writeSurface, "path"_a, "points"_a, "triangles"_a, "normals"_a.none(),
+    "colors"_a.none(), "shift"_a.none(), "noted"_a);
+  module.def("require_digits", &requireDigitsFor, "path"_a, "points"_a, "vertices"_a, "shift"_a);
+  module.def("round_shift", &roundShiftOf, "points"_a);
+  module.def("shift_note", &noteOf, "shift"_a);
+  module.def("require_place", &requirePlace, "path"_a);
+  module.def("write_whole", &writeWhole, "path"_a, "content"_a);
+  module.def("join_views", &joinViews, "parts"_a);
   module.def("usual_points", &usualPoints, "vertices"_a);
   module.def("remove_file", &removeAtomicFile, "path"_a);
 }

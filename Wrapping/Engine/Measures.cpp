@@ -6,10 +6,12 @@
 #include "base/ThreadPool.h"
 #include "mesh/SurfaceReport.h"
 #include "run/ExplanationByMesh.h"
+#include "run/RunEstimate.h"
 #include "run/SurfaceComparison.h"
 
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 namespace nb = nanobind;
 
@@ -128,5 +130,19 @@ nb::dict report(TriangleMesh mesh)
   result["unused_points"] = surface.unusedPoints;
   result["non_finite_points"] = surface.nonFinitePoints;
   return result;
+}
+
+std::tuple<double, double, double> estimate(double vertices, double points, double bytesOfPoints,
+  double samplesForFeatures, bool isEnsemble, const ArrayOf<double>& growth, double secondsOfTrial)
+{
+  std::vector<GrowthRow> rows;
+  for (std::size_t i = 0; i + 2 < growth.size(); i += 3)
+  {
+    const double* row = growth.data() + i;
+    rows.push_back({ row[0], row[1], row[2] });
+  }
+  const RunEstimate found =
+    estimateRun({ vertices, points, bytesOfPoints, samplesForFeatures, isEnsemble }, rows, secondsOfTrial);
+  return { found.bytes, found.samples, found.seconds };
 }
 }

@@ -6,6 +6,7 @@
 #include "Call.h"
 
 #include <cstdint>
+#include <tuple>
 
 namespace neuralmesh::binding
 {
@@ -21,4 +22,8 @@ nanobind::object explain(
 
 /// What can be said of a mesh by itself: a dict of numbers, by the names that `info --json` has.
 nanobind::dict report(TriangleMesh mesh);
+
+/// What a run will take: bytes, samples and seconds, from rows of iterations, vertices and seconds.
+std::tuple<double, double, double> estimate(double vertices, double points, double bytesOfPoints,
+  double samplesForFeatures, bool isEnsemble, const ArrayOf<double>& growth, double secondsOfTrial);
 }

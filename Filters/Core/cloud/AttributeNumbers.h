@@ -17,8 +17,8 @@ using NumbersOf = std::function<void(std::uint32_t point, std::span<double> tupl
 
 /// Carries numbers of points, so many components each, over to the vertices of the mesh, by an AttributeFit.
 /// A component never leaves the range that it has at the points. Points with a number that is not finite do not
-/// count. The numbers of one vertex after those of the other; NaN in a component of the mesh where no point has
-/// some. The cloud of the places must know the origins of its points.
+/// count; vertices next to which all points are such have NaN. The numbers of one vertex come after those of the
+/// other. The cloud of the places must know the origins of its points.
 std::vector<double> carryNumbers(const CloudPlaces& places, std::size_t components,
   const NumbersOf& numbersOf, const Executor& executor = Executor::sequential());
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -16,8 +15,6 @@ namespace neuralmesh
 {
 namespace
 {
-static_assert(std::endian::native == std::endian::little);
-
 constexpr std::string_view ShiftWord = "shift";
 constexpr std::array<const char*, 3> Axes{ "x", "y", "z" };
 constexpr std::uint64_t BytesPerPiece = 1 << 20;
@@ -25,38 +22,6 @@ constexpr std::uint64_t BytesPerPiece = 1 << 20;
 [[noreturn]] void throwEndsEarly(const PlyElement& element)
 {
   throw std::runtime_error("damaged: it ends before its last " + element.name);
-}
-
-template <typename Number>
-double numberIn(std::array<unsigned char, 8> bytes)
-{
-  Number number{};
-  std::memcpy(&number, bytes.data(), sizeof number);
-  return double(number);
-}
-
-double numberOf(const unsigned char* place, PlyType type, bool isBigEndian)
-{
-  std::array<unsigned char, 8> bytes{};
-  std::copy_n(place, type.size, bytes.begin());
-  if (isBigEndian)
-  {
-    std::reverse(bytes.begin(), bytes.begin() + std::ptrdiff_t(type.size));
-  }
-  if (type.isReal())
-  {
-    return type.size == 8 ? numberIn<double>(bytes) : numberIn<float>(bytes);
-  }
-  const bool isSigned = type.kind == PlyType::Kind::Signed;
-  switch (type.size)
-  {
-    case 1:
-      return isSigned ? numberIn<std::int8_t>(bytes) : numberIn<std::uint8_t>(bytes);
-    case 2:
-      return isSigned ? numberIn<std::int16_t>(bytes) : numberIn<std::uint16_t>(bytes);
-    default:
-      return isSigned ? numberIn<std::int32_t>(bytes) : numberIn<std::uint32_t>(bytes);
-  }
 }
 
 double numberOf(std::string_view word)
@@ -154,7 +119,7 @@ public:
       {
         const PlyProperty& property = element.properties[p];
         const PlyType first = property.countType.value_or(property.type);
-        const double number = numberOf(next(element, first.size), first, isBigEndian_);
+        const double number = first.numberAt(next(element, first.size), isBigEndian_);
         if (property.countType)
         {
           skip(element, number < 0. ? left_ + 1 : std::uint64_t(number), property.type.size);

@@ -2,7 +2,10 @@
 #include "cloud/PlyHeader.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <charconv>
+#include <cstring>
 #include <map>
 #include <stdexcept>
 
@@ -10,7 +13,17 @@ namespace neuralmesh
 {
 namespace
 {
+static_assert(std::endian::native == std::endian::little);
+
 using Words = std::vector<std::string_view>;
+
+template <typename Number>
+double numberIn(std::array<unsigned char, 8> bytes)
+{
+  Number number{};
+  std::memcpy(&number, bytes.data(), sizeof number);
+  return double(number);
+}
 
 PlyType plyType(std::string_view name)
 {
@@ -94,6 +107,32 @@ void readLines(std::string_view lines, PlyHeader& header)
     throw std::runtime_error("damaged: the header names no format");
   }
 }
+}
+
+double PlyType::numberAt(const void* place, bool isBigEndian) const
+{
+  std::array<unsigned char, 8> bytes{};
+  std::memcpy(bytes.data(), place, size);
+  if (isBigEndian)
+  {
+    std::reverse(bytes.begin(), bytes.begin() + std::ptrdiff_t(size));
+  }
+  if (isReal())
+  {
+    return size == 8 ? numberIn<double>(bytes) : numberIn<float>(bytes);
+  }
+  const bool isSigned = kind == Kind::Signed;
+  switch (size)
+  {
+    case 1:
+      return isSigned ? numberIn<std::int8_t>(bytes) : numberIn<std::uint8_t>(bytes);
+    case 2:
+      return isSigned ? numberIn<std::int16_t>(bytes) : numberIn<std::uint16_t>(bytes);
+    case 4:
+      return isSigned ? numberIn<std::int32_t>(bytes) : numberIn<std::uint32_t>(bytes);
+    default:
+      return isSigned ? numberIn<std::int64_t>(bytes) : numberIn<std::uint64_t>(bytes);
+  }
 }
 
 bool PlyElement::hasList() const

@@ -10,7 +10,7 @@
 
 namespace neuralmesh
 {
-/// A number in a .ply.
+/// A number in a binary file, as a .ply names it.
 struct PlyType
 {
   enum class Kind
@@ -26,6 +26,8 @@ struct PlyType
   bool isReal() const { return kind == Kind::Real; }
   /// Whether a float holds each of its values.
   bool fitsFloat() const { return size < (isReal() ? 8 : 4); }
+  /// The number whose bytes lie there.
+  double numberAt(const void* place, bool isBigEndian) const;
 };
 
 struct PlyProperty

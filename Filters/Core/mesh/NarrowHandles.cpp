@@ -25,7 +25,7 @@ constexpr std::size_t LeastOnEachSide = 32;
 constexpr std::size_t MostStripsTried = 32;
 constexpr std::size_t MostPlaces = 2;
 
-using Strip = std::vector<VertexIndex>;
+using HandleStrip = std::vector<VertexIndex>;
 
 /// The vertices that lie within some edges of one.
 class Surroundings
@@ -62,7 +62,7 @@ public:
 
   /// How many lie within some edges of a strip on that side of it where they are fewer. Where both sides hang
   /// together it is half of them.
-  std::size_t countOnSmallerSide(const Strip& strip)
+  std::size_t countOnSmallerSide(const HandleStrip& strip)
   {
     around_ = strip;
     for (const VertexIndex v : strip)
@@ -139,7 +139,7 @@ private:
 };
 
 /// Of the vertices around which others close up, those that hang together, the most first.
-std::vector<Strip> narrowStrips(const Mesh& mesh)
+std::vector<HandleStrip> narrowStrips(const Mesh& mesh)
 {
   Surroundings surroundings(mesh);
   std::vector<std::uint8_t> isOpen(mesh.indexEnd(), 0);
@@ -147,7 +147,7 @@ std::vector<Strip> narrowStrips(const Mesh& mesh)
   {
     isOpen[v] = surroundings.closeUp(v) ? 1 : 0;
   }
-  std::vector<Strip> strips;
+  std::vector<HandleStrip> strips;
   for (VertexIndex first = 0; first < mesh.indexEnd(); ++first)
   {
     if (isOpen[first] == 0)
@@ -155,7 +155,7 @@ std::vector<Strip> narrowStrips(const Mesh& mesh)
       continue;
     }
     isOpen[first] = 0;
-    Strip strip{ first };
+    HandleStrip strip{ first };
     for (std::size_t i = 0; i < strip.size(); ++i)
     {
       for (const VertexIndex neighbor : mesh.ring(strip[i]))
@@ -175,13 +175,14 @@ std::vector<Strip> narrowStrips(const Mesh& mesh)
   // What was seen around vertices is not to count.
   Surroundings aroundStrips(mesh);
   std::erase_if(strips,
-    [&](const Strip& strip) { return aroundStrips.countOnSmallerSide(strip) < LeastOnEachSide; });
+    [&](const HandleStrip& strip)
+    { return aroundStrips.countOnSmallerSide(strip) < LeastOnEachSide; });
   std::stable_sort(strips.begin(), strips.end(),
-    [](const Strip& a, const Strip& b) { return a.size() > b.size(); });
+    [](const HandleStrip& a, const HandleStrip& b) { return a.size() > b.size(); });
   return strips;
 }
 
-void cut(Mesh& mesh, const Strip& strip)
+void cut(Mesh& mesh, const HandleStrip& strip)
 {
   std::vector<Triangle> triangles;
   for (const VertexIndex v : strip)
@@ -204,7 +205,7 @@ NarrowHandles findNarrowHandles(const Mesh& mesh)
   {
     return result;
   }
-  const std::vector<Strip> strips = narrowStrips(mesh);
+  const std::vector<HandleStrip> strips = narrowStrips(mesh);
   Mesh rest = mesh;
   long left = all;
   for (std::size_t i = 0; i < strips.size(); ++i)

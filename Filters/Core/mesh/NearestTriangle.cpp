@@ -14,9 +14,9 @@ constexpr std::size_t DeepestTree = 40;
 /// A triangle whose height is less than this part of its longest edge is a sliver.
 constexpr double SliverHeight = 1e-3;
 
-using Corners = std::array<Eigen::Vector3d, 3>;
+using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 
-Eigen::AlignedBox3d boxOf(const Corners& corners)
+Eigen::AlignedBox3d boxAround(const TriangleCorners& corners)
 {
   Eigen::AlignedBox3d box(corners[0]);
   box.extend(corners[1]);
@@ -25,7 +25,7 @@ Eigen::AlignedBox3d boxOf(const Corners& corners)
 }
 
 /// The height, as a part of the longest edge; 0 if there is no area.
-double heightPart(const Corners& corners)
+double heightPart(const TriangleCorners& corners)
 {
   const Eigen::Vector3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
   const double longest =
@@ -34,7 +34,7 @@ double heightPart(const Corners& corners)
 }
 
 /// The centre of their box.
-double centerAlong(const Corners& corners, Eigen::Index axis)
+double centerAlong(const TriangleCorners& corners, Eigen::Index axis)
 {
   const auto [low, high] = std::minmax({ corners[0][axis], corners[1][axis], corners[2][axis] });
   return 0.5 * low + 0.5 * high;
@@ -55,7 +55,7 @@ public:
     return (point_ - point_.cwiseMax(box.min()).cwiseMin(box.max())).squaredNorm();
   }
 
-  void lookAt(const Corners& corners, std::uint32_t index, bool isSliver)
+  void lookAt(const TriangleCorners& corners, std::uint32_t index, bool isSliver)
   {
     const auto& [a, b, c] = corners;
     const Eigen::Vector3d ab = b - a, ac = c - a, toPoint = point_ - a;
@@ -125,7 +125,7 @@ NearestTriangle::NearestTriangle(const TriangleMesh& mesh)
   {
     auto ids = mesh.triangles[i];
     std::sort(ids.begin(), ids.end());
-    const Corners corners{ mesh.points[ids[0]], mesh.points[ids[1]], mesh.points[ids[2]] };
+    const TriangleCorners corners{ mesh.points[ids[0]], mesh.points[ids[1]], mesh.points[ids[2]] };
     triangles_.push_back({ corners, i, heightPart(corners) < SliverHeight });
   }
   if (count > 0)
@@ -142,8 +142,8 @@ std::uint32_t NearestTriangle::build(std::uint32_t begin, std::uint32_t end)
   Eigen::AlignedBox3d centers;
   for (std::uint32_t i = begin; i < end; ++i)
   {
-    const Corners& corners = triangles_[i].corners;
-    node.box.extend(boxOf(corners));
+    const TriangleCorners& corners = triangles_[i].corners;
+    node.box.extend(boxAround(corners));
     centers.extend(
       Eigen::Vector3d(centerAlong(corners, 0), centerAlong(corners, 1), centerAlong(corners, 2)));
   }

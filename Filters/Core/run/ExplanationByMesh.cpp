@@ -19,7 +19,7 @@ namespace
 {
 /// Between two looks at whether to go on.
 constexpr std::size_t PointsPerLook = 16384;
-constexpr std::size_t PointsPerRange = 512;
+constexpr std::size_t AskedPerRange = 512;
 /// A place is on an edge if it is no farther from it than so many of its lengths.
 constexpr double OnEdge = 1e-6;
 
@@ -133,7 +133,7 @@ std::optional<PointDistances> distancesOfAll(const PointCloud& cloud,
     {
       return std::nullopt;
     }
-    executor.forEachRange(std::min(PointsPerLook, count - first), PointsPerRange,
+    executor.forEachRange(std::min(PointsPerLook, count - first), AskedPerRange,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = first + begin; i < first + end; ++i)

@@ -26,9 +26,9 @@ constexpr std::size_t MostAngleSamples = 20000;
 constexpr std::size_t ClimbedTriangles = 128;
 constexpr std::size_t ClimbSteps = 96;
 constexpr std::size_t StepsOfOneSize = 8;
-constexpr std::size_t PlacesPerRange = 512;
+constexpr std::size_t MeasuredPerRange = 512;
 /// Found between two looks at whether to go on.
-constexpr std::size_t PlacesPerLook = 16384;
+constexpr std::size_t MeasuredPerLook = 16384;
 /// Where the distances of the samples begin and end, as fractions of the whole.
 constexpr double BeginOfDistances = 0.05;
 constexpr double EndOfDistances = 0.9;
@@ -55,8 +55,8 @@ std::vector<Near> nearestPlaces(std::size_t count, const PointOf& pointOf,
       return found;
     }
     const std::size_t first = found.size();
-    found.resize(std::min(count, first + PlacesPerLook));
-    executor.forEachRange(found.size() - first, PlacesPerRange,
+    found.resize(std::min(count, first + MeasuredPerLook));
+    executor.forEachRange(found.size() - first, MeasuredPerRange,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = first + begin; i < first + end; ++i)

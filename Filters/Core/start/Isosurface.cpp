@@ -14,9 +14,9 @@ namespace
 // A cube has voxels at its corners. Bit k of the number of a corner tells that it is on the high side along
 // axis k. A case tells by its bits which of the corners are above the level.
 
-constexpr unsigned Corners = 8;
-constexpr unsigned Cases = 1u << Corners;
-constexpr unsigned Edges = 12;
+constexpr unsigned CubeCorners = 8;
+constexpr unsigned CountOfCases = 1u << CubeCorners;
+constexpr unsigned CubeEdges = 12;
 constexpr unsigned LongestPolygon = 7;
 /// No case needs more.
 constexpr unsigned MostTriangles = 5;
@@ -155,8 +155,8 @@ private:
 constexpr CubeCase caseOf(unsigned above)
 {
   const auto isAbove = [above](unsigned corner) { return (above >> corner & 1u) != 0; };
-  std::array<unsigned, Edges> next{};
-  std::array<bool, Edges> isOpen{};
+  std::array<unsigned, CubeEdges> next{};
+  std::array<bool, CubeEdges> isOpen{};
   for (unsigned i = 0; i < 6; ++i)
   {
     const auto corners = side(i / 2, i % 2 != 0);
@@ -177,7 +177,7 @@ constexpr CubeCase caseOf(unsigned above)
     }
   }
   CubeCase result;
-  for (unsigned first = 0; first < Edges; ++first)
+  for (unsigned first = 0; first < CubeEdges; ++first)
   {
     std::array<unsigned, LongestPolygon> polygon{};
     unsigned size = 0;
@@ -196,8 +196,8 @@ constexpr CubeCase caseOf(unsigned above)
 
 constexpr auto CubeCases = []
 {
-  std::array<CubeCase, Cases> cases{};
-  for (unsigned above = 0; above < Cases; ++above)
+  std::array<CubeCase, CountOfCases> cases{};
+  for (unsigned above = 0; above < CountOfCases; ++above)
   {
     cases[above] = caseOf(above);
   }
@@ -262,7 +262,7 @@ private:
   void addTriangles(std::size_t voxel)
   {
     unsigned above = 0;
-    for (unsigned corner = 0; corner < Corners; ++corner)
+    for (unsigned corner = 0; corner < CubeCorners; ++corner)
     {
       above |= isAbove(cornerAt(voxel, corner)) ? 1u << corner : 0u;
     }

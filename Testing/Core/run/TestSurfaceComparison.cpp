@@ -119,7 +119,7 @@ TEST(SurfaceComparison, CanBeEndedAnywhere)
 {
   const TriangleMesh cube = makeCube(3);
   std::vector<double> reports;
-  ASSERT_TRUE(compareSurfaces(cube, cube, { 200000, 1 },
+  ASSERT_TRUE(compareSurfaces(cube, cube, { 40000, 1 },
     [&](double fraction)
     {
       reports.push_back(fraction);
@@ -132,8 +132,7 @@ TEST(SurfaceComparison, CanBeEndedAnywhere)
   for (std::size_t last = 0; last < reports.size(); ++last)
   {
     std::size_t count = 0;
-    EXPECT_FALSE(
-      compareSurfaces(cube, cube, { 200000, 1 }, [&](double) { return count++ < last; }));
+    EXPECT_FALSE(compareSurfaces(cube, cube, { 40000, 1 }, [&](double) { return count++ < last; }));
   }
 }
 

@@ -5,7 +5,7 @@
 >>> mesh = neuralmesh.reconstruct(points, vertices=20000)
 
 reconstruct() does it in one call, stream() while points arrive, compare() tells how far a mesh is
-from a reference, explain() what it leaves of the points. The VTK classes, vtkNeuralMesh and its
+from a reference, explain() what it leaves of the points, info() whether it is sound. The VTK classes, vtkNeuralMesh and its
 sisters, are here for pipelines. The methods of a mesh and of all VTK objects are those of the package
 vtkmodules. Where this package was built with a VTK, VTK_VERSION, vtkmodules must be of that very one.
 What pip installs was built without: there any VTK will do, or none, and a mesh is a neuralmesh.Mesh then.
@@ -22,16 +22,22 @@ else:
 
     _own_engine.require_engine(__version__)
 
+from . import _pyvista_hook
 from ._compare import compare
 from ._explain import explain
+from ._info import info
 from ._reconstruct import reconstruct
 from ._stream import stream
 
 if VTK_VERSION:
     from .vtkFiltersNeuralMesh import *
 else:
+    from .engine.files import read
     from .engine.mesh import Mesh
 
     def __getattr__(name: str):
         """The classes for pipelines, which import VTK only where they are wanted."""
         return _own_engine.vtk_class(name)
+
+
+_pyvista_hook.install()

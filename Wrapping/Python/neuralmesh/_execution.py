@@ -6,12 +6,13 @@ from __future__ import annotations
 import contextlib
 import signal
 import threading
-import warnings
 from typing import Callable, Iterator
 
 import numpy as np
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+
+from ._warning import warn
 
 Progress = Callable[[float], bool | None]
 
@@ -22,8 +23,7 @@ def execute(algorithm: vtkAlgorithm, progress: Progress | None = None) -> None:
     progress is called with fractions from 0 to 1; if it returns False, the filter is told to end.
     What it raises, or what a handler of Ctrl-C raises, ends the filter and is raised again. What
     the filter says to be wrong, which is about its input, is a ValueError, and any other error of
-    the pipeline a RuntimeError. Warnings are RuntimeWarnings, of the line that calls the function which calls a function of
-    _wrapped.py.
+    the pipeline a RuntimeError. Warnings are RuntimeWarnings.
     """
     execution = _Execution(algorithm, progress)
     with execution.observed(), _guarded_interrupts(execution.call):
@@ -94,7 +94,7 @@ class _Execution:
         if self._raised is not None:
             raise self._raised
         for text in self._warnings:
-            warnings.warn(text, RuntimeWarning, stacklevel=5)
+            warn(text)
         if self._input_errors:
             raise ValueError(" ".join(self._input_errors))
         if self._other_errors:

@@ -12,6 +12,7 @@ _CLASSES = (
     "vtkNeuralMeshEnsemble",
     "vtkNeuralMeshExplanation",
     "vtkNeuralMeshFileSampler",
+    "vtkNeuralMeshInformation",
     "vtkNeuralMeshScan",
     "vtkNeuralMeshStream",
 )

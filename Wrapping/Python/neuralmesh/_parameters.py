@@ -13,6 +13,35 @@ from typing import Any, Callable, Mapping
 
 import numpy as np
 
+# What other libraries call it, PyVista, Open3D, PyMeshLab and Trimesh among them: in lower case, without
+# underscores.
+_WORDS_OF_OTHERS = {
+    "vertices": (
+        "nvertices", "npoints", "nverts", "numvertices", "numpoints", "numberofvertices",
+        "numberofpoints", "vertexcount", "targetvertices", "targetpoints", "targetnumberofvertices",
+        "targetnumberofpoints", "targetvertnum", "targetverts", "nclus",
+    ),
+    "seed": ("randomstate", "randomseed", "rng"),
+    "samples": ("nsamples", "samplenum", "numsamples", "numberofsamples", "npoints"),
+    "ensemble": ("numberofmembers", "nmembers", "members"),
+    "progress": ("progressbar", "callback", "progresscallback"),
+    "number_of_threads": ("threads", "nthreads", "numthreads", "njobs", "workers"),
+    "time_limit": ("timeout", "maxtime", "maxseconds", "seconds"),
+    "first_mesh": ("initialmesh", "init", "template", "initmesh"),
+    "viewpoints": (
+        "viewpos", "cameralocation", "cameraposition", "sensororigin", "scannerposition", "pov",
+    ),
+    "up": ("updirection", "orientationreference", "viewup", "zup"),
+    "weights": ("confidence", "weightarray"),
+    "close_holes_below": ("holesize", "maxholesize", "fillholes"),
+    "fit_smoothness": ("smooth", "smoothing"),
+    "carry_point_data": ("passpointdata", "passdata", "transferattributes"),
+}  # fmt: skip
+_WORDS_FOR_TRIANGLES = (
+    "nfaces", "ncells", "ntriangles", "numtriangles", "numfaces", "targetfaces", "targetfacenum",
+    "targettriangles", "targetnumberoftriangles", "numberoftriangles", "facecount", "triangles", "faces",
+)  # fmt: skip
+
 
 @dataclass(frozen=True)
 class Number:
@@ -131,7 +160,15 @@ def _named(function: Callable[..., Any]) -> list[str]:
 
 
 def hint(name: str, known: Any) -> str:
-    """A question for those of the known names that are like this one; empty if there are none."""
+    """A question for those of the known names that are like this one, or that stand for what others call
+    so; empty if there are none.
+    """
+    word = name.lower().replace("_", "")
+    if word in _WORDS_FOR_TRIANGLES and "vertices" in known:
+        return "did you mean vertices? They are about half as many as triangles."
+    meant = [other for other in known if word in _WORDS_OF_OTHERS.get(other, ())]
+    if meant:
+        return f"did you mean {' or '.join(meant)}?"
     by_lower_case = {other.lower(): other for other in known}
     near = difflib.get_close_matches(name.lower(), by_lower_case)
     return f"did you mean {' or '.join(by_lower_case[other] for other in near)}?" if near else ""

@@ -8,16 +8,19 @@ from __future__ import annotations
 import os
 from typing import Any
 
+from vtkmodules.vtkCommonCore import vtkDataArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ._execution import Progress, check_parameters, execute, observed_call
 from ._kinds import as_given
+from ._parameters import snake_case
 from ._points import as_dataset as take_points, with_array, with_normals
 from .vtkFiltersNeuralMesh import (
     vtkNeuralMesh as NeuralMesh,
     vtkNeuralMeshComparison as NeuralMeshComparison,
     vtkNeuralMeshEnsemble as NeuralMeshEnsemble,
     vtkNeuralMeshExplanation as NeuralMeshExplanation,
+    vtkNeuralMeshInformation as NeuralMeshInformation,
     vtkNeuralMeshStream as NeuralMeshStream,
 )
 
@@ -35,6 +38,7 @@ __all__ = [
     "learn_for_seconds",
     "learn_samples",
     "learnt_mesh",
+    "report",
     "take_points",
     "take_surface",
     "with_array",
@@ -96,6 +100,27 @@ def compare(
         for column in columns
         if column.GetName() != "Direction"
     }
+
+
+def report(mesh: vtkPolyData) -> dict[str, Any]:
+    """The figures of vtkNeuralMeshInformation that the mesh has, by their names in snake case."""
+    bare = vtkPolyData()
+    bare.CopyStructure(mesh)
+    information = NeuralMeshInformation()
+    information.SetInputData(bare)
+    execute(information)
+    fields = information.GetOutput().GetFieldData()
+    arrays = [fields.GetArray(i) for i in range(fields.GetNumberOfArrays())]
+    return {snake_case(array.GetName()): _figure(array) for array in arrays}
+
+
+def _figure(array: vtkDataArray) -> Any:
+    """A number, whether something holds, or what belongs to each number."""
+    if array.GetNumberOfComponents() == 2:
+        pairs = [array.GetTuple2(i) for i in range(array.GetNumberOfTuples())]
+        return {int(number): int(count) for number, count in pairs}
+    value = array.GetValue(0)
+    return bool(value) if array.IsA("vtkUnsignedCharArray") else value
 
 
 def explain(

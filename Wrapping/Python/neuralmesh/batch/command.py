@@ -1,37 +1,39 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command: python3 -m neuralmesh batch jobs.json."""
+"""The command: python3 -m neuralmesh batch jobs.json, or neuralmesh batch jobs.json."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 from pathlib import Path
+from typing import Any, Sequence
 
 from .. import __version__
 from .._command import add_processes_option, run_command
 from .gallery import write_gallery
+from .meshes import DEFAULT_FORMAT
 from .recipe import Job, Recipe, RecipeError, read_recipe
 from .report import has_warnings, is_done, require_distinct, summary_path, write_summary
 from .running import run_jobs
 from .atomic_file import alone_in
 
-_EPILOG = """\
+_EPILOG = f"""\
 A recipe is JSON; of its keys only `scans` must be there:
 
-  {
+  {{
     "scans": ["scans/*.ply", "bunny.obj"],
-    "matrix": {"vertices": [5000, 20000], "seed": [1, 2], "variant": "noise"},
-    "format": "vtp",
+    "matrix": {{"vertices": [5000, 20000], "seed": [1, 2], "variant": "noise"}},
+    "format": "{DEFAULT_FORMAT}",
     "time_limit": 3600,
     "gallery": true,
-    "view": {"up": "y", "azimuth": 30, "elevation": 15}
-  }
+    "view": {{"up": "y", "azimuth": 30, "elevation": 15}}
+  }}
 
 scans    files of points, relative to the recipe, with wildcards or without:
-         .ply .vtp .vtk .vtu .obj .stl .xyz .pts .txt .csv
+         .ply .obj .stl .off .pcd .ptx .pwn .xyz .pts .txt .csv, with VTK .vtp .vtk .vtu
 matrix   parameters of neuralmesh.reconstruct(), except progress; a list holds the values to try,
          and all lists are crossed; first_mesh is a path, relative to the recipe
-format   of the meshes: vtp (default), ply, obj or stl
+format   of the meshes: vtp (default with VTK), ply (default without), obj, stl, glb, off or vtk
 shift    what is taken off their coordinates, and noted in them: [X, Y, Z], or "auto" for a round
          vector where they are too large for floats (default: none)
 time_limit
@@ -50,30 +52,34 @@ was left by jobs that are no longer in the recipe stays where it is.
 Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 3 all are done, some
 with warnings, and the recipe is strict, 130 after Ctrl-C. What is done by then stays, and the same
 command does the rest."""
+_SUMMARY = "reconstruct many scans by one recipe"
+_TEXTS: dict[str, Any] = {
+    "description": "Reconstruct many scans by one recipe: each with each set of parameters, in "
+    "processes of their own.",
+    "epilog": _EPILOG,
+    "formatter_class": argparse.RawDescriptionHelpFormatter,
+}
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command and return its exit status."""
-    options = _parser().parse_args(arguments)
-    return run_command(
-        lambda: _batch(options.recipe, options.output, options.processes), RecipeError
-    )
-
-
-def _parser() -> argparse.ArgumentParser:
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run python3 -m neuralmesh where batch is all that it does; the exit status."""
     parser = argparse.ArgumentParser(
         prog="python3 -m neuralmesh", description="The commands of NeuralMesh that are Python."
     )
     parser.add_argument("--version", action="version", version=__version__)
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    batch = commands.add_parser(
-        "batch",
-        help="reconstruct many scans by one recipe",
-        description="Reconstruct many scans by one recipe: each with each set of parameters, in "
-        "processes of their own.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    _add_arguments(commands.add_parser("batch", help=_SUMMARY, **_TEXTS))
+    return _run_parsed(parser.parse_args(arguments))
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the subcommand batch; the exit status."""
+    parser = argparse.ArgumentParser(prog="neuralmesh batch", **_TEXTS)
+    _add_arguments(parser)
+    return _run_parsed(parser.parse_args(arguments))
+
+
+def _add_arguments(batch: argparse.ArgumentParser) -> None:
     batch.add_argument("recipe", type=Path, metavar="RECIPE", help="the .json file, see below")
     batch.add_argument(
         "--output",
@@ -82,7 +88,12 @@ def _parser() -> argparse.ArgumentParser:
         help="where the results go (default: jobs-results beside jobs.json)",
     )
     add_processes_option(batch, "jobs")
-    return parser
+
+
+def _run_parsed(options: argparse.Namespace) -> int:
+    return run_command(
+        lambda: _batch(options.recipe, options.output, options.processes), RecipeError
+    )
 
 
 def _batch(recipe_path: Path, output: Path | None, processes: int) -> int:

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (the renderer behind the classes)
-from neuralmesh.batch.meshes import colors_of, read_points
+from neuralmesh.batch.meshes import arrays_of, read_points, to_vtk
 from neuralmesh.batch.atomic_file import atomic_file
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkIOImage import vtkPNGWriter
@@ -34,9 +34,10 @@ def smooth(mesh):
 
 
 def scene(mesh, view):
+    _, _, colors = arrays_of(mesh)
     mapper = vtkPolyDataMapper()
-    mapper.SetInputData(smooth(mesh))
-    mapper.SetScalarVisibility(colors_of(mesh) is not None)
+    mapper.SetInputData(smooth(to_vtk(mesh)))
+    mapper.SetScalarVisibility(colors is not None)
     actor = vtkActor()
     actor.SetMapper(mapper)
     looks = actor.GetProperty()

@@ -17,7 +17,7 @@ from typing import Any
 
 from .. import _world
 from .._reconstruct import make_filter, require_points, take_input
-from .meshes import read_mesh, read_points, require_digits, write_mesh
+from .meshes import counts_of, read_mesh, read_points, require_digits, write_mesh
 from .report import (
     PHASES,
     SECONDS,
@@ -61,11 +61,12 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
         cloud = take_input(mesh_filter, points, weights)
         path = result_path(folder, job.name, mesh_format)
         require_digits(points, mesh_filter.GetNumberOfVertices(), path, job.shift)
-        mesh, _ = _world.learn(mesh_filter, cloud, first_mesh, _end_with(os.getppid()))
+        mesh, _ = _world.learn(mesh_filter, cloud, first_mesh, _end_with(os.getppid()), points)
         require_points(mesh)
     times.append(time.perf_counter())
     shift = write_mesh(mesh, path, job.shift)
     times.append(time.perf_counter())
+    vertices, triangles = counts_of(mesh)
     seconds = (round(after - before, 4) for before, after in zip(times, times[1:]))
     report: dict[str, Any] = {
         "job": job.name,
@@ -74,9 +75,9 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
         "result": {
             "file": path.name,
             "size": path.stat().st_size,
-            "points": points.GetNumberOfPoints(),
-            "vertices": mesh.GetNumberOfPoints(),
-            "triangles": mesh.GetNumberOfPolys(),
+            "points": counts_of(points)[0],
+            "vertices": vertices,
+            "triangles": triangles,
             **({} if job.shift is None else {"shift": shift}),
         },
         "seconds": dict(zip(SECONDS, seconds)),

@@ -6,30 +6,28 @@ from __future__ import annotations
 import base64
 import json
 import zlib
+from typing import Any
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from .meshes import colors_of
+from .meshes import arrays_of
 
 
-def page_mesh(name: str, mesh: vtkPolyData) -> str:
+def page_mesh(name: str, mesh: Any) -> str:
     """A call of showMesh() with all vertices and triangles: little-endian numbers, by zlib and
     base64. Vertices are floats of 4 bytes, counted from the middle of the mesh, so that large
     coordinates lose no detail.
     """
-    points = vtk_to_numpy(mesh.GetPoints().GetData()).astype(np.float64)
+    points, triangles, colors = arrays_of(mesh)
+    points = points.astype(np.float64)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray())
     content = {
         "name": name,
         "points": _encoded(points - middle, "<f4"),
         "triangles": _encoded(triangles, "<u4"),
     }
-    colors = colors_of(mesh)
     if colors is not None:
-        content["colors"] = _encoded(vtk_to_numpy(colors)[:, :3], "u1")
+        content["colors"] = _encoded(colors, "u1")
     return f"showMesh({json.dumps(content)});\n"
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from .._build import PARAVIEW
+from .meshes import why_no_pictures
 
 _SCRIPT = Path(__file__).with_name("draw_pictures.py")
 
@@ -21,6 +22,9 @@ def draw_pictures(pictures: list[tuple[Path, Path]], view: dict[str, Any]) -> st
     """Draw each mesh, the first of a pair, to the second; what went wrong, or ""."""
     if not pictures:
         return ""
+    problem = why_no_pictures()
+    if problem:
+        return problem
     command = [_interpreter(), str(_SCRIPT)]
     if not os.environ.get("DISPLAY"):
         screen = shutil.which("xvfb-run")

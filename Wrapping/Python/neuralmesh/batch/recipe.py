@@ -17,7 +17,7 @@ from typing import Any
 from .._world import check_parameters
 from .._parameters import hint
 from .._reconstruct import ENSEMBLE_PARAMETERS, PARAMETERS, make_filter, require_one_start
-from .meshes import FORMATS
+from .meshes import DEFAULT_FORMAT, FORMATS, problem_of_format
 
 KEYS = ("scans", "matrix", "format", "shift", "time_limit", "gallery", "view", "strict")
 VIEW = {"up": "y", "azimuth": 30.0, "elevation": 15.0}
@@ -84,9 +84,12 @@ def _recipe(content: Any, folder: Path) -> Recipe:
     _require_object(content, "the recipe", KEYS)
     scans = _scans(content.get("scans"), folder)
     matrix = _matrix(content.get("matrix", {}))
-    mesh_format = content.get("format", "vtp")
+    mesh_format = content.get("format", DEFAULT_FORMAT)
     if mesh_format not in FORMATS:
         raise RecipeError(f"format: must be one of {', '.join(FORMATS)}, not {_shown(mesh_format)}")
+    problem = problem_of_format(mesh_format)
+    if problem:
+        raise RecipeError(f"format: {problem}")
     shift = _shift(content.get("shift"))
     time_limit = content.get("time_limit")
     if time_limit is not None and not (_is_number(time_limit) and 0 < time_limit < math.inf):

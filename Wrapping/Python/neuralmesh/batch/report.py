@@ -14,6 +14,7 @@ from typing import Any
 
 from .. import VTK_VERSION, __version__
 from .._parameters import snake_case
+from .meshes import fields_of
 from .recipe import Job, Recipe, RecipeError
 from .atomic_file import write_text
 
@@ -102,11 +103,12 @@ def has_warnings(folder: Path, job: Job) -> bool:
 
 def quality_of(mesh) -> dict[str, Any]:
     """The field data of the mesh: how the run went, and how good the mesh is."""
-    fields = mesh.GetFieldData()
-    arrays = [fields.GetAbstractArray(i) for i in range(fields.GetNumberOfArrays())]
     # The report has the warnings by themselves.
-    arrays = [array for array in arrays if array.GetName() != "Warnings"]
-    return {snake_case(array.GetName()): _plain(array.GetValue(0)) for array in arrays}
+    return {
+        snake_case(name): _plain(value)
+        for name, value in fields_of(mesh).items()
+        if name != "Warnings"
+    }
 
 
 def _plain(value: Any) -> Any:

@@ -8,6 +8,7 @@ from typing import Any, Iterator
 
 import numpy as np
 
+from .mesh import Mesh
 from .vtk_arrays import to_numpy
 
 _GHOSTS = "vtkGhostType"
@@ -52,7 +53,7 @@ class Cloud:
     blocks: list[Block] = field(default_factory=list)
     viewpoints: np.ndarray | None = None  # that come with the points, of shape (V, 3)
     other_blocks: int = 0  # that are no point sets
-    kind: str = "array"  # "array", "vtk" or "pyvista": what the result should be
+    is_in_blocks: bool = False  # of a composite dataset, however many they are
     problems: list[str] = field(default_factory=list)  # what was left out of it, in words
     viewpoint_problems: list[str] = field(default_factory=list)  # likewise, of the viewpoints
 
@@ -109,18 +110,30 @@ def numbers_of(arrays: list[np.ndarray | None]) -> np.ndarray | None:
 
 
 def as_cloud(points: object, blocks: bool = True) -> Cloud:
-    """The cloud that an array, a vtkPointSet or, with blocks, a vtkCompositeDataSet is.
+    """The cloud that an array, a Mesh, a vtkPointSet or, with blocks, a vtkCompositeDataSet is.
 
     Arrays of 4- and 8-byte floats are referred to where they are contiguous; all other numbers become
     8-byte floats. ValueError for anything but those and numbers of shape (N, 3).
     """
     if isinstance(points, Cloud):
         return points
-    if hasattr(points, "GetPointData") and hasattr(points, "GetPoint"):
+    if isinstance(points, Mesh):
+        return _of_mesh(points)
+    if hasattr(points, "IsA") and points.IsA("vtkPointSet"):
         return _of_datasets([points], points)
-    if blocks and hasattr(points, "NewIterator"):
+    if blocks and hasattr(points, "IsA") and points.IsA("vtkCompositeDataSet"):
         return _of_datasets(list(_leaves(points)), points)
     return Cloud([Block(as_points(points))])
+
+
+def _of_mesh(mesh: Mesh) -> Cloud:
+    data = {name: np.asarray(values) for name, values in mesh.point_data.items()}
+    block = Block(as_points(mesh.points), data, data.pop("Normals", None), mesh.scalars)
+    cloud = Cloud([block] if len(block.points) > 0 else [])
+    viewpoints = mesh.field_data.get("Viewpoints")
+    if viewpoints is not None:
+        cloud.viewpoints = np.asarray(viewpoints, dtype=np.float64).reshape(-1, 3)
+    return cloud
 
 
 def as_points(points: object) -> np.ndarray:
@@ -137,13 +150,6 @@ def as_points(points: object) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.float32 if single else np.float64)
 
 
-def kind_of(data: object) -> str:
-    """What the result of a function should be that was given this."""
-    if any(cls.__module__.partition(".")[0] == "pyvista" for cls in type(data).__mro__):
-        return "pyvista"
-    return "vtk" if hasattr(data, "GetPointData") or hasattr(data, "NewIterator") else "array"
-
-
 def _leaves(composite: Any) -> Iterator[Any]:
     iterator = composite.NewIterator()
     iterator.SkipEmptyNodesOn()
@@ -154,7 +160,7 @@ def _leaves(composite: Any) -> Iterator[Any]:
 
 
 def _of_datasets(leaves: list[Any], whole: Any) -> Cloud:
-    cloud = Cloud(kind=kind_of(whole))
+    cloud = Cloud(is_in_blocks=not whole.IsA("vtkPointSet"))
     for leaf in leaves:
         if not leaf.IsA("vtkPointSet"):
             cloud.other_blocks += 1

@@ -18,6 +18,7 @@ from .reconstruction import block_of_file
 Progress = Callable[[float], "bool | None"]
 
 _FORMATS = (("ByExtension", "BY_EXTENSION"), ("RawFloat", "RAW_FLOAT"), ("RawDouble", "RAW_DOUBLE"))
+_RAW = ("", "float", "double")  # what the numbers are, by the format
 
 
 @with_properties(
@@ -59,14 +60,15 @@ class NeuralMeshFileSampler(Measure):
         self._file_points = 0
         if not self._file_name:
             raise ValueError("There is no FileName.")
-        raw_format = int(self._values["Format"])
-        raw = None if raw_format == 0 else (raw_format == 2, int(self._values["HeaderBytes"]))
         drawn = _engine.draw_points(
             self._file_name,
             int(self._values["NumberOfPoints"]),
             int(self._values["Seed"]),
-            raw,
             progress,
+            raw=_RAW[int(self._values["Format"])],
+            skip=int(self._values["HeaderBytes"]),
         )
-        self._file_points, self._seconds = drawn["count"], drawn["seconds"]
-        return block_of_file(drawn) if "points" in drawn else None
+        if drawn is None:
+            return None
+        self._file_points, self._seconds = drawn["file_points"], drawn["seconds"]
+        return block_of_file(drawn)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .vtk_arrays import field_array, named, polygons_of, vtk_points
+from .._kinds import vtk_package, vtk_package_of
+from .vtk_arrays import field_array, named, polygons_of, vtk_module, vtk_points
 
 if TYPE_CHECKING:
     from vtkmodules.vtkCommonDataModel import vtkPolyData
@@ -62,9 +63,11 @@ class Mesh:
         Raises:
             ImportError: There is no VTK.
         """
-        from vtkmodules.vtkCommonDataModel import vtkPolyData
+        return self.to_vtk_of(vtk_package())
 
-        result = vtkPolyData()
+    def to_vtk_of(self, package: str | None) -> vtkPolyData:
+        """The same with classes of this package of VTK."""
+        result = vtk_module(package, "vtkCommonDataModel").vtkPolyData()
         self.fill(result)
         return result
 
@@ -80,26 +83,26 @@ class Mesh:
 
     def fill(self, data: vtkPolyData) -> None:
         """Give a vtkPolyData the points, triangles and data."""
-        from vtkmodules.vtkCommonDataModel import vtkCellArray
-        from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
-
-        data.SetPoints(vtk_points(self.points))
-        cells = vtkCellArray()
+        package = vtk_package_of(data)
+        support = vtk_module(package, "util.numpy_support")
+        data.SetPoints(vtk_points(self.points, package))
+        cells = vtk_module(package, "vtkCommonDataModel").vtkCellArray()
         if len(self.triangles) > 0:
             # VTK may keep the memory of these without the array that it was given.
             corners = np.ascontiguousarray(self.triangles, dtype=np.int64)
-            cells.SetData(3, numpy_to_vtkIdTypeArray(corners.reshape(-1), deep=True))
+            cells.SetData(3, support.numpy_to_vtkIdTypeArray(corners.reshape(-1), deep=True))
             data.SetPolys(cells)
         elif len(self.points) > 0:
             # Points alone are to be seen, too: all are one cell.
             numbers = np.arange(len(self.points), dtype=np.int64)
             offsets = np.array([0, len(self.points)], dtype=np.int64)
             cells.SetData(
-                numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(numbers, deep=True)
+                support.numpy_to_vtkIdTypeArray(offsets, deep=True),
+                support.numpy_to_vtkIdTypeArray(numbers, deep=True),
             )
             data.SetVerts(cells)
         for name, values in self.point_data.items():
-            array = named(values, name, self.vtk_kinds.get(name))
+            array = named(values, name, package, self.vtk_kinds.get(name))
             if name == "Normals":
                 data.GetPointData().SetNormals(array)
             elif name == self.scalars:
@@ -107,7 +110,7 @@ class Mesh:
             else:
                 data.GetPointData().AddArray(array)
         for name, value in self.field_data.items():
-            data.GetFieldData().AddArray(field_array(value, name))
+            data.GetFieldData().AddArray(field_array(value, name, package))
 
 
 def as_mesh(surface: object, parameter: str) -> Mesh:
@@ -123,7 +126,9 @@ def as_mesh(surface: object, parameter: str) -> Mesh:
             return Mesh(points, triangles.astype(np.int64, copy=False))
     elif hasattr(surface, "GetPolys") and hasattr(surface, "GetPoints"):
         return Mesh(*polygons_of(surface))
-    raise ValueError(
-        f"{parameter} must be a vtkPolyData, a neuralmesh.Mesh, or arrays of points and triangles of "
-        f"shape (N, 3) and (T, 3), not {type(surface).__name__}"
+    wanted = (
+        "a vtkPolyData"
+        if vtk_package()
+        else "a neuralmesh.Mesh, or a pair of arrays, points and triangles"
     )
+    raise ValueError(f"{parameter} must be {wanted}, not {type(surface).__name__}")

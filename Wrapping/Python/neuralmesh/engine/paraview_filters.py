@@ -13,6 +13,7 @@ from .vtk_filters import (
     vtkNeuralMeshEnsemble,
     vtkNeuralMeshExplanation,
     vtkNeuralMeshFileSampler,
+    vtkNeuralMeshInformation,
     vtkNeuralMeshScan,
 )
 
@@ -20,6 +21,7 @@ __all__ = [
     "vtkNeuralMeshComparison",
     "vtkNeuralMeshExplanation",
     "vtkNeuralMeshFileSampler",
+    "vtkNeuralMeshInformation",
     "vtkNeuralMeshScan",
     "vtkPNeuralMesh",
     "vtkPNeuralMeshEnsemble",

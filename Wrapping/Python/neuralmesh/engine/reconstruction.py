@@ -125,10 +125,10 @@ class NeuralMesh(NeuralMeshAlgorithm):
     ) -> Outcome:
         """The same as run() with points that are drawn from PointFileName."""
         drawn = _engine.draw_points(
-            self._point_file_name, self.GetUsedMaximumPoints(), int(self._values["Seed"]), None,
+            self._point_file_name, self.GetUsedMaximumPoints(), int(self._values["Seed"]),
             (lambda _fraction: progress(0.0)) if progress else None,
         )  # fmt: skip
-        if "points" not in drawn:
+        if drawn is None:
             self._stop_reason = "cancelled"
             return Outcome(_empty_mesh(), is_drawn=False)
         outcome = self.run(Cloud([block_of_file(drawn)]), first_mesh, progress, **more)

@@ -1,23 +1,31 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays of VTK as NumPy arrays and back. VTK is imported where it is needed, not before."""
+"""Arrays of VTK as NumPy arrays and back. VTK is imported where it is needed, not before; its package has
+another name where PyVista takes another build of it.
+"""
 
 from __future__ import annotations
 
+import importlib
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from .._kinds import vtk_package_of
 
 if TYPE_CHECKING:
     from vtkmodules.vtkCommonCore import vtkAbstractArray, vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 
+def vtk_module(package: str | None, name: str) -> Any:
+    """A module of a package of VTK. ImportError where there is none."""
+    return importlib.import_module(f"{package or 'vtkmodules'}.{name}")
+
+
 def to_numpy(array: vtkAbstractArray) -> np.ndarray:
     """The values, a row for each tuple of several components; where the layout allows, not copied. Texts
     are an array of objects.
     """
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
     components = array.GetNumberOfComponents()
     if array.IsA("vtkBitArray"):
         bits = [array.GetValue(i) for i in range(array.GetNumberOfValues())]
@@ -34,35 +42,35 @@ def to_numpy(array: vtkAbstractArray) -> np.ndarray:
             copy = array.CreateDataArray(array.GetDataType())
         copy.DeepCopy(array)
         array = copy
-    return vtk_to_numpy(array)
+    return vtk_module(vtk_package_of(array), "util.numpy_support").vtk_to_numpy(array)
 
 
-def named(values: Any, name: str, kind: vtkAbstractArray | None = None) -> vtkAbstractArray:
+def named(
+    values: Any, name: str, package: str | None = None, kind: vtkAbstractArray | None = None
+) -> vtkAbstractArray:
     """A VTK array that refers to the values, or, of texts, has them; of the same kind as another one
     where that is given.
     """
-    from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkCommonCore import vtkStringArray
-
     values = np.asarray(values)
     if kind is not None:
         return _of_kind(values, name, kind)
     if values.dtype.kind in "OU":
-        array = vtkStringArray()
+        array = vtk_module(package, "vtkCommonCore").vtkStringArray()
         array.SetNumberOfComponents(values.shape[1] if values.ndim > 1 else 1)
         for text in values.reshape(-1):
             array.InsertNextValue(str(text))
     else:
-        array = numpy_to_vtk(np.ascontiguousarray(values))
+        support = vtk_module(package, "util.numpy_support")
+        array = support.numpy_to_vtk(np.ascontiguousarray(values))
     array.SetName(name)
     return array
 
 
 def _of_kind(values: np.ndarray, name: str, kind: vtkAbstractArray) -> vtkAbstractArray:
-    from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkCommonCore import vtkAbstractArray, vtkVariant
-
-    array = vtkAbstractArray.CreateArray(kind.GetDataType())
+    package = vtk_package_of(kind)
+    core = vtk_module(package, "vtkCommonCore")
+    numpy_to_vtk = vtk_module(package, "util.numpy_support").numpy_to_vtk
+    array = core.vtkAbstractArray.CreateArray(kind.GetDataType())
     is_bit = array.IsA("vtkBitArray")
     if is_bit or not array.IsA("vtkDataArray"):
         array.SetNumberOfComponents(kind.GetNumberOfComponents())
@@ -71,7 +79,7 @@ def _of_kind(values: np.ndarray, name: str, kind: vtkAbstractArray) -> vtkAbstra
             if is_bit:
                 array.SetValue(i, int(value))
             else:
-                array.SetVariantValue(i, vtkVariant(value))
+                array.SetVariantValue(i, core.vtkVariant(value))
     else:
         array = numpy_to_vtk(np.ascontiguousarray(values), array_type=kind.GetDataType())
     array.CopyComponentNames(kind)
@@ -82,47 +90,42 @@ def _of_kind(values: np.ndarray, name: str, kind: vtkAbstractArray) -> vtkAbstra
 
 def table_column(values: Any, name: str) -> vtkAbstractArray:
     """A column: whole numbers as VTK counts, others as 8-byte floats, texts as texts."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkCommonCore import VTK_ID_TYPE
-
+    numpy_to_vtk = vtk_module(None, "util.numpy_support").numpy_to_vtk
     array = np.asarray(values)
     if array.dtype.kind in "OU":
         return named(array, name)
     if array.dtype.kind in "iu":
-        column = numpy_to_vtk(array.astype(np.int64), array_type=VTK_ID_TYPE)
+        column = numpy_to_vtk(array.astype(np.int64), array_type=vtk_module(None, "vtkCommonCore").VTK_ID_TYPE)
     else:
         column = numpy_to_vtk(array.astype(np.float64))
     column.SetName(name)
     return column
 
 
-def field_array(value: Any, name: str) -> vtkAbstractArray:
+def field_array(value: Any, name: str, package: str | None = None) -> vtkAbstractArray:
     """Field data: a number, a text, a list of texts, or an array."""
-    from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray
-
     if isinstance(value, str):
         value = [value]
     if isinstance(value, (list, tuple)):
         texts = np.empty(len(value), dtype=object)
         texts[:] = value
-        return named(texts, name)
+        return named(texts, name, package)
     if isinstance(value, np.ndarray) and value.dtype.kind == "f":
-        return named(value, name)
+        return named(value, name, package)
     values = np.atleast_1d(np.asarray(value))
-    array = vtkDoubleArray() if values.dtype.kind == "f" else vtkIdTypeArray()
+    core = vtk_module(package, "vtkCommonCore")
+    array = core.vtkDoubleArray() if values.dtype.kind == "f" else core.vtkIdTypeArray()
     for number in values:
         array.InsertNextValue(number.item())
     array.SetName(name)
     return array
 
 
-def vtk_points(points: np.ndarray) -> vtkPoints:
+def vtk_points(points: np.ndarray, package: str | None = None) -> vtkPoints:
     """Points that refer to the array."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkCommonCore import vtkPoints
-
-    result = vtkPoints()
-    result.SetData(numpy_to_vtk(np.ascontiguousarray(points)))
+    result = vtk_module(package, "vtkCommonCore").vtkPoints()
+    support = vtk_module(package, "util.numpy_support")
+    result.SetData(support.numpy_to_vtk(np.ascontiguousarray(points)))
     return result
 
 

@@ -8,6 +8,7 @@ from .vtk_measures import (
     vtkNeuralMeshComparison,
     vtkNeuralMeshExplanation,
     vtkNeuralMeshFileSampler,
+    vtkNeuralMeshInformation,
     vtkNeuralMeshScan,
 )
 from .vtk_stream import vtkNeuralMeshStream
@@ -19,6 +20,7 @@ __all__ = [
     "vtkNeuralMeshEnsemble",
     "vtkNeuralMeshExplanation",
     "vtkNeuralMeshFileSampler",
+    "vtkNeuralMeshInformation",
     "vtkNeuralMeshScan",
     "vtkNeuralMeshStream",
 ]

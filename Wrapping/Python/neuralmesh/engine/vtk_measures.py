@@ -6,14 +6,22 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData, vtkTable
 
+from .._info import FIGURES
 from .cloud import as_cloud
 from .file_sampler import NeuralMeshFileSampler
-from .measures import DIRECTIONS, Comparison, NeuralMeshComparison, NeuralMeshExplanation
+from .measures import (
+    DIRECTIONS,
+    Comparison,
+    NeuralMeshComparison,
+    NeuralMeshExplanation,
+    report,
+)
 from .scan import NeuralMeshScan
 from .vtk_algorithm import fill_table, vtkEngineAlgorithm
-from .vtk_arrays import named, vtk_points
+from .vtk_arrays import field_array, named, table_column, vtk_points
 
 
 class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
@@ -196,4 +204,36 @@ class vtkNeuralMeshFileSampler(vtkEngineAlgorithm, NeuralMeshFileSampler):
             output.GetPointData().SetScalars(named(block.data[block.scalars], block.scalars))
         if block.normals is not None:
             output.GetPointData().SetNormals(named(block.normals, "Normals"))
+        return 1
+
+
+class vtkNeuralMeshInformation(vtkEngineAlgorithm):
+    """Whether a mesh is sound, and how good its triangles are: the input with a report as field data."""
+
+    def __init__(self, **properties: Any) -> None:
+        vtkEngineAlgorithm.__init__(self)
+        self._set(properties)
+
+    def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
+        """Reports."""
+        try:
+            found = report(self._surface(inputs, 0))
+        except (ValueError, RuntimeError, MemoryError) as error:
+            self._error(str(error))
+            return 0
+        output = vtkPolyData.GetData(outputs)
+        output.ShallowCopy(vtkPolyData.GetData(inputs[0]))
+        fields = output.GetFieldData()
+        # The input may bring those of an earlier report along.
+        fields.RemoveArray("Genus")
+        fields.RemoveArray("Volume")
+        for figure in FIGURES:
+            name = "".join(word.capitalize() for word in figure.split("_"))
+            value = found.get(figure)
+            if isinstance(value, dict):
+                fields.AddArray(table_column(np.array(list(value.items())).reshape(-1, 2), name))
+            elif isinstance(value, bool):
+                fields.AddArray(named(np.array([value], dtype=np.uint8), name))
+            elif value is not None:
+                fields.AddArray(field_array(value, name))
         return 1

@@ -6,14 +6,14 @@ for where they are.
 from __future__ import annotations
 
 import dataclasses
-import warnings
 from typing import Any, Callable
 
 import numpy as np
 
-from .._kinds import as_given, has_vtk, is_pyvista, is_vtk
+from .._kinds import as_given, vtk_package, vtk_package_of
+from .._warning import warn
 from .cloud import Cloud, as_cloud
-from .measures import NeuralMeshComparison, NeuralMeshExplanation
+from .measures import NeuralMeshComparison, NeuralMeshExplanation, report
 from .mesh import Mesh, as_mesh as take_surface
 from .reconstruction import NeuralMesh, NeuralMeshEnsemble
 from .stream import NeuralMeshStream
@@ -32,6 +32,7 @@ __all__ = [
     "learn_for_seconds",
     "learn_samples",
     "learnt_mesh",
+    "report",
     "take_points",
     "take_surface",
     "with_array",
@@ -39,8 +40,6 @@ __all__ = [
 ]
 
 Progress = Callable[[float], "bool | None"]
-
-_OF_CALLER = 3  # the line that a warning is of: who calls the function that calls one of these
 
 
 def take_points(points: object, blocks: bool = True) -> Cloud:
@@ -57,6 +56,8 @@ def with_array(cloud: Cloud, values: object, parameter: str, name: str) -> tuple
     array = _array_of_points(cloud, values, parameter, "the name of a point array", ())
     # Whole numbers stay so where they name something: they are not to be averaged on the mesh.
     kind = np.int64 if name == "View" and array.dtype.kind in "iub" else np.float64
+    if not cloud.blocks:
+        return cloud, name
     block = cloud.blocks[0]
     data = {**block.data, name: np.ascontiguousarray(array, dtype=kind)}
     return dataclasses.replace(cloud, blocks=[dataclasses.replace(block, data=data)]), name
@@ -65,6 +66,8 @@ def with_array(cloud: Cloud, values: object, parameter: str, name: str) -> tuple
 def with_normals(cloud: Cloud, normals: object) -> Cloud:
     """The cloud with these normals. ValueError for anything but numbers of shape (N, 3)."""
     array = _array_of_points(cloud, normals, "normals", "given with the blocks", (3,))
+    if not cloud.blocks:
+        return cloud
     block = dataclasses.replace(cloud.blocks[0], normals=np.asarray(array, dtype=np.float64))
     return dataclasses.replace(cloud, blocks=[block])
 
@@ -88,10 +91,10 @@ def learn(
     outcome = (
         mesh.run_on_file(first_mesh, told) if points is None else mesh.run(points, first_mesh, told)
     )
-    if told is not None:
+    if told is not None and mesh.GetStopReason() != "cancelled":
         told(1.0)
     for text in outcome.warnings:
-        warnings.warn(text, RuntimeWarning, stacklevel=_OF_CALLER)
+        warn(text)
     explained = outcome.explained
     if explained is None:
         explained = Mesh(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
@@ -100,7 +103,7 @@ def learn(
 
 def add_points(stream: NeuralMeshStream, points: Cloud) -> None:
     for text in stream.add_cloud(points):
-        warnings.warn(text, RuntimeWarning, stacklevel=_OF_CALLER)
+        warn(text)
 
 
 def learn_samples(stream: NeuralMeshStream, samples: int, progress: Progress | None) -> int:
@@ -116,7 +119,7 @@ def learnt_mesh(stream: NeuralMeshStream, progress: Progress | None, given: obje
     if mesh is None:
         mesh = Mesh(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
     for text in mesh.warnings:
-        warnings.warn(text, RuntimeWarning, stacklevel=_OF_CALLER)
+        warn(text)
     return present(mesh, given)
 
 
@@ -144,10 +147,13 @@ def explain(
 
 
 def present(mesh: Mesh, given: object) -> Any:
-    """A mesh as who has given that has it: as PyVista or VTK; for arrays as VTK, too, if there is one."""
-    if is_vtk(given) or is_pyvista(given) or has_vtk():
-        return as_given(mesh.to_vtk(), given)
-    return mesh
+    """A mesh as who has given that has it: as PyVista or VTK, or as it is; for arrays as VTK, too, if there
+    is one.
+    """
+    if isinstance(given, Mesh):
+        return mesh
+    package = vtk_package_of(given) or vtk_package()
+    return mesh if package is None else as_given(mesh.to_vtk_of(package), given)
 
 
 def _told(progress: Progress | None) -> Progress | None:
@@ -165,7 +171,7 @@ def _told(progress: Progress | None) -> Progress | None:
 def _array_of_points(
     cloud: Cloud, values: object, parameter: str, other: str, shape: tuple[int, ...]
 ) -> np.ndarray:
-    if len(cloud.blocks) != 1:
+    if cloud.is_in_blocks:
         raise ValueError(f"{parameter} must be {other} where points are in blocks")
     array = np.asarray(values)
     wanted = (len(cloud), *shape)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python3 -m neuralmesh paraview: where ParaView finds the plugin, and how it is started with it."""
+"""The command neuralmesh paraview: where ParaView finds the plugin, and how it is started with it."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import argparse
 import os
 import shlex
 import sys
+from typing import Sequence
 
 from ._build import VTK_VERSION
 
@@ -32,15 +33,15 @@ Nothing need be set for that. A script that imports neuralmesh itself finds it b
 """
 
 
-def print_plugin(arguments: list[str]) -> int:
-    """What the command `paraview` does with its arguments; the exit status."""
+def main(arguments: Sequence[str]) -> int:
+    """Run the command with its arguments; the exit status."""
     parser = argparse.ArgumentParser(
         prog="neuralmesh paraview", description="Tells how ParaView gets the filters."
     )
     parser.add_argument(
         "--path", action="store_true", help="print the path of the plugin's file, and nothing else"
     )
-    options = parser.parse_args(arguments)
+    options = parser.parse_args(list(arguments))
     if VTK_VERSION:
         print(_COMPILED, end="", file=sys.stderr if options.path else sys.stdout)
         return 1 if options.path else 0

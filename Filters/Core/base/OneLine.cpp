@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OneLine.h"
+#include "base/OneLine.h"
 
+namespace neuralmesh
+{
 namespace
 {
 constexpr std::size_t LongestText = 300;
 
-bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-bool IsShown(char c) { return c > ' ' && c <= '~'; }
+bool isShown(char c) { return c > ' ' && c <= '~'; }
 }
 
-std::string OneLine(const std::string& text)
+std::string oneLine(std::string_view text)
 {
   std::string line;
   for (const char c : text)
@@ -19,9 +21,9 @@ std::string OneLine(const std::string& text)
     {
       return line + "...";
     }
-    if (!IsBlank(c))
+    if (!isBlank(c))
     {
-      line += IsShown(c) ? c : '?';
+      line += isShown(c) ? c : '?';
     }
     else if (!line.empty() && line.back() != ' ')
     {
@@ -33,4 +35,5 @@ std::string OneLine(const std::string& text)
     line.pop_back();
   }
   return line;
+}
 }

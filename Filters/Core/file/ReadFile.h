@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "file/FileContents.h"
+
+namespace neuralmesh
+{
+/// Reads points, or a mesh, in the format that the extension tells, in small letters or capitals: .ply
+/// .stl .obj .off .pcd .pwn .ptx, and as text .xyz .pts .txt .csv. What was written with a shift lies
+/// where it lay before.
+///
+/// Throws std::runtime_error, with a message of one line that begins with the name of the file, if it is
+/// no regular file that can be read, is of another kind, damaged, or ends early, or where there is
+/// too little memory. Memory is taken for what is there, not for what a header announces.
+FileContents readFile(const std::string& path);
+
+/// Whether readFile() knows the extension of a path.
+bool canReadFile(const std::string& path);
+
+/// What to do with a file that other libraries read: .las, .laz and .e57; empty for other
+/// extensions. One line, with a command that makes text of it.
+std::string conversionOf(const std::string& path);
+}

@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# Tries the wheels of packages/ in fresh virtual environments, and prints a table.
+#
+#   Utilities/test_wheels.sh [WORLD...]        with the Python of this Debian; all worlds without an argument
+#   Utilities/test_wheels.sh on SUITE          in a Debian of its own that has nothing but Python
+#
+# Worlds: none (NumPy alone), vtk (the newest), pyvista (with vtk), cvista (PyVista on the fork alone), old (VTK
+# 9.2, Python 3.11), source (the source distribution, compiled by g++).
+set -euo pipefail
+
+repository=$(cd "$(dirname "$0")/.." && pwd)
+source "$repository/Utilities/build.sh"
+all_worlds=(none vtk pyvista cvista old source)
+
+# What pip installs beside the wheel: brings WORLD.
+brings()
+{
+  case $1 in
+    none | source) ;;
+    vtk) echo vtk ;;
+    pyvista) echo pyvista ;;
+    cvista) echo pyvista cvista ;;
+    old) echo 'vtk==9.2.*' 'numpy<2' ;;
+  esac
+}
+
+# The tests of a world: tests_of WORLD.
+tests_of()
+{
+  local tests=(wheel command files batch batch_recipe)
+  case $1 in
+    vtk | old) tests+=(reconstruct stream compare explain parameters progress checkpoint orientation vtk_filters) ;;
+    pyvista | cvista) tests+=(reconstruct pyvista) ;;
+  esac
+  echo "${tests[@]}"
+}
+
+# try_world WORLD: prints a line for each test.
+try_world()
+{
+  local world=$1 venv python test what status=0
+  venv=$(mktemp -d "${TMPDIR:-/tmp}/neuralmesh-$world.XXXXXX")
+  /usr/bin/python3 -m venv "$venv"
+  python=$venv/bin/python
+  what=$(ls packages/neuralmesh-*"$(tag)"*.whl)
+  if [ "$world" = source ]; then
+    install_packages g++ python3-dev
+    what=$(ls packages/neuralmesh-*.tar.gz)
+  fi
+  # shellcheck disable=SC2046 # words
+  "$python" -m pip install --quiet "$what" mypy $(brings "$world")
+  [ "$world" != cvista ] || "$python" -m pip uninstall --quiet --yes vtk
+  for test in $(tests_of "$world"); do
+    if (cd "$venv" && NEURALMESH_WORLD=$world PYTHONPATH=$repository/Testing/Python:$repository/Testing/Support \
+      "$python" "$repository/Testing/Python/test_$test.py" > "$test.log" 2>&1); then
+      printf '%-8s %-14s well   %s\n' "$world" "$test" "$(tail -n 1 "$venv/$test.log")"
+    else
+      printf '%-8s %-14s FAILED %s\n' "$world" "$test" "$(tail -n 1 "$venv/$test.log")"
+      cat "$venv/$test.log" >&2
+      status=1
+    fi
+  done
+  rm -rf "$venv"
+  return $status
+}
+
+# Of the wheel that this Python takes.
+tag()
+{
+  /usr/bin/python3 -c 'import sys; print("cp311-cp311" if sys.version_info < (3, 12) else "cp312-abi3")'
+}
+
+try_here()
+{
+  local world failed=0
+  install_packages python3-venv
+  for world in "${@:-${all_worlds[@]}}"; do
+    # There is no such VTK for other versions of Python.
+    if [ "$world" = old ] && [ "$(tag)" != cp311-cp311 ]; then
+      printf '%-8s %s\n' old "not for this Python"
+      continue
+    fi
+    try_world "$world" || failed=1
+  done
+  return $failed
+}
+
+cd "$repository"
+if [ "${1:-}" = on ]; then
+  source Utilities/debian.sh
+  in_own_namespace "$0" "$@"
+  require_suite_and_world "$0" "${2:-}" plain
+  debian=$repository/build-$2-bare
+  rm -rf --one-file-system "$debian"
+  make_debian "$2" "$debian"
+  enter_debian "$debian"
+  copy_sources "$debian"
+  cp -r packages "$debian/neuralmesh/"
+  status=0
+  in_debian "$debian" plain bash /neuralmesh/Utilities/test_wheels.sh "${@:3}" || status=1
+  leave_debian "$debian"
+  rm -rf --one-file-system "$debian"
+  exit $status
+fi
+try_here "$@"

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command neuralmesh with all its subcommands."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import os
+import signal
+import sys
+from typing import Callable, Sequence
+
+from .. import __version__
+from .parsing import WRONG_USE, UsageError
+
+_FAILED = 1
+_INTERRUPTED = 128 + signal.SIGINT
+
+_SUBCOMMANDS = {
+    "reconstruct": "Make a triangle mesh from a point cloud",
+    "tune": "Choose the parameters for a point cloud, and say why",
+    "compare": "Tell how far a mesh is from a reference",
+    "explain": "Tell of each point how far it is from a mesh, and why",
+    "info": "Tell whether meshes are sound, and how good they are",
+    "batch": "Reconstruct many scans by one recipe",
+    "paraview": "Make ParaView know the filters of NeuralMesh",
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command and return its exit status."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if not words or words[0] in ("-h", "--help"):
+        print(_help(), end="")
+        return 0
+    if words[0] == "--version":
+        print(__version__)
+        return 0
+    if words[0] not in _subcommands():
+        unknown = words[0].startswith("-")
+        print(
+            f"The following argument was not expected: {words[0]}"
+            if unknown
+            else "A subcommand is required",
+            "Run with --help for more information.",
+            sep="\n",
+            file=sys.stderr,
+        )
+        return WRONG_USE
+    return _run(_command(words[0]), words[1:])
+
+
+def _subcommands() -> dict[str, str]:
+    has_paraview = importlib.util.find_spec("neuralmesh.paraview") is not None
+    return {name: text for name, text in _SUBCOMMANDS.items() if name != "paraview" or has_paraview}
+
+
+def _help() -> str:
+    lines = "".join(f"  {name:28}{text}\n" for name, text in _subcommands().items())
+    return (
+        "Triangle meshes from point clouds, by learning\n"
+        "Usage: neuralmesh [OPTIONS] SUBCOMMAND\n\n"
+        "Options:\n"
+        "  -h,--help                   Print this help message and exit\n"
+        "  --version                   Display program version information and exit\n\n"
+        f"Subcommands:\n{lines}"
+    )
+
+
+def _command(name: str) -> Callable[[Sequence[str]], int | None]:
+    if name == "batch":
+        from ..batch.command import run as batch
+
+        return batch
+    if name == "paraview":
+        return importlib.import_module("neuralmesh.paraview").main
+    return importlib.import_module(f".{name}", __package__).run
+
+
+def _run(command: Callable[[Sequence[str]], int | None], arguments: Sequence[str]) -> int:
+    try:
+        status = command(arguments) or 0
+        sys.stdout.flush()
+        return status
+    except UsageError as error:
+        return _say(error, WRONG_USE)
+    except MemoryError:
+        return _say(
+            "there is not enough memory; --dry-run tells how much it takes, and --in-place reads no "
+            "more of a file than it needs",
+            _FAILED,
+        )
+    except BrokenPipeError:
+        # Whoever reads has had enough; nothing is to be said at the end, either.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return _FAILED
+    except (OSError, ValueError, RuntimeError) as error:
+        return _say(error, _FAILED)
+    except KeyboardInterrupt:
+        return _INTERRUPTED
+
+
+def _say(message: object, status: int) -> int:
+    sys.stdout.flush()
+    print(f"neuralmesh: {message}", file=sys.stderr)
+    return status

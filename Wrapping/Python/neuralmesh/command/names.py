@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files that are named in the command."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+from .. import _engine
+from ..engine import files
+from .parsing import UsageError
+
+POINTS = "Points: .ply .stl .obj .off .pcd .pwn .ptx .npy, or text: .xyz .pts .txt .csv; .vtp .vtk .vtu by VTK; .las .laz .e57 with neuralmesh[lidar]"  # fmt: skip
+MESHES = ".ply .stl .obj .off, .vtp .vtk by VTK"
+OUTPUTS = (".vtp", ".ply", ".obj", ".stl", ".glb", ".off", ".vtk")
+_MESHES = (".ply", ".vtp", ".vtk", ".obj", ".stl", ".off")
+
+
+@dataclass
+class NamedFile:
+    """A file, and the option that names it."""
+
+    option: str
+    path: str
+    is_written: bool = False
+
+
+def require_distinct(named: list[NamedFile]) -> None:
+    """UsageError where a file that is written is that of another option, too."""
+    for i, one in enumerate(named):
+        for other in named[:i]:
+            is_written = one.is_written or other.is_written
+            if one.path and other.path and is_written and _is_same(one.path, other.path):
+                raise UsageError(f"{one.option}: {one.path} is the file of {other.option}, too")
+
+
+def _is_same(one: str, other: str) -> bool:
+    try:
+        return os.path.samefile(one, other)
+    except OSError:  # one of them, or both, are not there yet
+        return os.path.realpath(one) == os.path.realpath(other)
+
+
+def require_output(path: str) -> None:
+    """ValueError if no mesh can be written so."""
+    if files.extension_of(path) not in OUTPUTS:
+        raise ValueError(f"{path}: unknown extension; writable are {' '.join(OUTPUTS)}")
+    files.require_writable(path)
+
+
+def require_explanation(option: str, path: str) -> None:
+    """Raise what is wrong with the name of a file of explained points."""
+    if files.extension_of(path) != ".vtp":
+        raise UsageError(f"{option}: {path} must be a .vtp; no other format keeps it")
+    files.require_writable(path)
+    _engine.require_place(path)
+
+
+def read_mesh(path: str) -> files.Mesh:
+    """A mesh; ValueError for points."""
+    if files.extension_of(path) not in _MESHES:
+        raise ValueError(
+            f"{path}: no mesh is read from this extension; readable are {' '.join(_MESHES)}"
+        )
+    return files.read_mesh(path)

@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The options of the subcommand reconstruct."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Sequence
+
+from . import settings
+from .names import MESHES, OUTPUTS, POINTS
+from .parsing import (
+    Parser, described, described_words, number_from, plain, property_of, range_text, words_of,
+)  # fmt: skip
+
+_METHODS = {
+    "basic": "every sample pulls alike",
+    "noise": "samples that are far off pull less",
+    "normal": "dense where the surface bends, sparse where it is flat",
+}
+_PRESETS = {
+    "default": "what measures best",
+    "thesis": "Saleem's values of 2004, and nothing that he lacks",
+}
+_ORDERS = {"exact": "counters", "list": "the activity list"}
+_BOUNDARIES = {"keep": "the mesh ends where the data ends", "close": "it is watertight"}
+_TOPOLOGIES = {
+    "off": "the surface keeps the topology of its start",
+    "on": "learn handles and openings",
+}
+_FOOTER = (
+    "For example: neuralmesh reconstruct scan.ply mesh.ply --vertices 20000\n"
+    "Ctrl-C ends the learning, and the mesh learnt so far is written.\n"
+    "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 3 done with a warning\n"
+    "and --strict, 130 after Ctrl-C."
+)
+
+
+class _ReconstructParser(Parser):
+    def parse(self, arguments: Sequence[str]) -> argparse.Namespace:
+        options = super().parse(arguments)
+        if len(options.files) < 2:
+            self.error(f"the following arguments are required: {'OUTPUT' if options.files else 'INPUT'}")
+        if options.initial and options.ensemble:
+            self.error("--initial excludes --ensemble")
+        if options.views and options.viewpoint:
+            self.error("--views excludes --viewpoint")
+        if options.checkpoint_interval is None:
+            options.checkpoint_interval = property_of("CheckpointInterval").default
+        elif not options.checkpoint:
+            self.error("--checkpoint-interval requires --checkpoint")
+        return options
+
+
+def parser() -> Parser:
+    """What the subcommand takes."""
+    members = property_of("NumberOfMembers")
+    result = _ReconstructParser(
+        "reconstruct",
+        "Make a triangle mesh from a point cloud",
+        "INPUT... OUTPUT",
+        f"Parameters of learning, for --set:\n{settings.table()}\n{_FOOTER}",
+    )
+    result.add_argument(
+        "files",
+        nargs="*",
+        metavar="INPUT... OUTPUT",
+        help=f"{POINTS}; several files are one cloud. The last name is the mesh: {' '.join(OUTPUTS)} "
+        "(.vtp .vtk by VTK); another file than all others",
+    )
+    result.add_number(
+        "--vertices", "NumberOfVertices", f"Vertices of the mesh, {described('NumberOfVertices')}", "N"
+    )
+    result.add_number(
+        "--seed", "Seed",
+        f"Seed of the random numbers, {described('Seed')}: the same seed, the same mesh", "N",
+    )  # fmt: skip
+    result.add_text("--initial", f"Start from the triangles of this file: {MESHES}", "FILE")
+    result.add_argument(
+        "--ensemble",
+        type=number_from(members.low, members.high, True),
+        default=0,
+        metavar="MEMBERS",
+        help=f"Start from the average of so many coarse meshes, {range_text(members)}, "
+        f"{plain(members.default)} say: handles come out right",
+    )
+    for option, name, texts, before in (
+        ("--method", "Variant", _METHODS, ""),
+        ("--preset", "", _PRESETS, ""),
+        ("--order", "Order", _ORDERS, "How it is known where to grow; "),
+    ):
+        default = int(property_of(name).default) if name else 0
+        words = list(texts)
+        result.add_choice(
+            option, words, default, before + described_words(texts, words[default])
+        )
+    result.add_text(
+        "--weights",
+        "Trust the points by this point array of INPUT: weights from 0 on, of which ratios count",
+        "ARRAY",
+    )
+    _add_sides(result)
+    jumps = words_of("Jump")
+    result.add_text(
+        "--jump",
+        "With --order list: how far winners jump; FRACTION of the vertices (default "
+        f"{settings.shown(property_of('JumpFraction').default, property_of('JumpFraction'))}) times 1 "
+        "(constant) or the change by the move over the mean change; default "
+        f"{jumps[int(property_of('Jump').default)]}",
+        f"{'|'.join(jumps)}[=FRACTION]",
+    )
+    result.add_choice(
+        "--topology", list(_TOPOLOGIES), None,
+        described_words(_TOPOLOGIES, "off") + "; with --ensemble on by default",
+    )  # fmt: skip
+    result.add_text(
+        "--shift",
+        "Take this off the coordinates of OUTPUT, and note it there; auto: a round vector, where they "
+        "are too large for floats",
+        "auto|X,Y,Z",
+    )
+    result.add_choice(
+        "--boundaries", list(_BOUNDARIES), int(property_of("Boundaries").default),
+        f"Gaps in the scan; {described_words(_BOUNDARIES, 'keep')}",
+    )  # fmt: skip
+    _add_run(result)
+    return result
+
+
+def _add_sides(result: Parser) -> None:
+    result.add_text(
+        "--viewpoint",
+        "Where the scanner stood: the surface looks there; may be given several times, and counts "
+        "instead of what INPUT tells; as many as there are INPUTs are one for each",
+        "X,Y,Z", action="append", default=[],
+    )  # fmt: skip
+    result.add_text(
+        "--views",
+        "The places of the scanner, one for each view, as the points of this file; else as --viewpoint",
+        "FILE",
+    )
+    result.add_text(
+        "--view-array",
+        "With --views: the point array of INPUT that names the view of each point, from 0 on (default "
+        "View, if there is one; without one, what nothing hides was seen)",
+        "ARRAY",
+    )
+    result.add_text(
+        "--up", "Where up is: most of an open surface looks there; --viewpoint tells more", "X,Y,Z"
+    )
+
+
+def _add_run(result: Parser) -> None:
+    result.add_number(
+        "--close-holes-below", "CloseHolesBelow",
+        "Fill holes whose outline, the sum of its edges, is shorter than LENGTH, in units of INPUT; "
+        + described("CloseHolesBelow"), "LENGTH",
+    )  # fmt: skip
+    result.add_number(
+        "--keep-pieces", "KeepPieces",
+        f"Drop pieces of the surface with less than this part of its area, {described('KeepPieces')}; "
+        "0 keeps all", "PART",
+    )  # fmt: skip
+    result.add_text(
+        "--set",
+        "Set a parameter of learning, see below; as often as there are some to set",
+        "NAME=VALUE", action="append", default=[],
+    )  # fmt: skip
+    result.add_flag(
+        "--automatic",
+        "Choose FitRounds, FitSmoothness and CurvatureDensity for INPUT by some seconds of short runs",
+    )
+    result.add_flag(
+        "--features",
+        "Give each vertex its FeatureStrength, high at edges and corners; OUTPUT must be .vtp or .vtk",
+    )
+    result.add_number(
+        "--time-limit", "TimeLimit",
+        f"Learn for so many seconds at most, {described('TimeLimit')}, and write the mesh learnt so "
+        "far; 0: as long as it takes", "SECONDS",
+    )  # fmt: skip
+    result.add_flag(
+        "--in-place",
+        "Do not read INPUT, which may be larger than the memory, but draw as many points from it as "
+        "the vertices need: binary .ply, .vtp appended raw",
+    )
+    result.add_choice(
+        "--raw", ["float", "double"], None,
+        "INPUT is x y z in binary, of 4 or 8 bytes each, little-endian; drawn as with --in-place",
+    )  # fmt: skip
+    result.add_argument(
+        "--skip",
+        type=number_from(0, 2**63 - 1, True),
+        default=0,
+        metavar="BYTES",
+        help="With --raw: bytes before the first point",
+    )
+    result.add_number(
+        "--threads", "NumberOfThreads",
+        f"Work on so many threads at most, {described('NumberOfThreads')}; 0: on as many as the machine "
+        "runs at once; the mesh is the same with any number", "N",
+    )  # fmt: skip
+    result.add_text(
+        "--statistics", "Write how the run went, step by step, to this .csv file", "FILE"
+    )
+    result.add_text(
+        "--explain",
+        "Write the points of INPUT to this .vtp file (by VTK), each with its Distance to the mesh and "
+        "the Reason why it lies there; takes some seconds for millions of points",
+        "FILE",
+    )
+    result.add_flag(
+        "--strict", "Exit with status 3 if there was a warning; the mesh is written all the same"
+    )
+    result.add_text(
+        "--checkpoint",
+        "Leave the state of the run in this file while it lasts, and go on from there if it exists: the "
+        "same command ends with the same bytes, however often it was killed",
+        "FILE",
+    )
+    interval = property_of("CheckpointInterval")
+    result.add_argument(
+        "--checkpoint-interval",
+        type=number_from(interval.low, interval.high, False),
+        metavar="SECONDS",
+        help=f"Seconds from one checkpoint to the next, {described('CheckpointInterval')}; "
+        "with --checkpoint",
+    )
+    result.add_flag(
+        "--dry-run", "Write nothing; print how much memory and time the run will take, roughly"
+    )
+    result.add_flag("--quiet", "Print nothing but errors and warnings")
