@@ -7,7 +7,6 @@ import math
 from typing import Any
 
 import numpy as np
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData, vtkTable
 
 from .._info import FIGURES
 from .cloud import as_cloud
@@ -22,6 +21,7 @@ from .measures import (
 from .scan import NeuralMeshScan
 from .vtk_algorithm import fill_table, vtkEngineAlgorithm
 from .vtk_arrays import field_array, named, table_column, vtk_points
+from .vtk_names import PACKAGE, vtkDataObject, vtkPolyData, vtkTable
 
 
 class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
@@ -108,7 +108,7 @@ class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
         for port, (surface, values) in enumerate(zip(surfaces, distances)):
             output = vtkPolyData.GetData(outputs, port)
             output.ShallowCopy(surface)
-            output.GetPointData().AddArray(named(values, "Distance"))
+            output.GetPointData().AddArray(named(values, "Distance", PACKAGE))
             output.GetPointData().SetActiveScalars("Distance")
         table = {"Direction": list(DIRECTIONS), **found.table}
         fill_table(vtkTable.GetData(outputs, 2), table)
@@ -199,11 +199,11 @@ class vtkNeuralMeshFileSampler(vtkEngineAlgorithm, NeuralMeshFileSampler):
         if block is None:
             return 1
         output = vtkPolyData.GetData(outputs)
-        output.SetPoints(vtk_points(block.points))
+        output.SetPoints(vtk_points(block.points, PACKAGE))
         if block.scalars:
-            output.GetPointData().SetScalars(named(block.data[block.scalars], block.scalars))
+            output.GetPointData().SetScalars(named(block.data[block.scalars], block.scalars, PACKAGE))
         if block.normals is not None:
-            output.GetPointData().SetNormals(named(block.normals, "Normals"))
+            output.GetPointData().SetNormals(named(block.normals, "Normals", PACKAGE))
         return 1
 
 
@@ -231,9 +231,10 @@ class vtkNeuralMeshInformation(vtkEngineAlgorithm):
             name = "".join(word.capitalize() for word in figure.split("_"))
             value = found.get(figure)
             if isinstance(value, dict):
-                fields.AddArray(table_column(np.array(list(value.items())).reshape(-1, 2), name))
+                pairs = np.array(list(value.items()), dtype=np.int64).reshape(-1, 2)
+                fields.AddArray(table_column(pairs, name, PACKAGE))
             elif isinstance(value, bool):
-                fields.AddArray(named(np.array([value], dtype=np.uint8), name))
+                fields.AddArray(named(np.array([value], dtype=np.uint8), name, PACKAGE))
             elif value is not None:
-                fields.AddArray(field_array(value, name))
+                fields.AddArray(field_array(value, name, PACKAGE))
         return 1
