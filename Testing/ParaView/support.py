@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plugin, and shapes to try it on."""
 
+import importlib
 import os
 import tempfile
 
@@ -18,7 +19,16 @@ PLUGIN = os.environ.get("NEURALMESH_PLUGIN") or os.path.join(
     os.path.dirname(CONFIGURATION), "NeuralMesh", "NeuralMesh.so"
 )
 
+IS_PYTHON = PLUGIN.endswith(".py")
+
 paraview.options.batch = True
+
+
+def class_of(name):
+    """The class of the plugin that is tested."""
+    if IS_PYTHON:
+        return getattr(importlib.import_module("neuralmesh.engine.paraview_filters"), name)
+    return getattr(importlib.import_module("neuralmesh"), name)
 
 
 def load_plugin():

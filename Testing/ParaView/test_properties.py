@@ -4,18 +4,16 @@
 import re
 import unittest
 
-# Before any filter is wrapped by GetClientSideObject().
-import neuralmesh
 import support
 from paraview import servermanager, simple
 from vtkmodules.vtkCommonCore import reference
 
 CLASSES = {
-    "NeuralMesh": neuralmesh.vtkPNeuralMesh,
-    "NeuralMeshComparison": neuralmesh.vtkNeuralMeshComparison,
-    "NeuralMeshEnsemble": neuralmesh.vtkPNeuralMeshEnsemble,
-    "NeuralMeshFileSampler": neuralmesh.vtkNeuralMeshFileSampler,
-    "NeuralMeshScan": neuralmesh.vtkNeuralMeshScan,
+    "NeuralMesh": support.class_of("vtkPNeuralMesh"),
+    "NeuralMeshComparison": support.class_of("vtkNeuralMeshComparison"),
+    "NeuralMeshEnsemble": support.class_of("vtkPNeuralMeshEnsemble"),
+    "NeuralMeshFileSampler": support.class_of("vtkNeuralMeshFileSampler"),
+    "NeuralMeshScan": support.class_of("vtkNeuralMeshScan"),
 }
 SOURCES = {"NeuralMeshFileSampler"}
 # Setters without a property of their own name, and why.
@@ -150,7 +148,8 @@ class Properties(unittest.TestCase):
     # Promise: a proxy stands for the class that its name says.
     def test_classes(self):
         for name, cls in CLASSES.items():
-            self.assertEqual(prototype(name).GetVTKClassName(), cls.__name__)
+            named = prototype(name).GetVTKClassName()
+            self.assertEqual(named.rpartition(".")[2], cls.__name__)
 
     # Promise: every public setter has its property, with its name, or a reason not to; no reason is
     # out of date.
@@ -163,12 +162,13 @@ class Properties(unittest.TestCase):
                 of_one = {LISTS[key] for key in keys & set(LISTS)}
                 self.assertEqual(setters - set(OTHERWISE) - of_one, keys - set(LISTS) - ARRAYS)
             used |= setters & set(OTHERWISE)
-        self.assertEqual(used, set(OTHERWISE))
+        self.assertEqual(used, set(OTHERWISE) - ({"Controller"} if support.IS_PYTHON else set()))
         for name in ARRAYS:
             command = prototype("NeuralMesh").GetProperty(name).GetCommand()
             self.assertEqual(command, f"Set{name}Name")
 
     # Promise: the property has the type of the setter, and calls it.
+    @unittest.skipIf(support.IS_PYTHON, "what is written in Python has no types of C++")
     def test_types(self):
         for name, _, sm_property, vtk_object in all_properties():
             signature = getattr(vtk_object, sm_property.GetCommand()).__doc__

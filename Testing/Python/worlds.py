@@ -14,14 +14,11 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import (
     vtkBitArray,
-    vtkFloatArray,
     vtkIdTypeArray,
     vtkIntArray,
     vtkPoints,
     vtkStringArray,
     vtkUnsignedCharArray,
-    vtkVariant,
-    vtkVariantArray,
 )
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray,
@@ -33,7 +30,6 @@ from vtkmodules.vtkCommonDataModel import (
 )
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkIOGeometry import vtkSTLWriter
 from vtkmodules.vtkIOPLY import vtkPLYWriter
 
 NOT_COMPARED = {"Seconds"}
@@ -63,8 +59,8 @@ def add(data, name, values, cls=None):
         array = cls()
         rows = np.asarray(values)
         array.SetNumberOfComponents(rows.shape[1] if rows.ndim > 1 else 1)
-        for value in rows.reshape(-1):
-            array.InsertNextValue(value if isinstance(value, (str, vtkVariant)) else value.item())
+        for value in rows.reshape(-1).tolist():
+            array.InsertNextValue(value)
     array.SetName(name)
     data.GetPointData().AddArray(array)
     return array
@@ -323,6 +319,8 @@ def measured(cls, properties=None, ports=()):
     for port, data in enumerate(ports):
         algorithm.SetInputData(port, data)
     found = outcome(algorithm)
+    if cls == "vtkNeuralMeshFileSampler":
+        found["count"] = algorithm.GetNumberOfFilePoints()
     if cls == "vtkNeuralMeshComparison":
         found["figures"] = [
             repr(getattr(algorithm, f"Get{name}")(direction))
@@ -332,20 +330,46 @@ def measured(cls, properties=None, ports=()):
     return found
 
 
+def write_cloud(path):
+    """A .ply with colours."""
+    writer = vtkPLYWriter()
+    data = rich()
+    vertices = vtkCellArray()
+    for i in range(data.GetNumberOfPoints()):
+        vertices.InsertNextCell(1, [i])
+    data.SetVerts(vertices)
+    writer.SetInputData(data)
+    writer.SetArrayName("Color")
+    writer.SetFileName(path)
+    writer.Write()
+
+
 def of_file(**properties):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "points.ply")
-        writer = vtkPLYWriter()
-        data = rich()
-        vertices = vtkCellArray()
-        for i in range(data.GetNumberOfPoints()):
-            vertices.InsertNextCell(1, [i])
-        data.SetVerts(vertices)
-        writer.SetInputData(data)
-        writer.SetArrayName("Color")
-        writer.SetFileName(path)
-        writer.Write()
+        write_cloud(path)
         return learn(PointFileName=path, **properties)
+
+
+def sampled():
+    """Points of files, by themselves."""
+    with tempfile.TemporaryDirectory() as folder:
+        ply, raw = (os.path.join(folder, name) for name in ("points.ply", "points.bin"))
+        write_cloud(ply)
+        with open(raw, "wb") as file:
+            file.write(b"head" + ball().tobytes())
+        found = [
+            measured("vtkNeuralMeshFileSampler", properties)
+            for properties in (
+                {"FileName": ply, "NumberOfPoints": 1000},
+                {"FileName": ply, "Seed": 3, "NumberOfPoints": 0},
+                {"FileName": raw, "Format": 2, "HeaderBytes": 4},
+                {"FileName": raw, "Format": 1},
+                {"FileName": ply + "x"},
+                {},
+            )
+        ]
+        return json.loads(json.dumps(found).replace(folder, ""))
 
 
 def aborted():
@@ -427,6 +451,7 @@ CASES = {
     "nothing": lambda: learn(),
     "both": lambda: learn(rich(), PointFileName="none.ply"),
     "file": lambda: of_file(MaximumPoints=2000),
+    "sampled": sampled,
     "one_place": lambda: learn(point_set(np.ones((100, 3)))),
     "steps": stepped,
     "watched": watched,
@@ -450,6 +475,8 @@ CASES = {
                                             (polygons([0, 1, 2], [1, 0, 3], [0, 1, 4]),)),
     "information_empty": lambda: measured("vtkNeuralMeshInformation", {}, (vtkPolyData(),)),
     "information_bad": lambda: measured("vtkNeuralMeshInformation", {}, (polygons([0, 1, 99]),)),
+    "information_open": lambda: measured("vtkNeuralMeshInformation", {},
+                                         (polygons([0, 1, 2], [0, 1, 3], [0, 1, 4], [5, 6, 7, 8]),)),
     "scan": lambda: measured("vtkNeuralMeshScan", {
         "NumberOfPoints": 3000, "Noise": 0.01, "Outliers": 0.1, "Holes": 2, "Occlusion": 1,
         "Viewpoint": (0, 0, 9)}, (sphere_mesh(),)),

@@ -62,7 +62,7 @@ nb::object drawPoints(const std::string& path, const RawFile& raw, std::uint64_t
           }
         }
       },
-      [&](double) { return call.report(0.); });
+      call.part(0., 1.));
   }
   catch (const std::runtime_error& error)
   {

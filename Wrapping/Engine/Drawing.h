@@ -16,8 +16,8 @@ struct RawFile
 };
 
 /// Points that are drawn from a file where they lie: `points`, and `RGB` and `normals` where the file has
-/// some, the CPU `seconds`, and how many points the file has; None if it was ended. Throws std::invalid_argument with a text that names
-/// the file.
+/// some, the CPU `seconds`, and `file_points`, how many the file has; None if it was ended. Throws
+/// std::invalid_argument with a text that names the file.
 nanobind::object drawPoints(const std::string& path, const RawFile& raw, std::uint64_t wanted,
   std::uint64_t seed, Call& call);
 }

@@ -8,7 +8,7 @@ from typing import Any
 from . import _world
 from ._types import vtkPolyData
 
-_FIGURES = (
+FIGURES = (
     "vertices", "triangles", "regular_ratio", "valences", "triangle_quality", "closed", "edge_manifold",
     "vertex_manifold", "oriented", "components", "genus", "boundary_loops", "boundary_edges",
     "folded_edges", "non_manifold_edges", "non_manifold_vertices", "inconsistent_edges", "surface_area",
@@ -49,4 +49,4 @@ def info(mesh: vtkPolyData) -> dict[str, Any]:
         True
     """
     report = _world.report(_world.take_surface(mesh, "mesh"))
-    return {name: report.get(name) for name in _FIGURES}
+    return {name: report.get(name) for name in FIGURES}

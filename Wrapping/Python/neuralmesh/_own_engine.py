@@ -11,6 +11,7 @@ _CLASSES = (
     "vtkNeuralMeshComparison",
     "vtkNeuralMeshEnsemble",
     "vtkNeuralMeshExplanation",
+    "vtkNeuralMeshFileSampler",
     "vtkNeuralMeshInformation",
     "vtkNeuralMeshScan",
     "vtkNeuralMeshStream",

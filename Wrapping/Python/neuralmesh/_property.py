@@ -7,6 +7,9 @@ from dataclasses import dataclass
 from typing import Any, Callable
 
 
+_NO_END = 10**9  # from there on nobody minds the end of a range
+
+
 @dataclass(frozen=True)
 class Property:
     """A number that is set on a class: SetX, GetX, GetXMinValue and GetXMaxValue."""
@@ -45,6 +48,17 @@ class Property:
         low, high, given, clamped = (shown % one for one in (self.low, self.high, value, used))
         return f"{self.name} must be from {low} to {high}: not {given} but {clamped} is used."
 
+    def documentation(self) -> str:
+        """What it does, its default and its range."""
+        if self.values:
+            return self.text
+        number = "%.15g" if self.kind == "double" else "%d"
+        low, high, default = (number % one for one in (self.low, self.high, self.default))
+        ends = f", at least {low}" if self.high >= _NO_END else f", range {low} to {high}"
+        if self.kind == "bool":
+            ends, default = "", "on" if self.default else "off"
+        return f"{self.text} Default {default}{ends}.".strip()
+
     def methods(self) -> dict[str, Callable[..., Any]]:
         """The methods, by their names, of a class that has _values, _warn() and Modified()."""
         name = self.name
@@ -72,7 +86,7 @@ class Property:
             made[f"Set{name}To{value_name}"] = lambda this, number=number: set_value(this, number)
         for method_name, method in made.items():
             method.__name__ = method_name
-            method.__doc__ = self.text
+            method.__doc__ = self.documentation()
         return made
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plugin for a ParaView for which nothing has been compiled: load this file in Tools > Manage Plugins.
 
-It brings the filters of the compiled plugin but for the file sampler, under the same names, so that states
-of one load with the other. They learn by the engine in the folder of this file, in one process.
+It brings the filters of the compiled plugin, under the same names, so that states of one load with the
+other. They learn by the engine in the folder of this file, in one process.
 """
 
 import importlib.util

@@ -12,6 +12,7 @@ from .vtk_filters import (
     vtkNeuralMeshComparison,
     vtkNeuralMeshEnsemble,
     vtkNeuralMeshExplanation,
+    vtkNeuralMeshFileSampler,
     vtkNeuralMeshInformation,
     vtkNeuralMeshScan,
 )
@@ -19,6 +20,7 @@ from .vtk_filters import (
 __all__ = [
     "vtkNeuralMeshComparison",
     "vtkNeuralMeshExplanation",
+    "vtkNeuralMeshFileSampler",
     "vtkNeuralMeshInformation",
     "vtkNeuralMeshScan",
     "vtkPNeuralMesh",

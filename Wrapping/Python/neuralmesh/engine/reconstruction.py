@@ -131,11 +131,7 @@ class NeuralMesh(NeuralMeshAlgorithm):
         if drawn is None:
             self._stop_reason = "cancelled"
             return Outcome(_empty_mesh(), is_drawn=False)
-        block = Block(drawn["points"], scalars="RGB" if "RGB" in drawn else "")
-        if "RGB" in drawn:
-            block.data["RGB"] = drawn["RGB"]
-        block.normals = drawn.get("normals")
-        outcome = self.run(Cloud([block]), first_mesh, progress, **more)
+        outcome = self.run(Cloud([block_of_file(drawn)]), first_mesh, progress, **more)
         self._times["Drawing"] = drawn["seconds"]
         return outcome
 
@@ -262,6 +258,14 @@ class NeuralMeshEnsemble(NeuralMesh):
     def _ensemble_values(self) -> dict[str, int | float] | None:
         own = {one.name: self._values[one.name] for one in of_class("vtkNeuralMeshEnsemble")}
         return {**own, "Seed": self._values["Seed"]}
+
+
+def block_of_file(drawn: dict[str, Any]) -> Block:
+    """The points that the engine has drawn from a file."""
+    block = Block(drawn["points"], normals=drawn.get("normals"))
+    if "RGB" in drawn:
+        block.data["RGB"], block.scalars = drawn["RGB"], "RGB"
+    return block
 
 
 def explained_points(cloud: Cloud, explained: dict[str, Any]) -> Mesh:

@@ -9,13 +9,17 @@ import re
 import sys
 from typing import Any, Callable
 
-from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import vtkObject, vtkOutputWindow
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
-from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
-
 from .mesh import Mesh
 from .vtk_arrays import polygons_of, table_column
+from .vtk_names import (
+    PACKAGE,
+    VTKPythonAlgorithmBase,
+    vtkAlgorithm,
+    vtkDataObject,
+    vtkObject,
+    vtkOutputWindow,
+    vtkPolyData,
+)
 
 _KINDS = {"ErrorEvent": "ERROR", "WarningEvent": "Warning"}
 
@@ -135,7 +139,7 @@ class vtkEngineAlgorithm(VTKPythonAlgorithmBase):
 def fill_table(table: Any, columns: dict[str, Any]) -> None:
     """Give a vtkTable columns."""
     for name, values in columns.items():
-        table.AddColumn(table_column(values, name))
+        table.AddColumn(table_column(values, name, PACKAGE))
 
 
 def _values_of(cls: type) -> list[str]:

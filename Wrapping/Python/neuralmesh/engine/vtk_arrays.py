@@ -88,14 +88,15 @@ def _of_kind(values: np.ndarray, name: str, kind: vtkAbstractArray) -> vtkAbstra
     return array
 
 
-def table_column(values: Any, name: str) -> vtkAbstractArray:
+def table_column(values: Any, name: str, package: str | None = None) -> vtkAbstractArray:
     """A column: whole numbers as VTK counts, others as 8-byte floats, texts as texts."""
-    numpy_to_vtk = vtk_module(None, "util.numpy_support").numpy_to_vtk
     array = np.asarray(values)
     if array.dtype.kind in "OU":
-        return named(array, name)
+        return named(array, name, package)
+    numpy_to_vtk = vtk_module(package, "util.numpy_support").numpy_to_vtk
     if array.dtype.kind in "iu":
-        column = numpy_to_vtk(array.astype(np.int64), array_type=vtk_module(None, "vtkCommonCore").VTK_ID_TYPE)
+        kind = vtk_module(package, "vtkCommonCore").VTK_ID_TYPE
+        column = numpy_to_vtk(array.astype(np.int64), array_type=kind)
     else:
         column = numpy_to_vtk(array.astype(np.float64))
     column.SetName(name)

@@ -7,6 +7,7 @@ from .vtk_learning import vtkNeuralMesh, vtkNeuralMeshAlgorithm, vtkNeuralMeshEn
 from .vtk_measures import (
     vtkNeuralMeshComparison,
     vtkNeuralMeshExplanation,
+    vtkNeuralMeshFileSampler,
     vtkNeuralMeshInformation,
     vtkNeuralMeshScan,
 )
@@ -18,6 +19,7 @@ __all__ = [
     "vtkNeuralMeshComparison",
     "vtkNeuralMeshEnsemble",
     "vtkNeuralMeshExplanation",
+    "vtkNeuralMeshFileSampler",
     "vtkNeuralMeshInformation",
     "vtkNeuralMeshScan",
     "vtkNeuralMeshStream",

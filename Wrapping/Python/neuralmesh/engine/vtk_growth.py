@@ -5,10 +5,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
-from vtkmodules.vtkCommonExecutionModel import vtkExecutive, vtkStreamingDemandDrivenPipeline
-
 from .mesh import Mesh
+from .vtk_names import vtkDataObject, vtkExecutive, vtkPolyData, vtkStreamingDemandDrivenPipeline
 
 _Pipeline = vtkStreamingDemandDrivenPipeline
 

@@ -6,13 +6,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from vtkmodules.vtkCommonCore import vtkCommand, vtkLogger
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData, vtkPolyData, vtkTable
-from vtkmodules.vtkCommonExecutionModel import (
-    vtkAlgorithm,
-    vtkDemandDrivenPipeline,
-    vtkStreamingDemandDrivenPipeline,
-)
 
 from .. import _engine
 from .algorithm import NeuralMeshAlgorithm
@@ -22,6 +15,18 @@ from .reconstruction import NeuralMesh, NeuralMeshEnsemble, Outcome
 from .vtk_algorithm import fill_table, vtkEngineAlgorithm
 from .vtk_arrays import named
 from .vtk_growth import Growth, hold_time, offer_steps, step_of
+from .vtk_names import (
+    PACKAGE,
+    vtkAlgorithm,
+    vtkCommand,
+    vtkDataObject,
+    vtkDemandDrivenPipeline,
+    vtkImageData,
+    vtkLogger,
+    vtkPolyData,
+    vtkStreamingDemandDrivenPipeline,
+    vtkTable,
+)
 
 _CANCELLED = "cancelled"
 _POINT_SETS = ("vtkPointSet", "vtkCompositeDataSet")
@@ -176,7 +181,7 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
 
     def _take_snapshot(self, snapshot: Mesh) -> None:
         if self.HasObserver(self.SnapshotEvent):
-            self.InvokeEvent(self.SnapshotEvent, snapshot.to_vtk())
+            self.InvokeEvent(self.SnapshotEvent, snapshot.to_vtk_of(PACKAGE))
         if self.GetGrowthAsTime():
             self._growth.add(snapshot)
 
@@ -256,6 +261,6 @@ class vtkNeuralMeshEnsemble(vtkNeuralMesh, NeuralMeshEnsemble):
             votes.SetOrigin(outcome.votes["origin"])
             votes.SetSpacing(*[outcome.votes["spacing"]] * 3)
             values = outcome.votes["values"]
-        votes.GetPointData().SetScalars(named(values, "Votes"))
+        votes.GetPointData().SetScalars(named(values, "Votes", PACKAGE))
         if outcome.average is not None:
             outcome.average.fill(vtkPolyData.GetData(outputs, 2))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtkNeuralMeshComparison, -Explanation, -Information and -Scan for any VTK."""
+"""vtkNeuralMeshComparison and its sisters that do not learn, for any VTK."""
 
 from __future__ import annotations
 
@@ -7,13 +7,21 @@ import math
 from typing import Any
 
 import numpy as np
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData, vtkTable
 
+from .._info import FIGURES
 from .cloud import as_cloud
-from .measures import DIRECTIONS, Comparison, NeuralMeshComparison, NeuralMeshExplanation, report
+from .file_sampler import NeuralMeshFileSampler
+from .measures import (
+    DIRECTIONS,
+    Comparison,
+    NeuralMeshComparison,
+    NeuralMeshExplanation,
+    report,
+)
 from .scan import NeuralMeshScan
 from .vtk_algorithm import fill_table, vtkEngineAlgorithm
-from .vtk_arrays import named, table_column
+from .vtk_arrays import field_array, named, table_column, vtk_points
+from .vtk_names import PACKAGE, vtkDataObject, vtkPolyData, vtkTable
 
 
 class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
@@ -100,7 +108,7 @@ class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
         for port, (surface, values) in enumerate(zip(surfaces, distances)):
             output = vtkPolyData.GetData(outputs, port)
             output.ShallowCopy(surface)
-            output.GetPointData().AddArray(named(values, "Distance"))
+            output.GetPointData().AddArray(named(values, "Distance", PACKAGE))
             output.GetPointData().SetActiveScalars("Distance")
         table = {"Direction": list(DIRECTIONS), **found.table}
         fill_table(vtkTable.GetData(outputs, 2), table)
@@ -194,4 +202,66 @@ class vtkNeuralMeshScan(vtkEngineAlgorithm, NeuralMeshScan):
             return 0
         self._obey_abort()
         cloud.fill(vtkPolyData.GetData(outputs))
+        return 1
+
+
+class vtkNeuralMeshFileSampler(vtkEngineAlgorithm, NeuralMeshFileSampler):
+    """Some points of a file that may be larger than the memory, drawn at random."""
+
+    _INPUTS = ()
+
+    def __init__(self, **properties: Any) -> None:
+        vtkEngineAlgorithm.__init__(self)
+        NeuralMeshFileSampler.__init__(self)
+        self._set(properties)
+
+    def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
+        """Draws."""
+        try:
+            block = self.draw(self._progress())
+        except (ValueError, RuntimeError, MemoryError) as error:
+            self._error(str(error))
+            return 0
+        self._obey_abort()
+        if block is None:
+            return 1
+        output = vtkPolyData.GetData(outputs)
+        output.SetPoints(vtk_points(block.points, PACKAGE))
+        if block.scalars:
+            output.GetPointData().SetScalars(named(block.data[block.scalars], block.scalars, PACKAGE))
+        if block.normals is not None:
+            output.GetPointData().SetNormals(named(block.normals, "Normals", PACKAGE))
+        return 1
+
+
+class vtkNeuralMeshInformation(vtkEngineAlgorithm):
+    """Whether a mesh is sound, and how good its triangles are: the input with a report as field data."""
+
+    def __init__(self, **properties: Any) -> None:
+        vtkEngineAlgorithm.__init__(self)
+        self._set(properties)
+
+    def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
+        """Reports."""
+        try:
+            found = report(self._surface(inputs, 0))
+        except (ValueError, RuntimeError, MemoryError) as error:
+            self._error(str(error))
+            return 0
+        output = vtkPolyData.GetData(outputs)
+        output.ShallowCopy(vtkPolyData.GetData(inputs[0]))
+        fields = output.GetFieldData()
+        # The input may bring those of an earlier report along.
+        fields.RemoveArray("Genus")
+        fields.RemoveArray("Volume")
+        for figure in FIGURES:
+            name = "".join(word.capitalize() for word in figure.split("_"))
+            value = found.get(figure)
+            if isinstance(value, dict):
+                pairs = np.array(list(value.items()), dtype=np.int64).reshape(-1, 2)
+                fields.AddArray(table_column(pairs, name, PACKAGE))
+            elif isinstance(value, bool):
+                fields.AddArray(named(np.array([value], dtype=np.uint8), name, PACKAGE))
+            elif value is not None:
+                fields.AddArray(field_array(value, name, PACKAGE))
         return 1

@@ -5,12 +5,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from vtkmodules.vtkCommonDataModel import vtkPolyData
-
 from .. import _engine
 from .cloud import as_cloud
 from .stream import NeuralMeshStream
 from .vtk_learning import vtkNeuralMeshAlgorithm
+from .vtk_names import vtkPolyData
 
 
 class vtkNeuralMeshStream(vtkNeuralMeshAlgorithm, NeuralMeshStream):

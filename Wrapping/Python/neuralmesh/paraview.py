@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command neuralmesh paraview: where ParaView finds the plugin, and how it is started with it."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+import sys
+from typing import Sequence
+
+from ._build import VTK_VERSION
+
+_PLUGIN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "paraview_plugin.py")
+_COMPILED = """\
+This package belongs to the compiled plugin, NeuralMesh.so: the Debian package has it, and ParaView loads
+it by itself. Documentation/ParaView.md tells of others.
+"""
+_PYTHON = """\
+The plugin for ParaView is this file:
+
+    {plugin}
+
+It works in a ParaView whose Python is {version}, as that of this package. In ParaView: Tools > Manage
+Plugins > Load New, choose the file, and check Auto Load to have it from then on. In pvpython and pvbatch:
+
+    from paraview.simple import *
+    LoadPlugin({plugin!r}, ns=globals())
+
+Nothing need be set for that. A script that imports neuralmesh itself finds it by
+
+    PYTHONPATH={folder} pvpython script.py
+"""
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the command with its arguments; the exit status."""
+    parser = argparse.ArgumentParser(
+        prog="neuralmesh paraview", description="Tells how ParaView gets the filters."
+    )
+    parser.add_argument(
+        "--path", action="store_true", help="print the path of the plugin's file, and nothing else"
+    )
+    options = parser.parse_args(list(arguments))
+    if VTK_VERSION:
+        print(_COMPILED, end="", file=sys.stderr if options.path else sys.stdout)
+        return 1 if options.path else 0
+    if options.path:
+        print(_PLUGIN)
+        return 0
+    version = "{}.{}".format(*sys.version_info)
+    folder = shlex.quote(os.path.dirname(os.path.dirname(_PLUGIN)))
+    print(_PYTHON.format(plugin=_PLUGIN, version=version, folder=folder), end="")
+    return 0
