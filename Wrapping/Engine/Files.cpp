@@ -174,12 +174,8 @@ void writeWhole(const std::string& path, const nb::bytes& content)
 {
   const std::string bytes(content.c_str(), content.size());
   const nb::gil_scoped_release unlocked;
-  asBadInput(
-    [&]
-    {
-      writeAtomicFile(
-        path, [&](const std::string& temporary) { writeText(bytes, temporary); });
-    });
+  asBadInput([&]
+    { writeAtomicFile(path, [&](const std::string& temporary) { writeText(bytes, temporary); }); });
 }
 
 nb::dict joinViews(

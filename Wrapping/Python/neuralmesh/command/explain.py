@@ -60,7 +60,10 @@ def _print_pieces(fields: dict[str, Any]) -> None:
 
 def _parser() -> Parser:
     result = Parser(
-        "explain", "Tell of each point how far it is from a mesh, and why", "INPUT MESH OUTPUT", _FOOTER
+        "explain",
+        "Tell of each point how far it is from a mesh, and why",
+        "INPUT MESH OUTPUT",
+        _FOOTER,
     )
     result.add_argument("input", metavar="INPUT", help=POINTS)
     result.add_argument(

@@ -74,9 +74,7 @@ def _is_like(array: Any, first: np.ndarray) -> bool:
     return array is not None and array.dtype == first.dtype and array.shape[1:] == first.shape[1:]
 
 
-def _apply_given(
-    points: Mesh, seen: list[tuple[int, np.ndarray, np.ndarray]], wanted: int
-) -> None:
+def _apply_given(points: Mesh, seen: list[tuple[int, np.ndarray, np.ndarray]], wanted: int) -> None:
     scans = sum(len(viewpoints) for _, viewpoints, _ in seen)
     are_of_files = all(
         len(viewpoints) == 0 and len(views) == count for count, viewpoints, views in seen

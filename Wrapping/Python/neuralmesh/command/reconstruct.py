@@ -4,25 +4,24 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import signal
+import sys
 import time
 from typing import Any, Iterator, Sequence
-
-import contextlib
-import sys
 
 import numpy as np
 
 from .. import _engine
 from ..engine import files
-from ..engine.cloud import Block, Cloud, as_cloud
+from ..engine.cloud import as_cloud
 from ..engine.mesh import Mesh
 from ..engine.reconstruction import NeuralMesh, NeuralMeshEnsemble, Outcome
 from . import settings
 from .estimate import print_estimate
 from .inputs import read_inputs
 from .names import NamedFile, read_mesh, require_distinct, require_explanation, require_output
-from .parsing import UsageError, property_of, three_numbers, words_of
+from .parsing import UsageError, three_numbers, words_of
 from .progress_bar import ProgressBar
 from .reconstruct_options import parser
 from .run_report import Drawn, Seconds, print_run
@@ -86,7 +85,7 @@ def _names(options: argparse.Namespace) -> tuple[list[str], str]:
     return inputs, output
 
 
-def _filter_of(options: argparse.Namespace) -> NeuralMesh:
+def _filter_of(options: argparse.Namespace) -> Any:
     mesh: Any = NeuralMesh()
     if options.ensemble:
         mesh = NeuralMeshEnsemble()

@@ -66,7 +66,9 @@ def _print(options: Any, tuning: dict[str, Any]) -> None:
 
 
 def _parser() -> Parser:
-    result = Parser("tune", "Choose the parameters for a point cloud, and say why", "INPUT", _FOOTER)
+    result = Parser(
+        "tune", "Choose the parameters for a point cloud, and say why", "INPUT", _FOOTER
+    )
     result.add_argument("input", metavar="INPUT", help=POINTS)
     result.add_number(
         "--vertices", "NumberOfVertices",
