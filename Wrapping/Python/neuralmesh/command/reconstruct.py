@@ -7,6 +7,7 @@ import argparse
 import contextlib
 import signal
 import sys
+import threading
 import time
 from typing import Any, Iterator, Sequence
 
@@ -254,11 +255,14 @@ def _interruption() -> Iterator[Any]:
         nonlocal interrupted
         interrupted = True
 
-    before = signal.signal(signal.SIGINT, note)
+    # Of signals only the main thread hears.
+    is_main = threading.current_thread() is threading.main_thread()
+    before = signal.signal(signal.SIGINT, note) if is_main else None
     try:
         yield lambda: interrupted
     finally:
-        signal.signal(signal.SIGINT, before)
+        if is_main:
+            signal.signal(signal.SIGINT, before)
 
 
 def _table_of(curve: dict[str, np.ndarray]) -> bytes:
