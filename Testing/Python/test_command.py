@@ -130,6 +130,23 @@ class Alone(CommandTest):
             self.assertEqual(status, 1)
             self.assertIn("pip install vtk", errors)
 
+    # Promise: whatever a damaged file makes of VTK's readers, the command ends with one line that names it.
+    @unittest.skipUnless(HAS_VTK, "there is no VTK")
+    def test_damaged(self):
+        random = np.random.default_rng(3)
+        for extension in ("vtk", "vtp"):
+            neuralmesh.read(self.folder / "mesh.ply").save(self.folder / f"whole.{extension}")
+            whole = (self.folder / f"whole.{extension}").read_bytes()
+            for i in range(6):
+                damaged = bytearray(whole)
+                for place in random.integers(0, 300 if i % 2 else len(whole), 4):
+                    damaged[place] = random.integers(0, 256)
+                (self.folder / f"damaged.{extension}").write_bytes(damaged[: len(whole) - 7 * i])
+                _, errors, status = self.run_command("info", f"damaged.{extension}")
+                self.assertIn(status, (0, 1))
+                if status == 1:
+                    self.assertRegex(errors, rf"^neuralmesh: damaged\.{extension}: [^\n]*\n$")
+
     # Promise: warnings are told, and with --strict the status tells of them; the mesh is there.
     def test_strict(self):
         for strict, wanted in (([], 0), (["--strict"], 3)):

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files.h"
 
+#include "ReadingGuard.h"
+
 #include "base/AtomicFile.h"
 #include "cloud/PlyContents.h"
 #include "file/JoinedViews.h"
@@ -136,6 +138,12 @@ nb::dict readPoints(const std::string& path)
   result["arrays"] = arrays;
   result["missing_returns"] = contents.missingReturns;
   return result;
+}
+
+nb::object readGuarded(const std::string& path, const nb::callable& read)
+{
+  const ReadingGuard guard(path);
+  return read(path);
 }
 
 Vector writeSurface(const std::string& path, const AnyArray& points,

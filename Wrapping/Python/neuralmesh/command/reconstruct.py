@@ -21,7 +21,9 @@ from ..engine.reconstruction import NeuralMesh, NeuralMeshEnsemble, Outcome
 from . import settings
 from .estimate import print_estimate
 from .inputs import read_inputs
-from .names import NamedFile, read_mesh, require_distinct, require_explanation, require_output
+from .names import (
+    NamedFile, read_mesh, read_points, require_distinct, require_explanation, require_output,
+)  # fmt: skip
 from .parsing import UsageError, three_numbers, words_of
 from .progress_bar import ProgressBar
 from .reconstruct_options import parser
@@ -130,7 +132,7 @@ def _tell_sides(mesh: Any, options: argparse.Namespace) -> None:
         raise UsageError("--view-array: this goes with --views or --viewpoint only")
     mesh.SetViewArrayName(options.view_array)
     if options.views:
-        places = files.read(options.views).points
+        places = read_points(options.views).points
         if len(places) == 0:
             raise ValueError(f"{options.views}: there are no places in it")
         for place in places:

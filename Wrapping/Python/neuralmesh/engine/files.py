@@ -64,14 +64,6 @@ def read(path: str | os.PathLike[str]) -> Mesh:
     return _reader_of(name)(name)
 
 
-def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """The same with triangles. ValueError if there are none."""
-    mesh = read(path)
-    if len(mesh.triangles) == 0:
-        raise ValueError(f"{os.fspath(path)}: there are no triangles in it")
-    return mesh
-
-
 def write_mesh(mesh: Mesh, path: str | os.PathLike[str], shift: Any = None) -> tuple[float, ...]:
     """Write a mesh, whole or not at all; what is taken off its coordinates in the file.
 
