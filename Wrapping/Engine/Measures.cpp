@@ -141,8 +141,8 @@ std::tuple<double, double, double> estimate(double vertices, double points, doub
     const double* row = growth.data() + i;
     rows.push_back({ row[0], row[1], row[2] });
   }
-  const RunEstimate found =
-    estimateRun({ vertices, points, bytesOfPoints, samplesForFeatures, isEnsemble }, rows, secondsOfTrial);
+  const RunEstimate found = estimateRun(
+    { vertices, points, bytesOfPoints, samplesForFeatures, isEnsemble }, rows, secondsOfTrial);
   return { found.bytes, found.samples, found.seconds };
 }
 }

@@ -155,33 +155,6 @@ class vtkNeuralMeshExplanation(vtkEngineAlgorithm, NeuralMeshExplanation):
         return 1
 
 
-class vtkNeuralMeshInformation(vtkEngineAlgorithm):
-    """Whether a mesh is sound, and how good its triangles are: passes it on with the report as field data."""
-
-    def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
-        """Looks at the mesh."""
-        try:
-            figures = report(self._surface(inputs, 0))
-        except (ValueError, RuntimeError, MemoryError) as error:
-            self._error(str(error))
-            return 0
-        output = vtkPolyData.GetData(outputs)
-        output.ShallowCopy(vtkPolyData.GetData(inputs[0]))
-        fields = output.GetFieldData()
-        for name, value in figures.items():
-            name = "".join(word.capitalize() for word in name.split("_"))
-            # The input may bring that of an earlier report along.
-            fields.RemoveArray(name)
-            if isinstance(value, dict):
-                pairs = np.array(list(value.items()), dtype=np.int64).reshape(-1, 2)
-                fields.AddArray(table_column(pairs, name))
-            elif isinstance(value, bool):
-                fields.AddArray(named(np.array([value], dtype=np.uint8), name))
-            elif value is not None:
-                fields.AddArray(table_column([value], name))
-        return 1
-
-
 class vtkNeuralMeshScan(vtkEngineAlgorithm, NeuralMeshScan):
     """The point cloud that a scan of a surface might give, with noise, outliers, holes and shadows."""
 
