@@ -18,7 +18,7 @@ random_runs=${NEURALMESH_RANDOM_RUNS:-5000}
 random_first=${NEURALMESH_RANDOM_FIRST:-$(($(date +%s) / 86400 * 1000000))}
 debian=$PWD/build-debian
 
-steps=(style tests random sweep address thread coverage fuzzing laboratory packages debians)
+steps=(style tests random sweep address thread coverage fuzzing laboratory packages wheels debians)
 declare -A what=(
   [style]="clang-format, cppcheck, and clang-tidy of every source"
   [tests]="the tests that have the label nightly or sanitized"
@@ -30,6 +30,7 @@ declare -A what=(
   [fuzzing]="libFuzzer on engine and readers, $fuzzing_seconds s each"
   [laboratory]="all experiments of the thesis"
   [packages]="the packages for both Debians and both VTKs, each tried in a bare Debian"
+  [wheels]="what pip installs, for both Debians, each tried in fresh environments and in a bare Debian"
   [debians]="all tests on Debian 12 and 13, against ParaView's VTK and plain VTK, and by clang"
 )
 
@@ -99,6 +100,14 @@ step_packages()
   bash Utilities/make_packages.sh all
   rm -rf --one-file-system "$debian"
   bash Utilities/test_packages.sh "$debian"
+}
+
+step_wheels()
+{
+  rm -f packages/*.whl packages/*.tar.gz
+  bash Utilities/make_wheels.sh all
+  bash Utilities/test_wheels.sh on bookworm
+  bash Utilities/test_wheels.sh on trixie
 }
 
 # Those of the night, too.

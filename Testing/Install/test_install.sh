@@ -122,30 +122,6 @@ END
   done
 }
 
-# Promise: pip installs the package into a virtual environment that sees VTK's, with the command and
-# all that goes with it, and takes it away again.
-case_pip()
-{
-  local venv=$scratch/venv
-  rm -rf "$venv"
-  "$python" -m venv --system-site-packages --without-pip "$venv"
-  "$python" -m pip --python "$venv/bin/python" install --no-index --no-build-isolation \
-    --no-cache-dir --config-settings="build-dir=$build" "$here/../.."
-  cd "$scratch"
-  "$venv/bin/python" - "$(realpath "$venv")" "$version" << 'END'
-import importlib.metadata, sys
-import numpy, neuralmesh
-assert neuralmesh.__file__.startswith(sys.argv[1]), neuralmesh.__file__
-assert neuralmesh.__version__ == importlib.metadata.version("neuralmesh") == sys.argv[2]
-points = numpy.random.default_rng(1).normal(size=(1000, 3))
-points /= numpy.linalg.norm(points, axis=1)[:, None]
-assert neuralmesh.reconstruct(points, 100).GetNumberOfPoints() == 100
-END
-  [ "$("$venv/bin/neuralmesh" --version)" = "$version" ] || fail "another version of the command"
-  "$python" -m pip --python "$venv/bin/python" uninstall --yes neuralmesh
-  [ -z "$(find "$venv" -iname '*neuralmesh*')" ] || fail "something is left"
-}
-
 # Promise: the command works from the prefix.
 case_command()
 {
