@@ -24,8 +24,8 @@ struct Drawn
 };
 }
 
-nb::object drawPoints(const std::string& path, const RawFile& raw, std::uint64_t wanted,
-  std::uint64_t seed, Call& call)
+nb::object drawPoints(
+  const std::string& path, const RawFile& raw, std::uint64_t wanted, std::uint64_t seed, Call& call)
 {
   PhaseTimes times;
   times.enter(Phase::Drawing);
@@ -35,9 +35,8 @@ nb::object drawPoints(const std::string& path, const RawFile& raw, std::uint64_t
   try
   {
     const nb::gil_scoped_release unlocked;
-    const PointFile file = raw.numbers.empty()
-      ? PointFile(path)
-      : PointFile(path, raw.numbers == "double", raw.skip);
+    const PointFile file =
+      raw.numbers.empty() ? PointFile(path) : PointFile(path, raw.numbers == "double", raw.skip);
     layout = file.layout();
     const auto count = std::size_t(std::min(wanted, layout.count));
     layout.isDouble ? drawn.doubles.reserve(3 * count) : drawn.floats.reserve(3 * count);

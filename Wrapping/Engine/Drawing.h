@@ -11,7 +11,7 @@ namespace neuralmesh::binding
 /// What a file without a header is.
 struct RawFile
 {
-  std::string numbers; ///< "float" or "double"; empty for a file that has a header
+  std::string numbers;    ///< "float" or "double"; empty for a file that has a header
   std::uint64_t skip = 0; ///< bytes before the first point
 };
 

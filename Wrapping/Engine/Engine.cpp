@@ -34,8 +34,8 @@ namespace neuralmesh::binding
 namespace
 {
 /// What is wrong with the mesh is said behind a text.
-TriangleMesh namedMeshOf(const char* before, const ArrayOf<double>& points,
-  const ArrayOf<std::int64_t>& triangles)
+TriangleMesh namedMeshOf(
+  const char* before, const ArrayOf<double>& points, const ArrayOf<std::int64_t>& triangles)
 {
   try
   {
@@ -200,8 +200,8 @@ void bindMeasures(nb::module_& module)
       const ArrayOf<std::int64_t>& triangles, double leastPiece, nb::object progress)
     {
       Call call(std::move(progress));
-      nb::object explained = explain(points,
-        namedMeshOf("The mesh cannot be used: ", meshPoints, triangles), leastPiece, call);
+      nb::object explained = explain(
+        points, namedMeshOf("The mesh cannot be used: ", meshPoints, triangles), leastPiece, call);
       call.rethrow();
       return explained;
     },

@@ -103,9 +103,9 @@ void Run::learn(Plan plan, Call& call)
   GrowthWatch watch;
   if (plan.snapshots > 0)
   {
-    watch = { plan.snapshots,
-      [&](const GrowthSnapshot& snapshot)
-      { call.with([&] { plan.takeSnapshot(meshOf(snapshot, true)); }); } };
+    watch = { plan.snapshots, [&](const GrowthSnapshot& snapshot) {
+               call.with([&] { plan.takeSnapshot(meshOf(snapshot, true)); });
+             } };
   }
   const Progress progress = call.part(begin, plan.endOfMesh);
   try
@@ -204,8 +204,8 @@ nb::dict Run::votes() const
     std::transform(votes_->votes.begin(), votes_->votes.end(), shares.begin(),
       [&](std::uint8_t count) { return float(count) / float(votes_->voters); });
     result["values"] = arrayOf(std::move(shares));
-    result["origin"] = nb::make_tuple(
-      votes_->grid.first.x(), votes_->grid.first.y(), votes_->grid.first.z());
+    result["origin"] =
+      nb::make_tuple(votes_->grid.first.x(), votes_->grid.first.y(), votes_->grid.first.z());
     result["spacing"] = votes_->grid.width;
   }
   return result;
@@ -285,8 +285,8 @@ nb::object Run::vote(const ArrayOf<std::uint32_t>& kinds) const
   std::vector<std::uint32_t> winners;
   {
     const nb::gil_scoped_release unlocked;
-    winners = voteForKinds(*places_,
-      [&](std::uint32_t point) { return std::to_string(kinds.data()[point]); });
+    winners = voteForKinds(
+      *places_, [&](std::uint32_t point) { return std::to_string(kinds.data()[point]); });
   }
   return arrayOf(std::move(winners));
 }
