@@ -55,7 +55,7 @@ endif ()
 if (NEURALMESH_BUNDLE_VIEWER AND is_viewer)
   set(NEURALMESH_HAS_VIEWER ON CACHE INTERNAL "")
   install(FILES "${viewer}" "${viewer}.LICENSE"
-    DESTINATION "${destination}/neuralmesh/batch/page" COMPONENT python)
+    DESTINATION "${viewer_destination}" COMPONENT python)
 else ()
   set(NEURALMESH_HAS_VIEWER OFF CACHE INTERNAL "")
   file(REMOVE "${viewer}" "${viewer}.LICENSE")

@@ -13,7 +13,10 @@ import unittest
 
 import numpy as np
 import support
+from neuralmesh.batch.meshes import DEFAULT_FORMAT
 
+# Without VTK there are no .vtp files, and no pictures.
+HAS_VTK = DEFAULT_FORMAT == "vtp"
 DOCUMENTATION = pathlib.Path(__file__).parents[2] / "Documentation"
 BROKEN_PLY = """ply
 format ascii 1.0
@@ -66,6 +69,7 @@ class BatchTest(unittest.TestCase):
         """The recipe of the documentation, with two scans that are sound and one that is not."""
         text = (DOCUMENTATION / "Batch.md").read_text(encoding="utf-8")
         example = json.loads(re.search(r"```json[^\n]*\n(.*?)```", text, re.DOTALL).group(1))
+        example["format"] = DEFAULT_FORMAT
         cls.write_recipe(**{**example, **changes})
         write_scan(cls.folder / "scans" / "ball.xyz")
         write_scan(cls.folder / "scans" / "egg.xyz", size=1.5)
@@ -89,4 +93,4 @@ class BatchTest(unittest.TestCase):
 
     def times(self):
         """When each mesh was written, by its name."""
-        return {path.stem: path.stat().st_mtime_ns for path in self.results.glob("[!.]*.vtp")}
+        return {path.stem: path.stat().st_mtime_ns for path in self.results.glob(f"[!.]*.{DEFAULT_FORMAT}")}

@@ -6,11 +6,8 @@ import subprocess
 import textwrap
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
-from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 
+# VTK is imported where it is needed: what pip installs is tested without, too.
 # Seconds in which a process that takes a few of them must have hung, however busy the machine is.
 HANGING = 900
 
@@ -23,6 +20,9 @@ def sphere(count=2000, dtype=np.float64):
 
 def point_set(array):
     """A vtkPolyData with the points, made without the package, of 8-byte floats."""
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+
     points = vtkPoints()
     points.SetDataTypeToDouble()
     for point in array:
@@ -32,28 +32,60 @@ def point_set(array):
     return dataset
 
 
+def is_array_mesh(mesh):
+    """Whether it is a neuralmesh.Mesh, and not of VTK."""
+    return not hasattr(mesh, "GetPointData")
+
+
 def arrays_of(mesh):
     """The bytes of the points, the triangles and the point data of a mesh."""
+    if is_array_mesh(mesh):
+        data = [mesh.point_data[name] for name in sorted(mesh.point_data)]
+        return [np.ascontiguousarray(part).tobytes() for part in (mesh.points, mesh.triangles, *data)]
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
     parts = [mesh.GetPoints().GetData(), mesh.GetPolys().GetConnectivityArray()]
-    parts += [mesh.GetPointData().GetArray(i) for i in range(mesh.GetPointData().GetNumberOfArrays())]
+    data = mesh.GetPointData()
+    arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
+    parts += sorted(arrays, key=lambda array: array.GetName())
     return [vtk_to_numpy(part).tobytes() for part in parts]
 
 
 def coordinates(mesh):
+    if is_array_mesh(mesh):
+        return mesh.points
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
     return vtk_to_numpy(mesh.GetPoints().GetData())
 
 
+def triangles(mesh):
+    """The points of each triangle, of shape (T, 3)."""
+    if is_array_mesh(mesh):
+        return mesh.triangles
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    return vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+
+
+def field(mesh, name):
+    """The first value of an array of the field data."""
+    if not is_array_mesh(mesh):
+        return mesh.GetFieldData().GetAbstractArray(name).GetValue(0)
+    value = mesh.field_data[name]
+    return value[0] if isinstance(value, list) else value
+
+
 def stop_reason(mesh):
-    return mesh.GetFieldData().GetAbstractArray("StopReason").GetValue(0)
+    return field(mesh, "StopReason")
 
 
 def is_closed_manifold(mesh):
     """Whether every edge has two triangles."""
-    edges = vtkFeatureEdges()
-    edges.SetInputData(mesh)
-    edges.FeatureEdgesOff()
-    edges.Update()
-    return mesh.GetNumberOfPolys() > 0 and edges.GetOutput().GetNumberOfCells() == 0
+    corners = triangles(mesh)
+    edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+    _, counts = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
+    return len(corners) > 0 and bool((counts == 2).all())
 
 
 def start_script(script):

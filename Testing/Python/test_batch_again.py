@@ -11,7 +11,7 @@ import unittest
 import neuralmesh
 import support
 from batch_testing import BatchTest, start, write_scan
-from neuralmesh.batch.meshes import write_mesh
+from neuralmesh.batch.meshes import DEFAULT_FORMAT, write_mesh
 
 
 class Again(BatchTest):
@@ -37,8 +37,8 @@ class Again(BatchTest):
         self.assert_written_again(before, lambda name: name.startswith("egg"))
 
         before = self.times()
-        (self.results / "ball_vertices-200_seed-1.vtp").unlink()
-        os.truncate(self.results / "ball_vertices-200_seed-2.vtp", 1000)
+        (self.results / f"ball_vertices-200_seed-1.{DEFAULT_FORMAT}").unlink()
+        os.truncate(self.results / f"ball_vertices-200_seed-2.{DEFAULT_FORMAT}", 1000)
         report = self.report("ball_vertices-800_seed-1")
         report["version"] = "0.0.1"
         (self.results / "ball_vertices-800_seed-1.json").write_text(json.dumps(report), "utf-8")
@@ -84,9 +84,9 @@ class Changed(BatchTest):
 
     # Promise: a job is done again if its first mesh has changed, and only then.
     def test_first_mesh(self):
-        first = self.folder / "first.vtp"
+        first = self.folder / f"first.{DEFAULT_FORMAT}"
         write_mesh(neuralmesh.reconstruct(support.sphere(), 50), first)
-        matrix = {"vertices": 100, "first_mesh": [None, "first.vtp"]}
+        matrix = {"vertices": 100, "first_mesh": [None, first.name]}
         self.write_recipe(scans=["ball.xyz"], matrix=matrix)
         self.run_batch()
         self.assertIn("2 of 2 jobs were done before", self.run_batch()[0])
@@ -136,7 +136,7 @@ class Ends(BatchTest):
         self.assertLess(len(done), 8)
         for name in done:
             self.assertEqual(self.report(name)["result"]["vertices"], 8000)
-        (self.results / ".ball_seed-8.1.part.vtp").write_text("half of a mesh", encoding="utf-8")
+        (self.results / f".ball_seed-8.1.part.{DEFAULT_FORMAT}").write_text("half of a mesh", encoding="utf-8")
 
         output, errors, status = self.run_batch("--processes", 2)
         self.assertEqual((errors, status), ("", 0))

@@ -131,6 +131,10 @@ class Errors(unittest.TestCase):
             "WinnerRate": "did you mean winner_rate? ",
             "edge_flip": "did you mean edge_flips? ",
             "ensmble": "did you mean ensemble? ",
+            "n_points": "did you mean vertices? ",
+            "target_number_of_triangles": "did you mean vertices? They are about half as many as triangles. ",
+            "random_state": "did you mean seed? ",
+            "n_threads": "did you mean number_of_threads? ",
             "parameter": "",
             "xyzzy": "",
         }

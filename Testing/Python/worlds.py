@@ -244,7 +244,7 @@ def polygons(*cells):
 def stale():
     """Field data that a mesh before has left."""
     data = rich()
-    for name in ("Noise", "Warnings", "Seed", "Kept"):
+    for name in ("Noise", "Warnings", "Seed", "Genus", "Volume", "Kept"):
         array = numpy_to_vtk(np.array([7.0]), deep=True)
         array.SetName(name)
         data.GetFieldData().AddArray(array)
@@ -470,10 +470,13 @@ CASES = {
     "explanation_bad": lambda: measured("vtkNeuralMeshExplanation", {},
                                         (rich(), polygons([0, 1, 99]))),
     "information": lambda: measured("vtkNeuralMeshInformation", {}, (sphere_mesh(),)),
+    "information_stale": lambda: measured("vtkNeuralMeshInformation", {}, (stale(),)),
+    "information_unsound": lambda: measured("vtkNeuralMeshInformation", {},
+                                            (polygons([0, 1, 2], [1, 0, 3], [0, 1, 4]),)),
+    "information_empty": lambda: measured("vtkNeuralMeshInformation", {}, (vtkPolyData(),)),
+    "information_bad": lambda: measured("vtkNeuralMeshInformation", {}, (polygons([0, 1, 99]),)),
     "information_open": lambda: measured("vtkNeuralMeshInformation", {},
                                          (polygons([0, 1, 2], [0, 1, 3], [0, 1, 4], [5, 6, 7, 8]),)),
-    "information_bad": lambda: measured("vtkNeuralMeshInformation", {}, (polygons([0, 1, 99]),)),
-    "information_empty": lambda: measured("vtkNeuralMeshInformation", {}, (vtkPolyData(),)),
     "scan": lambda: measured("vtkNeuralMeshScan", {
         "NumberOfPoints": 3000, "Noise": 0.01, "Outliers": 0.1, "Holes": 2, "Occlusion": 1,
         "Viewpoint": (0, 0, 9)}, (sphere_mesh(),)),

@@ -29,8 +29,7 @@ void Call::tell(double fraction)
 
 Progress Call::part(double begin, double end)
 {
-  return [this, begin, end](double fraction)
-  { return report(begin + fraction * (end - begin)); };
+  return [this, begin, end](double fraction) { return report(begin + fraction * (end - begin)); };
 }
 
 void Call::rethrow()

@@ -254,6 +254,7 @@ void bindFiles(nb::module_& module)
     },
     "path"_a, "wanted"_a, "seed"_a, "progress"_a.none(), "raw"_a = "", "skip"_a = 0);
   module.def("read_points", &readPoints, "path"_a);
+  module.def("read_guarded", &readGuarded, "path"_a, "read"_a);
   module.def("write_mesh", &writeSurface, "path"_a, "points"_a, "triangles"_a, "normals"_a.none(),
     "colors"_a.none(), "shift"_a.none(), "noted"_a);
   module.def("require_digits", &requireDigitsFor, "path"_a, "points"_a, "vertices"_a, "shift"_a);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files.h"
 
+#include "ReadingGuard.h"
+
 #include "base/AtomicFile.h"
 #include "cloud/PlyContents.h"
 #include "file/JoinedViews.h"
@@ -138,6 +140,12 @@ nb::dict readPoints(const std::string& path)
   return result;
 }
 
+nb::object readGuarded(const std::string& path, const nb::callable& read)
+{
+  const ReadingGuard guard(path);
+  return read(path);
+}
+
 Vector writeSurface(const std::string& path, const AnyArray& points,
   const ArrayOf<std::int64_t>& triangles, const std::optional<ArrayOf<float>>& normals,
   const std::optional<ArrayOf<std::uint8_t>>& colors, std::optional<Vector> shift, Vector noted)
@@ -174,12 +182,8 @@ void writeWhole(const std::string& path, const nb::bytes& content)
 {
   const std::string bytes(content.c_str(), content.size());
   const nb::gil_scoped_release unlocked;
-  asBadInput(
-    [&]
-    {
-      writeAtomicFile(
-        path, [&](const std::string& temporary) { writeText(bytes, temporary); });
-    });
+  asBadInput([&]
+    { writeAtomicFile(path, [&](const std::string& temporary) { writeText(bytes, temporary); }); });
 }
 
 nb::dict joinViews(

@@ -17,6 +17,11 @@ using Vector = std::tuple<double, double, double>;
 /// std::invalid_argument with a text that begins with the path.
 nanobind::dict readPoints(const std::string& path);
 
+/// What a function makes of the path of a file, whatever the file does to it: where that would end the
+/// process, takes very long or very much memory, the process ends with status 1 and a message that names the
+/// file. Meanwhile nothing is printed on stderr. For the command alone.
+nanobind::object readGuarded(const std::string& path, const nanobind::callable& read);
+
 /// Writes points of shape (N, 3), with triangles, normals and colours if there are some; what has been taken
 /// off the coordinates, with `noted`, which was taken off before. Throws std::invalid_argument likewise.
 Vector writeSurface(const std::string& path, const AnyArray& points,

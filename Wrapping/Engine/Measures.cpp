@@ -118,8 +118,8 @@ nb::dict report(TriangleMesh mesh)
   result["components"] = surface.components;
   result["genus"] = orNone(surface.genus);
   result["boundary_loops"] = surface.boundaryLoops;
-  result["folded_edges"] = surface.foldedEdges;
   result["boundary_edges"] = surface.boundaryEdges;
+  result["folded_edges"] = surface.foldedEdges;
   result["non_manifold_edges"] = surface.nonManifoldEdges;
   result["non_manifold_vertices"] = surface.nonManifoldVertices;
   result["inconsistent_edges"] = surface.inconsistentEdges;
@@ -141,8 +141,8 @@ std::tuple<double, double, double> estimate(double vertices, double points, doub
     const double* row = growth.data() + i;
     rows.push_back({ row[0], row[1], row[2] });
   }
-  const RunEstimate found =
-    estimateRun({ vertices, points, bytesOfPoints, samplesForFeatures, isEnsemble }, rows, secondsOfTrial);
+  const RunEstimate found = estimateRun(
+    { vertices, points, bytesOfPoints, samplesForFeatures, isEnsemble }, rows, secondsOfTrial);
   return { found.bytes, found.samples, found.seconds };
 }
 }

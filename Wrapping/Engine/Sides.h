@@ -12,7 +12,7 @@ namespace neuralmesh::binding
 /// What a user knows of the outer side, in arrays that outlive the run.
 struct Sides
 {
-  ArrayOf<double> viewpoints;                ///< of shape (V, 3)
+  ArrayOf<double> viewpoints;                  ///< of shape (V, 3)
   std::optional<ArrayOf<std::uint32_t>> views; ///< of shape (N,)
   std::optional<ArrayOf<double>> normals;      ///< of shape (N, 3)
   std::optional<ArrayOf<double>> up;           ///< of shape (3,)

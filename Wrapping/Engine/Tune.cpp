@@ -66,7 +66,7 @@ nb::object tuneFor(
     {
       throw std::invalid_argument(spans.empty() ? "there are no points in it"
           : cloud.points().empty()              ? "no point of it is finite"
-                                   : "there are no two points apart from each other");
+                                                : "there are no two points apart from each other");
     }
     tuning = tune(cloud, wanted, call.part(0., 1.), executor);
   }

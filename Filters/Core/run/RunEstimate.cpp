@@ -26,8 +26,8 @@ RunEstimate estimateRun(
   const PlannedRun& run, std::span<const GrowthRow> growth, double secondsOfTrial)
 {
   RunEstimate estimate;
-  estimate.bytes = BytesOfProgram + run.bytesOfPoints + BytesPerPoint * run.points +
-    BytesPerVertex * run.vertices;
+  estimate.bytes =
+    BytesOfProgram + run.bytesOfPoints + BytesPerPoint * run.points + BytesPerVertex * run.vertices;
   if (growth.size() < 2)
   {
     return estimate;
@@ -47,8 +47,7 @@ RunEstimate estimateRun(
   const double samplesLeft = left * iterations / std::max(1., vertices) + run.samplesForFeatures;
   const double slowdown =
     1. + SlowdownPerDoubling * std::max(0., std::log2(run.vertices / VerticesInCache));
-  const double secondsLeft =
-    samplesLeft * slowdown * (last.seconds - middle.seconds) / iterations;
+  const double secondsLeft = samplesLeft * slowdown * (last.seconds - middle.seconds) / iterations;
   estimate.samples = last.iterations + samplesLeft;
   estimate.seconds = (run.isEnsemble ? secondsOfTrial : last.seconds) + secondsLeft;
   return estimate;

@@ -22,20 +22,19 @@ _WORDS_OF_OTHERS = {
         "targetnumberofpoints", "targetvertnum", "targetverts", "nclus",
     ),
     "seed": ("randomstate", "randomseed", "rng"),
-    "samples": ("nsamples", "samplenum", "numsamples", "numberofsamples", "npoints"),
     "ensemble": ("numberofmembers", "nmembers", "members"),
     "progress": ("progressbar", "callback", "progresscallback"),
     "number_of_threads": ("threads", "nthreads", "numthreads", "njobs", "workers"),
     "time_limit": ("timeout", "maxtime", "maxseconds", "seconds"),
     "first_mesh": ("initialmesh", "init", "template", "initmesh"),
     "viewpoints": (
-        "viewpos", "cameralocation", "cameraposition", "sensororigin", "scannerposition", "pov",
+        "viewpos", "cameralocation", "cameraposition", "sensororigin",
     ),
-    "up": ("updirection", "orientationreference", "viewup", "zup"),
+    "up": ("updirection", "orientationreference", "viewup"),
     "weights": ("confidence", "weightarray"),
     "close_holes_below": ("holesize", "maxholesize", "fillholes"),
     "fit_smoothness": ("smooth", "smoothing"),
-    "carry_point_data": ("passpointdata", "passdata", "transferattributes"),
+    "carry_point_data": ("passpointdata",),
 }  # fmt: skip
 _WORDS_FOR_TRIANGLES = (
     "nfaces", "ncells", "ntriangles", "numtriangles", "numfaces", "targetfaces", "targetfacenum",

@@ -58,9 +58,12 @@ def read_points(path: Path) -> Mesh:
     if not path.is_file():
         raise ValueError("this is no regular file")
     try:
-        return files.read(path)
+        points = files.read(path)
     except ValueError as error:
         raise ValueError(_without(str(path), error)) from None
+    if len(points.points) == 0:
+        raise ValueError("there are no points in it")
+    return points
 
 
 def read_mesh(path: Path) -> Mesh:

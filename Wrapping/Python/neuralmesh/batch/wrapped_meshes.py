@@ -44,7 +44,7 @@ FORMATS = ("vtp", "ply", "obj", "stl", "glb", "off", "vtk")
 DEFAULT_FORMAT = "vtp"
 
 
-def problem_of_format(_mesh_format: str) -> str:
+def problem_of_format(mesh_format: str) -> str:
     """Why meshes cannot be written in one of the FORMATS; empty, as they can."""
     return ""
 
@@ -221,6 +221,8 @@ def _require_end(path: Path, extension: str) -> None:
 
 
 _ENDS = {".vtp": b"</VTKFile>", ".vtu": b"</VTKFile>", ".stl": b"endsolid"}
+
+
 def counts_of(mesh: Any) -> tuple[int, int]:
     """How many points and triangles there are."""
     return mesh.GetNumberOfPoints(), mesh.GetNumberOfPolys() if mesh.IsA("vtkPolyData") else 0

@@ -85,7 +85,9 @@ def _print_table(options: Any, found: Comparison) -> None:
 
 
 def _parser() -> Parser:
-    result = Parser("compare", "Tell how far a mesh is from a reference", "REFERENCE RESULT", _FOOTER)
+    result = Parser(
+        "compare", "Tell how far a mesh is from a reference", "REFERENCE RESULT", _FOOTER
+    )
     result.add_argument("reference", metavar="REFERENCE", help=f"The true surface: {MESHES}")
     result.add_argument(
         "result", metavar="RESULT", help="The mesh to judge, in the same coordinates"

@@ -8,7 +8,9 @@ from typing import Any, Sequence
 from ..engine import files
 from ..engine.cloud import as_cloud
 from ..engine.measures import NeuralMeshExplanation
-from .names import MESHES, POINTS, NamedFile, read_mesh, require_distinct, require_explanation
+from .names import (
+    MESHES, POINTS, NamedFile, read_mesh, read_points, require_distinct, require_explanation,
+)  # fmt: skip
 from .parsing import Parser, number_from, plain
 from .run_report import print_reasons
 
@@ -34,7 +36,7 @@ def run(arguments: Sequence[str]) -> int:
         ]
     )
     require_explanation("OUTPUT", options.output)
-    points, mesh = files.read(options.input), read_mesh(options.mesh)
+    points, mesh = read_points(options.input), read_mesh(options.mesh)
     if len(points.points) == 0:
         raise ValueError(f"{options.input}: there are no points in it")
     explanation: Any = NeuralMeshExplanation()
@@ -60,7 +62,10 @@ def _print_pieces(fields: dict[str, Any]) -> None:
 
 def _parser() -> Parser:
     result = Parser(
-        "explain", "Tell of each point how far it is from a mesh, and why", "INPUT MESH OUTPUT", _FOOTER
+        "explain",
+        "Tell of each point how far it is from a mesh, and why",
+        "INPUT MESH OUTPUT",
+        _FOOTER,
     )
     result.add_argument("input", metavar="INPUT", help=POINTS)
     result.add_argument(

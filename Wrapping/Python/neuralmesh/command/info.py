@@ -113,7 +113,9 @@ def _valences(found: dict[str, Any]) -> str:
 
 
 def _parser() -> Parser:
-    result = Parser("info", "Tell whether meshes are sound, and how good they are", "MESH...", _FOOTER)
+    result = Parser(
+        "info", "Tell whether meshes are sound, and how good they are", "MESH...", _FOOTER
+    )
     result.add_argument("meshes", nargs="+", metavar="MESH", help=f"Meshes: {MESHES}")
     result.add_flag("--json", "Print a JSON object for each mesh, on a line of its own")
     return result

@@ -10,6 +10,7 @@ import numpy as np
 from .. import _engine
 from ..engine import files
 from ..engine.mesh import Mesh
+from .names import read_points
 
 _VIEW, _VIEWPOINTS, _MISSING = "View", "Viewpoints", "MissingReturns"
 _NO_VIEW = 2**32 - 1
@@ -23,7 +24,7 @@ def read_inputs(paths: list[str], given_viewpoints: int, view_array: str) -> Mes
     or scans in a single one, are one for each; otherwise no point is told apart, unless an array is
     named for that, or all files have `View` and no viewpoints of their own.
     """
-    parts = [files.read(path) for path in paths]
+    parts = [read_points(path) for path in paths]
     seen = [_views_of(part) for part in parts]
     points = parts[0] if len(parts) == 1 else _joined(parts)
     if given_viewpoints > 0:
@@ -74,9 +75,7 @@ def _is_like(array: Any, first: np.ndarray) -> bool:
     return array is not None and array.dtype == first.dtype and array.shape[1:] == first.shape[1:]
 
 
-def _apply_given(
-    points: Mesh, seen: list[tuple[int, np.ndarray, np.ndarray]], wanted: int
-) -> None:
+def _apply_given(points: Mesh, seen: list[tuple[int, np.ndarray, np.ndarray]], wanted: int) -> None:
     scans = sum(len(viewpoints) for _, viewpoints, _ in seen)
     are_of_files = all(
         len(viewpoints) == 0 and len(views) == count for count, viewpoints, views in seen

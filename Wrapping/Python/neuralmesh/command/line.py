@@ -39,9 +39,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if words[0] not in _subcommands():
         unknown = words[0].startswith("-")
         print(
-            f"The following argument was not expected: {words[0]}"
-            if unknown
-            else "A subcommand is required",
+            (
+                f"The following argument was not expected: {words[0]}"
+                if unknown
+                else "A subcommand is required"
+            ),
             "Run with --help for more information.",
             sep="\n",
             file=sys.stderr,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from .. import _engine
 from ..engine import files
+from ..engine.mesh import Mesh
 from .parsing import UsageError
 
 POINTS = "Points: .ply .stl .obj .off .pcd .pwn .ptx .npy, or text: .xyz .pts .txt .csv; .vtp .vtk .vtu by VTK; .las .laz .e57 with neuralmesh[lidar]"  # fmt: skip
@@ -56,10 +57,20 @@ def require_explanation(option: str, path: str) -> None:
     _engine.require_place(path)
 
 
-def read_mesh(path: str) -> files.Mesh:
+def read_points(path: str) -> Mesh:
+    """Points, or a mesh. Readers of VTK may end the process where a file is damaged: not without words."""
+    if files.extension_of(path) in files.BY_VTK and os.path.isfile(path):
+        return _engine.read_guarded(path, files.read)
+    return files.read(path)
+
+
+def read_mesh(path: str) -> Mesh:
     """A mesh; ValueError for points."""
     if files.extension_of(path) not in _MESHES:
         raise ValueError(
             f"{path}: no mesh is read from this extension; readable are {' '.join(_MESHES)}"
         )
-    return files.read_mesh(path)
+    mesh = read_points(path)
+    if len(mesh.triangles) == 0:
+        raise ValueError(f"{path}: there are no triangles in it")
+    return mesh

@@ -61,7 +61,9 @@ class Parser(argparse.ArgumentParser):
             word = rest.pop(0)
             if word == "--":
                 return [*joined, word, *rest]
-            is_followed = bool(rest) and rest[0].partition("=")[0] not in self._option_string_actions
+            is_followed = (
+                bool(rest) and rest[0].partition("=")[0] not in self._option_string_actions
+            )
             if word in with_value and is_followed:
                 word += "=" + rest.pop(0)
             joined.append(word)
@@ -101,7 +103,9 @@ class Parser(argparse.ArgumentParser):
                 raise argparse.ArgumentTypeError(f"{word} is none of {'|'.join(words)}")
             return list(words).index(word)
 
-        self.add_argument(option, type=value_of, default=default, metavar="|".join(words), help=text)
+        self.add_argument(
+            option, type=value_of, default=default, metavar="|".join(words), help=text
+        )
 
     def add_text(self, option: str, text: str, metavar: str, **more: Any) -> None:
         """An option that takes anything."""
@@ -167,7 +171,9 @@ def described_words(texts: dict[str, str], default: str) -> str:
     """Words, and what each stands for."""
     # A word may say itself that it is the default.
     return "; ".join(
-        word + (" (default)" if word == default != "default" else "") + (f": {text}" if text else "")
+        word
+        + (" (default)" if word == default != "default" else "")
+        + (f": {text}" if text else "")
         for word, text in texts.items()
     )
 

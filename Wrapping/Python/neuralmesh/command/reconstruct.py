@@ -4,25 +4,27 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import signal
+import sys
+import threading
 import time
 from typing import Any, Iterator, Sequence
-
-import contextlib
-import sys
 
 import numpy as np
 
 from .. import _engine
 from ..engine import files
-from ..engine.cloud import Block, Cloud, as_cloud
+from ..engine.cloud import as_cloud
 from ..engine.mesh import Mesh
 from ..engine.reconstruction import NeuralMesh, NeuralMeshEnsemble, Outcome
 from . import settings
 from .estimate import print_estimate
 from .inputs import read_inputs
-from .names import NamedFile, read_mesh, require_distinct, require_explanation, require_output
-from .parsing import UsageError, property_of, three_numbers, words_of
+from .names import (
+    NamedFile, read_mesh, read_points, require_distinct, require_explanation, require_output,
+)  # fmt: skip
+from .parsing import UsageError, three_numbers, words_of
 from .progress_bar import ProgressBar
 from .reconstruct_options import parser
 from .run_report import Drawn, Seconds, print_run
@@ -86,7 +88,7 @@ def _names(options: argparse.Namespace) -> tuple[list[str], str]:
     return inputs, output
 
 
-def _filter_of(options: argparse.Namespace) -> NeuralMesh:
+def _filter_of(options: argparse.Namespace) -> Any:
     mesh: Any = NeuralMesh()
     if options.ensemble:
         mesh = NeuralMeshEnsemble()
@@ -130,7 +132,7 @@ def _tell_sides(mesh: Any, options: argparse.Namespace) -> None:
         raise UsageError("--view-array: this goes with --views or --viewpoint only")
     mesh.SetViewArrayName(options.view_array)
     if options.views:
-        places = files.read(options.views).points
+        places = read_points(options.views).points
         if len(places) == 0:
             raise ValueError(f"{options.views}: there are no places in it")
         for place in places:
@@ -255,11 +257,14 @@ def _interruption() -> Iterator[Any]:
         nonlocal interrupted
         interrupted = True
 
-    before = signal.signal(signal.SIGINT, note)
+    # Of signals only the main thread hears.
+    is_main = threading.current_thread() is threading.main_thread()
+    before = signal.signal(signal.SIGINT, note) if is_main else None
     try:
         yield lambda: interrupted
     finally:
-        signal.signal(signal.SIGINT, before)
+        if is_main:
+            signal.signal(signal.SIGINT, before)
 
 
 def _table_of(curve: dict[str, np.ndarray]) -> bytes:

@@ -39,7 +39,9 @@ class _ReconstructParser(Parser):
     def parse(self, arguments: Sequence[str]) -> argparse.Namespace:
         options = super().parse(arguments)
         if len(options.files) < 2:
-            self.error(f"the following arguments are required: {'OUTPUT' if options.files else 'INPUT'}")
+            self.error(
+                f"the following arguments are required: {'OUTPUT' if options.files else 'INPUT'}"
+            )
         if options.initial and options.ensemble:
             self.error("--initial excludes --ensemble")
         if options.views and options.viewpoint:
@@ -68,7 +70,10 @@ def parser() -> Parser:
         "(.vtp .vtk by VTK); another file than all others",
     )
     result.add_number(
-        "--vertices", "NumberOfVertices", f"Vertices of the mesh, {described('NumberOfVertices')}", "N"
+        "--vertices",
+        "NumberOfVertices",
+        f"Vertices of the mesh, {described('NumberOfVertices')}",
+        "N",
     )
     result.add_number(
         "--seed", "Seed",
@@ -90,9 +95,7 @@ def parser() -> Parser:
     ):
         default = int(property_of(name).default) if name else 0
         words = list(texts)
-        result.add_choice(
-            option, words, default, before + described_words(texts, words[default])
-        )
+        result.add_choice(option, words, default, before + described_words(texts, words[default]))
     result.add_text(
         "--weights",
         "Trust the points by this point array of INPUT: weights from 0 on, of which ratios count",

@@ -29,9 +29,7 @@ class Drawn:
     seconds: float
 
 
-def print_run(
-    run: Any, mesh: Mesh, points: Mesh, drawn: Drawn | None, seconds: Seconds
-) -> None:
+def print_run(run: Any, mesh: Mesh, points: Mesh, drawn: Drawn | None, seconds: Seconds) -> None:
     """How the run went, and what the mesh is worth."""
     fields = mesh.field_data
     _print_points(points, drawn, fields)

@@ -57,9 +57,7 @@ def shown(value: float, one: Property) -> str:
 
 
 def _line(name: str, default: str, ends: str, text: str) -> str:
-    return (
-        f"  {name:{_NAME_WIDTH}}{default:{_DEFAULT_WIDTH}} {ends:{_RANGE_WIDTH - 1}}{text}\n"
-    )
+    return f"  {name:{_NAME_WIDTH}}{default:{_DEFAULT_WIDTH}} {ends:{_RANGE_WIDTH - 1}}{text}\n"
 
 
 def _words(one: Property) -> list[str]:

@@ -7,9 +7,8 @@ import json
 from typing import Any, Sequence
 
 from .. import _engine
-from ..engine import files
 from ..engine.cloud import as_points
-from .names import POINTS
+from .names import POINTS, read_points
 from .parsing import Parser, described
 
 _FOOTER = (
@@ -23,7 +22,7 @@ _FOOTER = (
 def run(arguments: Sequence[str]) -> int:
     """Choose the parameters for a point cloud; the exit status."""
     options = _parser().parse(arguments)
-    points = files.read(options.input).points
+    points = read_points(options.input).points
     parameters = {
         "NumberOfVertices": options.vertices,
         "Seed": options.seed,
@@ -66,7 +65,9 @@ def _print(options: Any, tuning: dict[str, Any]) -> None:
 
 
 def _parser() -> Parser:
-    result = Parser("tune", "Choose the parameters for a point cloud, and say why", "INPUT", _FOOTER)
+    result = Parser(
+        "tune", "Choose the parameters for a point cloud, and say why", "INPUT", _FOOTER
+    )
     result.add_argument("input", metavar="INPUT", help=POINTS)
     result.add_number(
         "--vertices", "NumberOfVertices",

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import io
 import os
-from typing import Any, Callable, Sequence
+from typing import Any, Callable
 
 import numpy as np
 
@@ -15,8 +15,6 @@ from .. import _engine
 from .._kinds import vtk_package
 from .cloud import as_points
 from .mesh import Mesh
-
-Shift = "Sequence[float] | str | None"
 
 _BY_ENGINE = (
     ".ply", ".stl", ".obj", ".off", ".pcd", ".pwn", ".ptx", ".xyz", ".pts", ".txt", ".csv",
@@ -64,14 +62,6 @@ def read(path: str | os.PathLike[str]) -> Mesh:
         kind = "a folder" if os.path.isdir(name) else "no regular file"
         raise OSError(f"{name}: this is {kind}")
     return _reader_of(name)(name)
-
-
-def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """The same with triangles. ValueError if there are none."""
-    mesh = read(path)
-    if len(mesh.triangles) == 0:
-        raise ValueError(f"{os.fspath(path)}: there are no triangles in it")
-    return mesh
 
 
 def write_mesh(mesh: Mesh, path: str | os.PathLike[str], shift: Any = None) -> tuple[float, ...]:
@@ -134,14 +124,21 @@ def require_digits(points: np.ndarray, vertices: int, path: str, shift: Any = No
 def colors_of(mesh: Mesh) -> np.ndarray | None:
     """The colours of the vertices, bytes of shape (N, 3), or None."""
     colors = mesh.point_data.get(mesh.scalars)
-    if colors is None or colors.dtype != np.uint8 or colors.ndim != 2 or colors.shape[1] not in (3, 4):
+    if (
+        colors is None
+        or colors.dtype != np.uint8
+        or colors.ndim != 2
+        or colors.shape[1] not in (3, 4)
+    ):
         return None
     return colors[:, :3]
 
 
 def missing_package(path: str, what: str, package: str) -> ValueError:
     """The error that names what to install."""
-    return ValueError(f"{path}: {extension_of(path)} files are read by {what}: pip install {package}")
+    return ValueError(
+        f"{path}: {extension_of(path)} files are read by {what}: pip install {package}"
+    )
 
 
 def _reader_of(path: str) -> Callable[[str], Mesh]:
@@ -192,7 +189,9 @@ def _read_npy(path: str) -> Mesh:
             content = np.load(file, allow_pickle=False)
         points = as_points(content)
     except (ValueError, EOFError, MemoryError, SyntaxError, TypeError) as error:
-        raise ValueError(f"{path}: no .npy of numbers of shape (N, 3), or damaged: {error}") from None
+        raise ValueError(
+            f"{path}: no .npy of numbers of shape (N, 3), or damaged: {error}"
+        ) from None
     return Mesh(points, np.empty((0, 3), dtype=np.int64))
 
 

@@ -84,6 +84,15 @@ class vtkEngineAlgorithm(VTKPythonAlgorithmBase):
         )
         return self.GetInputDataObject(port, 0) if is_there else None
 
+    def GetPolyDataInput(self, port: int = 0) -> Any:
+        """The same, where it is a vtkPolyData."""
+        data = self.GetInput(port)
+        return data if data is not None and data.IsA("vtkPolyData") else None
+
+    def SetOutput(self, output: Any) -> None:
+        """Have the output of port 0 in this data object."""
+        self.GetExecutive().SetOutputData(0, output)
+
     def SetInputData(self, *arguments: Any) -> None:
         """Set the input: SetInputData(data) or SetInputData(port, data)."""
         port, data = arguments if len(arguments) == 2 else (0, *arguments)

@@ -123,7 +123,12 @@ def _require_end(path: str) -> None:
 def _has_sound_cells(data: Any) -> bool:
     if not data.IsA("vtkPolyData"):
         return True
-    kinds = ((data.GetVerts(), 1), (data.GetLines(), 2), (data.GetPolys(), 3), (data.GetStrips(), 3))
+    kinds = (
+        (data.GetVerts(), 1),
+        (data.GetLines(), 2),
+        (data.GetPolys(), 3),
+        (data.GetStrips(), 3),
+    )
     return all(_are_sound(cells, fewest, data.GetNumberOfPoints()) for cells, fewest in kinds)
 
 

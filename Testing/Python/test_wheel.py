@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What pip installs, with whatever VTK is beside it, or none. NEURALMESH_WORLD tells what is (none, vtk, pyvista,
+cvista, old, source).
+"""
+
+import importlib.util
+import os
+import subprocess
+import sys
+import tempfile
+import textwrap
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import neuralmesh
+
+WORLD = os.environ.get("NEURALMESH_WORLD", "none")
+HAS_VTK = WORLD not in ("none", "source")
+
+
+def ball(count=4000, dtype=np.float64):
+    """Points on a sphere."""
+    points = np.random.default_rng(1).normal(size=(count, 3))
+    return (points / np.linalg.norm(points, axis=1)[:, None]).astype(dtype)
+
+
+def points_of(mesh):
+    """The points of a mesh, whatever it is."""
+    if isinstance(mesh, neuralmesh.Mesh):
+        return mesh.points
+    from neuralmesh.engine.vtk_arrays import to_numpy
+
+    return to_numpy(mesh.GetPoints().GetData())
+
+
+def run(script, status=0):
+    """What a script prints, in a process of its own."""
+    result = subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(script)], capture_output=True, text=True, check=False
+    )
+    assert result.returncode == status, result.stderr
+    return (result.stdout if status == 0 else result.stderr).strip()
+
+
+class Import(unittest.TestCase):
+    # Promise: neither VTK nor PyVista is imported by the way, so that the import is quick.
+    def test_alone(self):
+        loaded = run("""
+            import sys, neuralmesh
+            print(*sorted({"vtkmodules", "cvista", "pyvista"} & set(sys.modules)))
+        """)
+        self.assertEqual(loaded, "")
+
+    # Promise: it was built without a VTK, and its world is what the test takes it for.
+    def test_world(self):
+        self.assertEqual(neuralmesh.VTK_VERSION, "")
+        names = ("vtkmodules", "cvista")
+        self.assertEqual(any(importlib.util.find_spec(name) for name in names), HAS_VTK)
+
+    # Promise: without NumPy, without its engine, with one of another version it says what to do, in a line.
+    def test_broken(self):
+        for broken, wanted in (
+            ("sys.modules['numpy'] = None", "pip install numpy"),
+            ("sys.modules['neuralmesh._engine'] = None", "compiles it"),
+            ("import types; e = types.ModuleType('e'); e.version, e.__file__ = '0.0.1', 'here';"
+             "sys.modules['neuralmesh._engine'] = e", "two versions lie in one folder"),
+        ):  # fmt: skip
+            with self.subTest(broken):
+                last = run(f"import sys; {broken}; import neuralmesh", 1).splitlines()[-1]
+                self.assertRegex(last, f"^ImportError: neuralmesh .*{wanted}")
+
+    # Promise: the classes for pipelines are there with a VTK, and else say what to install.
+    def test_classes(self):
+        if WORLD == "cvista":
+            return  # they derive from classes of vtkmodules
+        if HAS_VTK:
+            self.assertEqual(neuralmesh.vtkNeuralMesh().GetNumberOfVertices(), 20000)
+        else:
+            with self.assertRaisesRegex(ImportError, "pip install vtk"):
+                neuralmesh.vtkNeuralMesh()
+        with self.assertRaises(AttributeError):
+            neuralmesh.vtkNothing()
+
+
+class Functions(unittest.TestCase):
+    # Promise: arrays in give a mesh out: a vtkPolyData where there is a VTK, else a neuralmesh.Mesh.
+    def test_kinds(self):
+        mesh, explained = neuralmesh.reconstruct(ball(), 300, explain=True)
+        for one in (mesh, explained, neuralmesh.explain(ball(), mesh)):
+            self.assertEqual(isinstance(one, neuralmesh.Mesh), not HAS_VTK)
+        self.assertEqual(len(points_of(mesh)), 300)
+        self.assertEqual(len(points_of(explained)), 4000)
+        self.assertTrue(neuralmesh.info(mesh)["closed"])
+        figures = neuralmesh.compare(mesh, mesh)
+        self.assertLess(figures["reference_to_result"]["rms_percent"], 1e-9)
+
+    # Promise: what makes one cloud gives one mesh, however the array lies; numbers of 4 bytes stay so.
+    def test_layouts(self):
+        cloud = ball()
+        wanted = points_of(neuralmesh.reconstruct(cloud, 300))
+        self.assertEqual(wanted.dtype, np.float64)
+        read_only = cloud.copy()
+        read_only.flags.writeable = False
+        wide = np.zeros((4000, 5))
+        wide[:, :3] = cloud
+        for layout in (np.asfortranarray(cloud), read_only, wide[:, :3], cloud.tolist()):
+            given = points_of(neuralmesh.reconstruct(layout, 300))
+            self.assertEqual(given.tobytes(), wanted.tobytes())
+        self.assertEqual(points_of(neuralmesh.reconstruct(ball(dtype="f4"), 300)).dtype, np.float32)
+
+    # Promise: arrays that are laid out as the engine takes them are not copied.
+    def test_no_copies(self):
+        from neuralmesh.engine.cloud import as_cloud
+
+        for dtype in (np.float32, np.float64):
+            cloud = ball(dtype=dtype)
+            self.assertTrue(np.shares_memory(as_cloud(cloud).blocks[0].points, cloud))
+
+    # Promise: anything but numbers of shape (N, 3) is told in words.
+    def test_bad_arrays(self):
+        for bad in (ball()[:, :2], ball()[0], [["a", "b", "c"]], None, 3, ball().astype(complex)):
+            with self.assertRaisesRegex(ValueError, r"shape \(N, 3\)"):
+                neuralmesh.reconstruct(bad, 300)
+        for empty in (np.empty((0, 3)), np.full((9, 3), np.nan), np.ones((9, 3))):
+            with self.assertRaises(ValueError):
+                neuralmesh.reconstruct(empty, 300)
+
+    # Promise: every way of learning works: variants, orders, ensembles, boundaries, weights, a first mesh.
+    def test_ways(self):
+        cloud = ball()
+        first = neuralmesh.reconstruct(cloud, 100)
+        for ways in (
+            {"variant": "basic"},
+            {"variant": "normal_based"},
+            {"order": "list"},
+            {"preset": "thesis"},
+            {"ensemble": 2},
+            {"boundaries": "close"},
+            {"weights": np.arange(4000.0)},
+            {"first_mesh": first},
+            {"automatic": True},
+            {"viewpoints": [0, 0, 5], "up": [0, 0, 1]},
+        ):
+            with self.subTest(str(list(ways))):
+                self.assertEqual(len(points_of(neuralmesh.reconstruct(cloud, 200, **ways))), 200)
+
+    # Promise: a run is cancelled by progress, ended by what that raises, and goes on from its checkpoint.
+    def test_interrupted(self):
+        cloud, calls = ball(20000), []
+
+        def cancel(fraction):
+            calls.append(fraction)
+            return len(calls) < 3
+
+        self.assertLess(len(points_of(neuralmesh.reconstruct(cloud, 5000, progress=cancel))), 5000)
+        with self.assertRaises(ZeroDivisionError):
+            neuralmesh.reconstruct(cloud, 5000, progress=lambda fraction: 1 / 0)
+        with tempfile.TemporaryDirectory() as folder:
+            checkpoint = Path(folder) / "state"
+            calls.clear()
+            neuralmesh.reconstruct(cloud, 5000, checkpoint=checkpoint, progress=cancel)
+            self.assertTrue(checkpoint.exists())
+            resumed = neuralmesh.reconstruct(cloud, 5000, checkpoint=checkpoint)
+            self.assertFalse(checkpoint.exists())
+        wanted = neuralmesh.reconstruct(cloud, 5000)
+        self.assertEqual(points_of(resumed).tobytes(), points_of(wanted).tobytes())
+
+    # Promise: points in a file are drawn where they lie.
+    def test_file_in_place(self):
+        cloud = ball(dtype="<f4")
+        header = "ply\nformat binary_little_endian 1.0\nelement vertex 4000\n" + "".join(
+            f"property float {name}\n" for name in "xyz"
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "scan.ply"
+            path.write_bytes((header + "end_header\n").encode() + cloud.tobytes())
+            mesh = neuralmesh.reconstruct(path, 300)
+            drawn = neuralmesh.reconstruct(path, 300, maximum_points=1000)
+            self.assertEqual(len(points_of(drawn)), 300)
+        self.assertEqual(
+            points_of(mesh).tobytes(), points_of(neuralmesh.reconstruct(cloud, 300)).tobytes()
+        )
+        with self.assertRaisesRegex(ValueError, "missing.ply"):
+            neuralmesh.reconstruct("missing.ply", 300)
+
+    # Promise: a stream learns while points arrive.
+    def test_stream(self):
+        stream = neuralmesh.stream(300)
+        stream.add_points(ball(), viewpoint=[0, 0, 9])
+        self.assertEqual(stream.learn(60000), 60000)
+        self.assertEqual((stream.points, stream.samples), (4000, 60000))
+        self.assertGreater(len(points_of(stream.mesh())), 200)
+
+
+class Types(unittest.TestCase):
+    # Promise: the hints are sound, and users of the functions are checked by them.
+    def test_mypy(self):
+        if importlib.util.find_spec("mypy") is None:
+            self.skipTest("there is no mypy")
+        with tempfile.TemporaryDirectory() as folder:
+            script = Path(folder) / "script.py"
+            script.write_text("import neuralmesh\nneuralmesh.reconstruct([[0.0]], vertices='many')\n")
+            command = [sys.executable, "-m", "mypy", "--cache-dir", folder, str(script)]
+            told = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
+        self.assertIn('has incompatible type "str"; expected "int"', told.stdout)
+        self.assertIn("Found 1 error", told.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
