@@ -406,7 +406,24 @@ def checkpointed():
         return json.loads(text.replace(folder, ""))
 
 
+def methods():
+    """What the classes can be asked, VTK's own methods of all filters aside."""
+    found = {}
+    for name in ("", "Comparison", "Ensemble", "Explanation", "FileSampler", "Information", "Scan", "Stream"):
+        cls = getattr(neuralmesh, "vtkNeuralMesh" + name)
+        bases = [
+            base for base in cls.__mro__
+            if not base.__module__.startswith("vtkmodules.vtkCommon") or "PolyData" in base.__name__
+        ]
+        found[name] = sorted(
+            {key for base in bases for key, value in vars(base).items()
+             if not key.startswith("_") and not isinstance(value, type)}
+        )
+    return found
+
+
 CASES = {
+    "methods": methods,
     "floats": lambda: learn(point_set(ball())),
     "doubles": lambda: learn(point_set(ball(), np.float64)),
     "far": lambda: learn(point_set(ball(center=(5e5, 5e6, 100)), np.float64)),

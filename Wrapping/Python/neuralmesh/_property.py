@@ -6,7 +6,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Callable
 
-
 _NO_END = 10**9  # from there on nobody minds the end of a range
 
 

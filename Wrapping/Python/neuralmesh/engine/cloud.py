@@ -81,11 +81,9 @@ class Cloud:
     def carried(self) -> Iterator[tuple[str, np.ndarray]]:
         """The data that all blocks have alike, with its name."""
         for name, first in self.blocks[0].data.items() if self.blocks else ():
-            arrays = [block.data.get(name) for block in self.blocks]
-            is_alike = all(
-                array is not None
-                and array.dtype == first.dtype
-                and array.shape[1:] == first.shape[1:]
+            arrays = [block.data[name] for block in self.blocks if name in block.data]
+            is_alike = len(arrays) == len(self.blocks) and all(
+                array.dtype == first.dtype and array.shape[1:] == first.shape[1:]
                 for array in arrays
             )
             if is_alike:
@@ -215,4 +213,3 @@ def _block_of(leaf: Any, problems: list[str]) -> Block:
 
 def _fits(array: Any, leaf: Any) -> bool:
     return array.GetNumberOfTuples() == leaf.GetNumberOfPoints()
-

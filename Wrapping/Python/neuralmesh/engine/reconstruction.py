@@ -160,8 +160,9 @@ class NeuralMesh(NeuralMeshAlgorithm):
 
         def warn(*texts: str) -> None:
             warnings.extend(texts)
-            for text in texts if tell else ():
-                tell("warning", text)
+            for text in texts:
+                if tell is not None:
+                    tell("warning", text)
 
         if cloud.other_blocks:
             warn(f"{cloud.other_blocks} blocks are no point sets and were left out.")

@@ -79,8 +79,19 @@ class vtkEngineAlgorithm(VTKPythonAlgorithmBase):
 
     def GetInput(self, port: int = 0) -> Any:
         """The first input of a port; None if there is none."""
-        is_there = port < self.GetNumberOfInputPorts() and self.GetNumberOfInputConnections(port) > 0
+        is_there = (
+            port < self.GetNumberOfInputPorts() and self.GetNumberOfInputConnections(port) > 0
+        )
         return self.GetInputDataObject(port, 0) if is_there else None
+
+    def GetPolyDataInput(self, port: int = 0) -> Any:
+        """The same, where it is a vtkPolyData."""
+        data = self.GetInput(port)
+        return data if data is not None and data.IsA("vtkPolyData") else None
+
+    def SetOutput(self, output: Any) -> None:
+        """Have the output of port 0 in this data object."""
+        self.GetExecutive().SetOutputData(0, output)
 
     def SetInputData(self, *arguments: Any) -> None:
         """Set the input: SetInputData(data) or SetInputData(port, data)."""
@@ -130,10 +141,9 @@ class vtkEngineAlgorithm(VTKPythonAlgorithmBase):
         if self.GetAbortExecute():
             self.SetAbortExecute(0)
 
-    def _surface(self, inputs: Any, port: int) -> Mesh | None:
-        """The triangles of an input; None if there is none."""
-        data = vtkPolyData.GetData(inputs[port]) if port < len(inputs) else None
-        return Mesh(*polygons_of(data)) if data else None
+    def _surface(self, inputs: Any, port: int) -> Mesh:
+        """The triangles of an input."""
+        return Mesh(*polygons_of(vtkPolyData.GetData(inputs[port])))
 
 
 def fill_table(table: Any, columns: dict[str, Any]) -> None:
@@ -150,7 +160,8 @@ def _values_of(cls: type) -> list[str]:
     return sorted(
         name[3:]
         for name in getters
-        if hasattr(cls, "Set" + name[3:]) and len(inspect.signature(getattr(cls, name)).parameters) == 1
+        if hasattr(cls, "Set" + name[3:])
+        and len(inspect.signature(getattr(cls, name)).parameters) == 1
     )
 
 

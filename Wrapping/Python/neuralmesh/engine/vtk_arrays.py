@@ -28,9 +28,9 @@ def to_numpy(array: vtkAbstractArray) -> np.ndarray:
     """
     components = array.GetNumberOfComponents()
     if array.IsA("vtkBitArray"):
-        bits = [array.GetValue(i) for i in range(array.GetNumberOfValues())]
-        values = np.array(bits, dtype=np.uint8)
-        return values.reshape(-1, components) if components > 1 else values
+        numbers = [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+        bits = np.array(numbers, dtype=np.uint8)
+        return bits.reshape(-1, components) if components > 1 else bits
     if not array.IsA("vtkDataArray"):
         values = [array.GetVariantValue(i) for i in range(array.GetNumberOfValues())]
         texts = np.empty(len(values), dtype=object)

@@ -58,7 +58,7 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
     explained points. Documentation/Filters.md of the project tells of all.
     """
 
-    _INPUTS = (_POINT_SETS, ("vtkPolyData",))
+    _INPUTS: tuple[tuple[str, ...], ...] = (_POINT_SETS, ("vtkPolyData",))
     _OUTPUTS: tuple[str, ...] = ("vtkPolyData", "vtkTable", "vtkPolyData")
     _OPTIONAL_INPUTS = True
     SnapshotEvent = vtkCommand.UserEvent + 2004
@@ -171,13 +171,14 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
         return 1
 
     def _learn(self, inputs: Any, has_input: bool) -> Outcome:
-        first = self._surface(inputs, 1)
+        has_first = len(inputs) > 1 and inputs[1].GetNumberOfInformationObjects() > 0
+        first = self._surface(inputs, 1) if has_first else None
         is_watched = self.GetGrowthAsTime() or self.HasObserver(self.SnapshotEvent)
-        more = {"take_snapshot": self._take_snapshot if is_watched else None, "tell": self._tell}
+        take = self._take_snapshot if is_watched else None
         if not has_input:
-            return self.run_on_file(first, self._progress(), **more)
+            return self.run_on_file(first, self._progress(), take_snapshot=take, tell=self._tell)
         cloud = as_cloud(vtkDataObject.GetData(inputs[0]))
-        return self.run(cloud, first, self._progress(), **more)
+        return self.run(cloud, first, self._progress(), take, self._tell)
 
     def _take_snapshot(self, snapshot: Mesh) -> None:
         if self.HasObserver(self.SnapshotEvent):

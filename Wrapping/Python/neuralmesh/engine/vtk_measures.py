@@ -58,8 +58,9 @@ class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
         return self.GetOutputDataObject(2)
 
     def _figure(self, name: str, direction: int) -> float:
-        exists = self._found is not None and 0 <= direction < len(DIRECTIONS)
-        return self._found.table[name][direction] if exists else math.nan
+        if self._found is None or not 0 <= direction < len(DIRECTIONS):
+            return math.nan
+        return self._found.table[name][direction]
 
     def GetMean(self, direction: int) -> float:
         """A figure of the last run, in units of the input, as the next ones; NaN if there is none."""
@@ -201,7 +202,9 @@ class vtkNeuralMeshFileSampler(vtkEngineAlgorithm, NeuralMeshFileSampler):
         output = vtkPolyData.GetData(outputs)
         output.SetPoints(vtk_points(block.points, PACKAGE))
         if block.scalars:
-            output.GetPointData().SetScalars(named(block.data[block.scalars], block.scalars, PACKAGE))
+            output.GetPointData().SetScalars(
+                named(block.data[block.scalars], block.scalars, PACKAGE)
+            )
         if block.normals is not None:
             output.GetPointData().SetNormals(named(block.normals, "Normals", PACKAGE))
         return 1
