@@ -13,7 +13,7 @@ declare -A pictures=(
     tutorial_distances tutorial_step12 tutorial_step17 tutorial_step23"
   [draw_laboratory.sh]="laboratory_smoothing_rate laboratory_smoothing_rate_meshes
     laboratory_sparse_meshes laboratory_cost laboratory_models laboratory_jumps"
-  [../../Testing/Benchmarks/peers.sh]="peers"
+  [../../Testing/Benchmarks/peers.sh]="peers peers_meshes"
   [../../Testing/Benchmarks/scans.sh]="battery"
 )
 if [ "${1:-}" = --list ]; then

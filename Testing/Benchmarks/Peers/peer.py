@@ -110,14 +110,6 @@ def open3d_ball_pivoting(job):
     finish_by_open3d(job, open3d.geometry.TriangleMesh.create_from_point_cloud_ball_pivoting(points, radii))
 
 
-def open3d_alpha(job):
-    import open3d
-
-    cloud = open3d.io.read_point_cloud(job.cloud)
-    alpha = job.setting["radius"] * np.mean(cloud.compute_nearest_neighbor_distance())
-    finish_by_open3d(job, open3d.geometry.TriangleMesh.create_from_point_cloud_alpha_shape(cloud, alpha))
-
-
 # PyMeshLab
 
 
@@ -181,14 +173,22 @@ def pymeshlab_moving_least_squares(job, way):
 
 
 def poisson_recon(job):
-    from poisson import poisson_reconstruction
+    """What is farther from all points than `away` mean spacings is cut away: pypoisson2 gives a density of 1
+    everywhere. On one thread, as its threads wait for one another by spinning."""
+    import open3d
+    from poisson import ParallelType, poisson_reconstruction
 
     meshes = pymeshlab_cloud(job)
-    cloud = meshes.current_mesh()
-    points, triangles, *_, density, _ = poisson_reconstruction(
-        cloud.vertex_matrix(), cloud.vertex_normal_matrix(), depth=job.setting["depth"], output_density=True,
-        output_gradients=True)
-    finish_by_open3d(job, open3d_mesh(points, triangles), np.ravel(density))
+    cloud = meshes.current_mesh().vertex_matrix()
+    points, triangles = poisson_reconstruction(cloud, meshes.current_mesh().vertex_normal_matrix(),
+                                               depth=job.setting["depth"], parallel_type=ParallelType.NONE)
+    mesh = open3d_mesh(points, triangles)
+    if "away" in job.setting:
+        cloud, found = (open3d.geometry.PointCloud(open3d.utility.Vector3dVector(rows)) for rows in (cloud, points))
+        spacing = np.mean(cloud.compute_nearest_neighbor_distance())
+        mesh.remove_vertices_by_mask(
+            np.asarray(found.compute_point_cloud_distance(cloud)) > job.setting["away"] * spacing)
+    finish_by_open3d(job, mesh)
 
 
 # CGAL, with Open3D's decimation
@@ -206,7 +206,6 @@ def cgal(job, way):
 MAKERS = {
     "open3d_poisson": open3d_poisson,
     "open3d_ball_pivoting": open3d_ball_pivoting,
-    "open3d_alpha": open3d_alpha,
     "pymeshlab_poisson": pymeshlab_poisson,
     "pymeshlab_ball_pivoting": pymeshlab_ball_pivoting,
     "pymeshlab_apss": lambda job: pymeshlab_moving_least_squares(job, "apss"),
