@@ -12,7 +12,6 @@ import argparse
 import json
 import os
 import platform
-import resource
 import subprocess
 import sys
 
@@ -48,22 +47,15 @@ def machine(arguments):
 
 def timed(arguments):
     """CPU seconds and the most memory in MB of a process and those that it starts."""
-    def limited():
-        resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
-
-    environment = {**os.environ, "OMP_NUM_THREADS": "1"}
-    process = subprocess.Popen(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=limited,
-                               env=environment)
-    message = process.stderr.read().decode(errors="replace").strip()
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode < 0:
-        used = usage.ru_utime + usage.ru_stime
-        raise RuntimeError(f"stopped after {LIMIT} s of CPU time" if used > LIMIT - 1 else
-                           f"ended by signal {-process.returncode}")
-    if process.returncode not in (0, 3):
-        raise RuntimeError(message.splitlines()[-1] if message else f"ended with {process.returncode}")
-    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+    done = subprocess.run(("/usr/bin/python3", "-I", "-S", f"{HERE}/launch.py", str(LIMIT), *arguments),
+                          capture_output=True, text=True, errors="replace", env={**os.environ, "OMP_NUM_THREADS": "1"})
+    status, seconds, memory = (float(word) for word in done.stdout.split())
+    if status < 0:
+        raise RuntimeError(f"stopped after {LIMIT} s of CPU time" if seconds > LIMIT - 1 else
+                           f"ended by signal {-status:.0f}")
+    if status not in (0, 3):
+        raise RuntimeError((done.stderr.strip().splitlines() or [f"ended with {status:.0f}"])[-1])
+    return seconds, memory / 1024
 
 
 def figures(command, scan, mesh, is_open):
@@ -74,7 +66,7 @@ def figures(command, scan, mesh, is_open):
 
 
 def words_of(setting):
-    return ", ".join(f"{name} {value:g}" if name != "smooth" else name for name, value in setting.items())
+    return ", ".join(name if value is True else f"{name} {value:g}" for name, value in setting.items())
 
 
 def attempts(arguments, scan, kind, vertices):

@@ -178,10 +178,14 @@ def poisson_recon(job):
     import open3d
     from poisson import ParallelType, poisson_reconstruction
 
-    meshes = pymeshlab_cloud(job)
-    cloud = meshes.current_mesh().vertex_matrix()
-    points, triangles = poisson_reconstruction(cloud, meshes.current_mesh().vertex_normal_matrix(),
-                                               depth=job.setting["depth"], parallel_type=ParallelType.NONE)
+    if "normals of Open3D" in job.setting:
+        found = open3d_cloud(job)
+        cloud, normals = np.asarray(found.points), np.asarray(found.normals)
+    else:
+        meshes = pymeshlab_cloud(job)
+        cloud, normals = meshes.current_mesh().vertex_matrix(), meshes.current_mesh().vertex_normal_matrix()
+    points, triangles = poisson_reconstruction(cloud, normals, depth=job.setting["depth"],
+                                               parallel_type=ParallelType.NONE)
     mesh = open3d_mesh(points, triangles)
     if "away" in job.setting:
         cloud, found = (open3d.geometry.PointCloud(open3d.utility.Vector3dVector(rows)) for rows in (cloud, points))

@@ -23,27 +23,30 @@ POISSON = {"clean": depths(8, 9), "noisy": depths(7), "thin": THIN,
 PEERS = {
     "Open3D Poisson": ("open3d_poisson", POISSON),
     "Open3D ball pivoting": ("open3d_ball_pivoting", {
-        "clean": [{"radius": 1.5}], "noisy": [{"radius": 1.0, "average": 3}],
+        "clean": [{"radius": 1.5}], "noisy": [{"radius": 1.0, "average": 3}, {"radius": 1.0, "average": 8}],
         "thin": [{"radius": 1.5}, {"radius": 1.5, "neighbors": 8}], "open": [{"radius": 1.5}],
         "small": [{"radius": 1.5}, {"radius": 2.5}]}),
     "PyMeshLab screened Poisson": ("pymeshlab_poisson", POISSON),
     "PyMeshLab ball pivoting": ("pymeshlab_ball_pivoting", {
+        # For 200,000 points it takes more than two minutes.
         "clean": [], "noisy": [], "thin": [{}], "open": [{}], "small": [{}]}),
     "PyMeshLab APSS": ("pymeshlab_apss", {
-        "clean": [{"resolution": 250, "scale": 4}], "noisy": [{"resolution": 200, "scale": 5}],
+        "clean": [{"resolution": 250, "scale": 4}],
+        "noisy": [{"resolution": 100, "scale": 3}, {"resolution": 200, "scale": 5}],
         "thin": [{"resolution": 250, "scale": 4, "neighbors": 8}], "open": [{"resolution": 200, "scale": 4}],
         "small": [{"resolution": 100, "scale": 4}, {"resolution": 100, "scale": 8}]}),
     "PyMeshLab RIMLS": ("pymeshlab_rimls", {
-        "clean": [{"resolution": 250, "scale": 4}], "noisy": [{"resolution": 200, "scale": 5}],
+        "clean": [{"resolution": 250, "scale": 4}],
+        "noisy": [{"resolution": 100, "scale": 3}, {"resolution": 200, "scale": 5}],
         "thin": [{"resolution": 250, "scale": 4, "neighbors": 8}], "open": [{"resolution": 200, "scale": 4}],
         "small": [{"resolution": 100, "scale": 4}, {"resolution": 100, "scale": 8}]}),
     "PoissonRecon": ("poisson_recon", {
-        "clean": depths(8, 9), "noisy": depths(7, 8),
+        "clean": depths(8, 9), "noisy": [*depths(7, 8), {"depth": 7, "normals of Open3D": True}],
         "thin": [{"depth": 9}, {"depth": 9, "away": 4}, {"depth": 9, "neighbors": 8}],
         "open": [{"depth": 8}, {"depth": 8, "away": 4}],
         "small": [*depths(7, 8), {"depth": 7, "away": 4}, {"depth": 8, "away": 4}]}),
     "CGAL advancing front": ("cgal_front", {
-        "clean": [{}], "noisy": [{}], "thin": [{}, {"smooth": 1}], "open": [{}], "small": [{}]}),
+        "clean": [{}], "noisy": [{}], "thin": [{}, {"smooth": True}], "open": [{}], "small": [{}]}),
     "CGAL Poisson": ("cgal_poisson", {"clean": [{}], "noisy": [{}], "thin": [{}], "open": [], "small": []}),
 }
 OURS = "NeuralMesh"
@@ -65,6 +68,7 @@ CLOUDS = {
     "armadillo": ("clean", functools.partial(armadillo, False)),
     "armadillo_noise_outliers": ("noisy", functools.partial(armadillo, True)),
     "plate_n01_quarter": ("thin", functools.partial(quarter, "plate_n01")),
+    "coupling_quarter": ("clean", functools.partial(quarter, "coupling")),
     "open_bunny_15_quarter": ("open", functools.partial(quarter, "open_bunny_15")),
     **{name: ("small", rows.CLOUDS[name].make) for name in ("b9_training", "spheres", "hippo2", "oni")},
 }
