@@ -31,13 +31,13 @@ PEERS = {
         # For 200,000 points it takes more than two minutes.
         "clean": [], "noisy": [], "thin": [{}], "open": [{}], "small": [{}]}),
     "PyMeshLab APSS": ("pymeshlab_apss", {
-        "clean": [{"resolution": 250, "scale": 4}],
-        "noisy": [{"resolution": 100, "scale": 3}, {"resolution": 200, "scale": 5}],
+        "clean": [{"resolution": 250, "scale": 4}, {"resolution": 300, "scale": 6}],
+        "noisy": [{"resolution": 200, "scale": 5}],
         "thin": [{"resolution": 250, "scale": 4, "neighbors": 8}], "open": [{"resolution": 200, "scale": 4}],
         "small": [{"resolution": 100, "scale": 4}, {"resolution": 100, "scale": 8}]}),
     "PyMeshLab RIMLS": ("pymeshlab_rimls", {
-        "clean": [{"resolution": 250, "scale": 4}],
-        "noisy": [{"resolution": 100, "scale": 3}, {"resolution": 200, "scale": 5}],
+        "clean": [{"resolution": 250, "scale": 4}, {"resolution": 300, "scale": 6}],
+        "noisy": [{"resolution": 200, "scale": 5}],
         "thin": [{"resolution": 250, "scale": 4, "neighbors": 8}], "open": [{"resolution": 200, "scale": 4}],
         "small": [{"resolution": 100, "scale": 4}, {"resolution": 100, "scale": 8}]}),
     "PoissonRecon": ("poisson_recon", {
