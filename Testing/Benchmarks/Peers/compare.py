@@ -188,13 +188,13 @@ def draw_charts(all_results, path):
     import matplotlib
 
     matplotlib.use("Agg")
-    from matplotlib import pyplot
+    from matplotlib import pyplot, ticker
 
     makers = [settings.OURS, *settings.PEERS]
     signs = dict(zip(makers, "*osD^vPX<>"))
     colours = dict(zip(makers, ["red", *pyplot.get_cmap("tab10").colors]))
-    columns = 4
-    figure, axes = pyplot.subplots(-(-len(all_results) // columns), columns, figsize=(15, 8), squeeze=False)
+    columns = 3
+    figure, axes = pyplot.subplots(-(-len(all_results) // columns), columns, figsize=(12, 10), squeeze=False)
     for axis, (name, (kind, results)) in zip(axes.flat, all_results.items()):
         for maker, result in results.items():
             if "error" not in result:
@@ -202,9 +202,12 @@ def draw_charts(all_results, path):
                 axis.scatter(result["cpu"], max(error_of(result), 0.005), marker=signs[maker], color=colours[maker],
                              s=140 if maker == settings.OURS else 55, label=maker, zorder=3)
         axis.set(xscale="log", yscale="log", title=name, xlabel="CPU seconds",
-                 ylabel="points missed + area invented, %" if kind in COVERAGE else
-                 "mean distance, % of the diagonal")
+                 ylabel="missed + invented, %" if kind in COVERAGE else "mean distance, %")
         axis.grid(True, which="both", alpha=0.25)
+        for ticks in (axis.xaxis, axis.yaxis):
+            ticks.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+            ticks.set_major_formatter("{x:g}")
+            ticks.set_minor_formatter("")
     for axis in list(axes.flat)[len(all_results):]:
         axis.set_visible(False)
     handles = [pyplot.Line2D([], [], linestyle="", marker=signs[maker], color=colours[maker], label=maker)
