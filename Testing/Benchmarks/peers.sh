@@ -6,9 +6,9 @@
 #
 # The clouds are those of Peers/settings.py, the pictures are drawn where none is named. The others come from PyPI
 # into a virtual environment, PYTHON (python3) with 3.9 to 3.13; CGAL comes from Debian. All is in build/peers; what
-# is there is not made again, so that a run that is broken off goes on where it was.
+# is there from the same programs is not made again, so that a run that is broken off goes on where it was.
 # NEURALMESH names a command to use in place of that of this tree.
-# An hour of CPU time, and ten minutes for compiling PoissonRecon.
+# Half an hour of CPU time, and ten minutes for compiling PoissonRecon.
 set -euo pipefail
 command=${NEURALMESH:+$(realpath "$NEURALMESH")}
 cd "$(dirname "$0")/../.."

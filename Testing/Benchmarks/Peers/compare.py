@@ -5,7 +5,7 @@
 
 TOOLS has the others: CgalSurface, and the virtual environment `venv`. One thread each. Of the settings of one the
 best counts: with the least mean distance, or on hard clouds the least sum of points missed and area invented. What
-is in FOLDER from an earlier run is not made again. What a peer lacks on this machine is said.
+FOLDER has from an earlier run of the same programs is not made again. What a peer lacks on this machine is said.
 """
 
 import argparse
@@ -87,13 +87,22 @@ def attempts(arguments, scan, kind, vertices):
             yield name, setting, mesh, line if there else None
 
 
-def result_of(arguments, scan, kind, mesh, line):
-    """What a run needed and how good its mesh is, or its error; from an earlier run if there was one."""
+def key_of(arguments, scan, maker, vertices):
+    """What a result depends on, beside its setting."""
+    program = (table.program(arguments.command) if maker == settings.OURS else
+               table.digest(*(f"{HERE}/{name}" for name in ("peer.py", "CgalSurface.cpp", "requirements.txt"))))
+    return [program, table.digest(scan.path, measure.__file__), vertices]
+
+
+def result_of(arguments, scan, kind, mesh, line, key):
+    """What a run needed and how good its mesh is, or its error; from an earlier run if there was the same one."""
     kept = mesh[:-4] + ".json"
     if os.path.exists(kept):
         with open(kept, encoding="utf-8") as file:
-            return json.load(file)
-    result = {"mesh": mesh}
+            result = json.load(file)
+        if result["key"] == key:
+            return result
+    result = {"key": key, "mesh": mesh}
     try:
         result["cpu"], result["memory"] = timed(line)
         result.update(figures(arguments.command, scan, mesh, kind in COVERAGE))
@@ -128,7 +137,8 @@ def measured(arguments, name):
         if line is None:
             missing.add(maker)
             continue
-        result = {**result_of(arguments, scan, kind, mesh, line), "setting": words_of(setting)}
+        key = key_of(arguments, scan, maker, vertices)
+        result = {**result_of(arguments, scan, kind, mesh, line, key), "setting": words_of(setting)}
         if maker not in best or error_of(result) < error_of(best[maker]):
             best[maker] = result
     for maker in missing:
