@@ -14,7 +14,7 @@ declare -A pictures=(
   [draw_pyvista.sh]="pyvista_mesh pyvista_distance pyvista_left_out"
   [draw_laboratory.sh]="laboratory_smoothing_rate laboratory_smoothing_rate_meshes
     laboratory_sparse_meshes laboratory_cost laboratory_models laboratory_jumps"
-  [../../Testing/Benchmarks/peers.sh]="peers"
+  [../../Testing/Benchmarks/peers.sh]="peers peers_meshes"
   [../../Testing/Benchmarks/scans.sh]="battery"
 )
 if [ "${1:-}" = --list ]; then
