@@ -6,12 +6,12 @@ from __future__ import annotations
 from . import _world
 from ._parameters import assign
 from ._reconstruct import require_points
-from ._types import ArrayLike, Progress, vtkCompositeDataSet, vtkPointSet, vtkPolyData
+from ._types import ArrayLike, Mesh, Progress, vtkCompositeDataSet, vtkPointSet, vtkPolyData
 
 
 def explain(
-    points: ArrayLike | vtkPointSet | vtkCompositeDataSet,
-    mesh: vtkPolyData,
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh,
+    mesh: vtkPolyData | Mesh,
     smallest_piece: float = 0.0005,
     *,
     progress: Progress | None = None,
