@@ -41,7 +41,7 @@ enter_debian()
   apt-config dump | grep -E '^Acquire::(Check|http|https|Retries)' \
     > "$1/etc/apt/apt.conf.d/99host" || true
   cp -L /etc/resolv.conf /etc/hosts "$1/etc/"
-  # For npm, where what is between this machine and its registry has a certificate of its own.
+  # For npm and pip, where what is between this machine and its registry has a certificate of its own.
   mkdir -p "$1/etc/ssl/certs"
   cp -L /etc/ssl/certs/ca-certificates.crt "$1/etc/ssl/certs/host.crt" 2> /dev/null || true
   mount -t proc proc "$1/proc"
@@ -69,7 +69,11 @@ in_debian()
 {
   local debian=$1 world=$2
   shift 2
-  env -i CI=true NEURALMESH_VTK="$world" NODE_EXTRA_CA_CERTS=/etc/ssl/certs/host.crt \
+  local certificates=/etc/ssl/certs/host.crt
+  # pip wants no file that is not there.
+  [ -e "$debian$certificates" ] || certificates=
+  env -i CI=true NEURALMESH_VTK="$world" \
+    PIP_CERT="$certificates" NODE_EXTRA_CA_CERTS=/etc/ssl/certs/host.crt \
     NEURALMESH_TEST_LABELS="${NEURALMESH_TEST_LABELS:-}" \
     PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 TMPDIR=/tmp \
     DEBIAN_FRONTEND=noninteractive chroot "$debian" "$@"

@@ -192,7 +192,7 @@ std::string offOf(const FileContents& contents)
     {
       for (const std::uint8_t part : contents.colors[i])
       {
-        text += " " + std::to_string(part);
+        text.append(" ").append(std::to_string(part));
       }
       text += " 255";
     }
