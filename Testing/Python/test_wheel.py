@@ -259,7 +259,8 @@ class Types(unittest.TestCase):
 
             scan = neuralmesh.read(Path("scan.ply"))
             mesh = neuralmesh.reconstruct(scan, 300, first_mesh=scan, winner_rate=0.1)
-            print(mesh.GetNumberOfPoints(), neuralmesh.reconstruct([[0.0]], variant="basic"))
+            mesh.save("mesh.stl")
+            print(neuralmesh.reconstruct([[0.0]], variant="basic").GetNumberOfPoints())
             mesh, explained = neuralmesh.reconstruct("scan.ply", explain=True)
             print(neuralmesh.compare(scan, mesh), neuralmesh.info(scan), neuralmesh.explain(scan, scan))
             stream = neuralmesh.stream(300)

@@ -9,7 +9,15 @@ from typing import Any
 from . import _world
 from ._parameters import assign, parameters_of, refuse_unknown, table
 from ._places import direction, places
-from ._types import ArrayLike, Mesh, Progress, vtkCompositeDataSet, vtkPointSet, vtkPolyData
+from ._types import (
+    ArrayLike,
+    MadeMesh,
+    Mesh,
+    Progress,
+    vtkCompositeDataSet,
+    vtkPointSet,
+    vtkPolyData,
+)
 
 # Those that have names or places of their own in the signature.
 _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
@@ -28,7 +36,6 @@ ENSEMBLE_PARAMETERS = {
 }
 
 
-# It returns Any for the pair with explain: else type checkers would ask for it in every mesh.
 def reconstruct(
     points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | str | os.PathLike,
     vertices: int = 20000,
@@ -48,7 +55,7 @@ def reconstruct(
     explain: bool = False,
     progress: Progress | None = None,
     **parameters: float | bool | str,
-) -> vtkPolyData | Any:
+) -> MadeMesh:
     """Make a triangle mesh from a point cloud.
 
         Args:

@@ -24,6 +24,18 @@ if TYPE_CHECKING or not VTK_VERSION:
 else:
     Mesh = vtkPolyData
 
-__all__ = ["ArrayLike", "Mesh", "Progress", "vtkCompositeDataSet", "vtkPointSet", "vtkPolyData"]
+# What the functions return: a vtkPolyData, a pyvista.PolyData or a neuralmesh.Mesh as the points were, and
+# with explain a pair of them. Hints that said it would be wrong for some.
+MadeMesh = Any
+
+__all__ = [
+    "ArrayLike",
+    "MadeMesh",
+    "Mesh",
+    "Progress",
+    "vtkCompositeDataSet",
+    "vtkPointSet",
+    "vtkPolyData",
+]
 
 Progress = Callable[[float], "bool | None"]
