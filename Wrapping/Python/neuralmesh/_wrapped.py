@@ -5,7 +5,6 @@ for where they are not.
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
