@@ -3,8 +3,10 @@
 cvista, old, source).
 """
 
+import ast
 import importlib.util
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -16,6 +18,7 @@ import numpy as np
 
 import neuralmesh
 
+SETTINGS = Path(__file__).resolve().parents[2] / "pyproject.toml"
 WORLD = os.environ.get("NEURALMESH_WORLD", "none")
 HAS_VTK = WORLD not in ("none", "source")
 
@@ -194,18 +197,91 @@ class Functions(unittest.TestCase):
         self.assertGreater(len(points_of(stream.mesh())), 200)
 
 
+def parameters_of(function):
+    """Names of the parameters, and how many have a default."""
+    return [one.arg for one in function.args.args], len(function.args.defaults)
+
+
+def stub_signatures(tree, before=""):
+    """What there is, with the parameters of functions; None for other values. So is the next function."""
+    found = {}
+    for node in tree.body:
+        if isinstance(node, ast.ClassDef):
+            found.update(stub_signatures(node, f"{node.name}."))
+        elif isinstance(node, ast.FunctionDef):
+            is_property = "property" in map(ast.unparse, node.decorator_list)
+            found[before + node.name] = None if is_property else parameters_of(node)
+        elif isinstance(node, ast.AnnAssign):
+            found[before + node.target.id] = None
+    return found
+
+
+def compiled_signatures(owner, before=""):
+    found = {}
+    for name, member in vars(owner).items():
+        if name.startswith("_") and name != "__init__":
+            continue
+        if isinstance(member, type):
+            found.update(compiled_signatures(member, f"{name}."))
+            continue
+        found[before + name] = None
+        if callable(member):
+            signature, brackets = member.__doc__, 1
+            while brackets:  # what is in them is not always Python
+                signature, brackets = re.subn(r"\[[^\[\]]*\]", "", signature)
+            found[before + name] = parameters_of(ast.parse(f"def {signature}: ...").body[0])
+    return found
+
+
 class Types(unittest.TestCase):
-    # Promise: the hints are sound, and users of the functions are checked by them.
-    def test_mypy(self):
+    def mypy(self, *arguments, script=""):
+        """What mypy says of a script.py, in a folder of its own."""
         if importlib.util.find_spec("mypy") is None:
             self.skipTest("there is no mypy")
         with tempfile.TemporaryDirectory() as folder:
-            script = Path(folder) / "script.py"
-            script.write_text("import neuralmesh\nneuralmesh.reconstruct([[0.0]], vertices='many')\n")
-            command = [sys.executable, "-m", "mypy", "--cache-dir", folder, str(script)]
+            (Path(folder) / "script.py").write_text(textwrap.dedent(script))
+            command = [sys.executable, "-m", "mypy", "--cache-dir", folder, *arguments]
             told = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
-        self.assertIn('has incompatible type "str"; expected "int"', told.stdout)
-        self.assertIn("Found 1 error", told.stdout)
+        return told.stdout + told.stderr
+
+    # Promise: users of the functions are checked by the hints.
+    def test_wrong_use(self):
+        script = "import neuralmesh\nneuralmesh.reconstruct([[0.0]], vertices='many')\n"
+        told = self.mypy("script.py", script=script)
+        self.assertIn('has incompatible type "str"; expected "int"', told)
+        self.assertIn("Found 1 error", told)
+
+    # Promise: nothing is said against right use, with meshes of this package, too.
+    def test_right_use(self):
+        told = self.mypy("script.py", script="""
+            import neuralmesh
+            from pathlib import Path
+
+            scan = neuralmesh.read(Path("scan.ply"))
+            mesh = neuralmesh.reconstruct(scan, 300, first_mesh=scan, winner_rate=0.1)
+            mesh.save("mesh.stl")
+            print(neuralmesh.reconstruct([[0.0]], variant="basic").GetNumberOfPoints())
+            mesh, explained = neuralmesh.reconstruct("scan.ply", explain=True)
+            print(neuralmesh.compare(scan, mesh), neuralmesh.info(scan), neuralmesh.explain(scan, scan))
+            stream = neuralmesh.stream(300)
+            stream.add_points(scan, viewpoint=[0, 0, 9])
+            print(stream.learn(1000), stream.mesh())
+        """)  # fmt: skip
+        self.assertIn("Success", told)
+
+    # Promise: the hints within the package are sound.
+    def test_package(self):
+        if not SETTINGS.exists():
+            self.skipTest("the settings are not at hand")
+        told = self.mypy("--config-file", str(SETTINGS), "-p", "neuralmesh")
+        self.assertIn("Success", told)
+
+    # Promise: the stub of the engine has what is compiled, with the same parameters.
+    def test_engine_stub(self):
+        from neuralmesh import _engine
+
+        stub = Path(neuralmesh.__file__).with_name("_engine.pyi").read_text(encoding="utf-8")
+        self.assertEqual(stub_signatures(ast.parse(stub)), compiled_signatures(_engine))
 
 
 if __name__ == "__main__":

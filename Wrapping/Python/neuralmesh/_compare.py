@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from . import _world
 from ._parameters import assign, snake_case
-from ._types import vtkPolyData
+from ._types import Mesh, vtkPolyData
 
 _DIRECTIONS = ("reference_to_result", "result_to_reference")
 
 
 def compare(
-    reference: vtkPolyData,
-    result: vtkPolyData,
+    reference: vtkPolyData | Mesh,
+    result: vtkPolyData | Mesh,
     samples: int = 200000,
     seed: int = 1,
 ) -> dict[str, dict[str, float]]:

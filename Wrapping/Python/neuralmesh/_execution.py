@@ -6,7 +6,7 @@ from __future__ import annotations
 import contextlib
 import signal
 import threading
-from typing import Callable, Iterator
+from typing import TYPE_CHECKING, Callable, Iterator, TypeVar
 
 import numpy as np
 from vtkmodules.util.misc import calldata_type
@@ -14,7 +14,11 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 from ._warning import warn
 
+if TYPE_CHECKING:
+    from .vtkFiltersNeuralMesh import vtkNeuralMeshAlgorithm
+
 Progress = Callable[[float], bool | None]
+Result = TypeVar("Result")
 
 
 def execute(algorithm: vtkAlgorithm, progress: Progress | None = None) -> None:
@@ -32,8 +36,11 @@ def execute(algorithm: vtkAlgorithm, progress: Progress | None = None) -> None:
 
 
 def observed_call(
-    algorithm: vtkAlgorithm, progress: Progress | None, function: Callable, *arguments: object
-) -> object:
+    algorithm: vtkAlgorithm,
+    progress: Progress | None,
+    function: Callable[..., Result],
+    *arguments: object,
+) -> Result:
     """Call a method of one of our filters that reports as an update does; its result."""
     execution = _Execution(algorithm, progress)
     with execution.observed(), _guarded_interrupts(execution.call):
@@ -42,7 +49,7 @@ def observed_call(
     return result
 
 
-def check_parameters(algorithm: vtkAlgorithm) -> None:
+def check_parameters(algorithm: vtkNeuralMeshAlgorithm) -> None:
     """Raise ValueError if the properties of one of our filters do not go together."""
     execution = _Execution(algorithm, None)
     # What a handler of Ctrl-C raises in an observer would end the process.

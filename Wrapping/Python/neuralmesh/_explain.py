@@ -6,16 +6,24 @@ from __future__ import annotations
 from . import _world
 from ._parameters import assign
 from ._reconstruct import require_points
-from ._types import ArrayLike, Progress, vtkCompositeDataSet, vtkPointSet, vtkPolyData
+from ._types import (
+    ArrayLike,
+    MadeMesh,
+    Mesh,
+    Progress,
+    vtkCompositeDataSet,
+    vtkPointSet,
+    vtkPolyData,
+)
 
 
 def explain(
-    points: ArrayLike | vtkPointSet | vtkCompositeDataSet,
-    mesh: vtkPolyData,
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh,
+    mesh: vtkPolyData | Mesh,
     smallest_piece: float = 0.0005,
     *,
     progress: Progress | None = None,
-) -> vtkPolyData:
+) -> MadeMesh:
     """Tell of each point of a cloud how far it is from a mesh, whatever made that, and why.
 
     A point is away from the mesh if it is farther from it than three of its own mean distances to its

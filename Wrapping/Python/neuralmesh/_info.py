@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import _world
-from ._types import vtkPolyData
+from ._types import Mesh, vtkPolyData
 
 FIGURES = (
     "vertices", "triangles", "regular_ratio", "valences", "triangle_quality", "closed", "edge_manifold",
@@ -16,7 +16,7 @@ FIGURES = (
 )  # fmt: skip
 
 
-def info(mesh: vtkPolyData) -> dict[str, Any]:
+def info(mesh: vtkPolyData | Mesh) -> dict[str, Any]:
     """Tell whether a mesh is sound, and how good its triangles are, whatever made it.
 
     Args:

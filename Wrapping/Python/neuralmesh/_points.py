@@ -3,10 +3,20 @@
 
 from __future__ import annotations
 
+from typing import overload
+
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPointSet, vtkPolyData
+
+
+@overload
+def as_dataset(points: vtkPointSet | np.ndarray, blocks: bool = True) -> vtkPointSet: ...
+
+
+@overload
+def as_dataset(points: object, blocks: bool = True) -> vtkPointSet | vtkCompositeDataSet: ...
 
 
 def as_dataset(points: object, blocks: bool = True) -> vtkPointSet | vtkCompositeDataSet:
@@ -36,25 +46,33 @@ def with_array(
     """
     if isinstance(values, str):
         return dataset, values
-    array = _array_of_points(dataset, values, parameter, "the name of a point array", ())
-    return _with(dataset, array, name), name
+    point_set = _one_block(dataset, parameter, "the name of a point array")
+    array = _array_of_points(point_set, values, parameter, ())
+    return _with(point_set, array, name), name
 
 
 def with_normals(dataset: vtkPointSet | vtkCompositeDataSet, normals: object) -> vtkPointSet:
     """A copy of the dataset that refers to the points and has these normals. ValueError for anything
     but numbers of shape (N, 3).
     """
-    array = _array_of_points(dataset, normals, "normals", "given with the blocks", (3,))
-    copy = _with(dataset, array, "Normals")
+    point_set = _one_block(dataset, "normals", "given with the blocks")
+    array = _array_of_points(point_set, normals, "normals", (3,))
+    copy = _with(point_set, array, "Normals")
     copy.GetPointData().SetActiveNormals("Normals")
     return copy
 
 
-def _array_of_points(
-    dataset, values: object, parameter: str, other: str, shape: tuple
-) -> np.ndarray:
+def _one_block(
+    dataset: vtkPointSet | vtkCompositeDataSet, parameter: str, other: str
+) -> vtkPointSet:
     if not isinstance(dataset, vtkPointSet):
         raise ValueError(f"{parameter} must be {other} where points are in blocks")
+    return dataset
+
+
+def _array_of_points(
+    dataset: vtkPointSet, values: object, parameter: str, shape: tuple[int, ...]
+) -> np.ndarray:
     array = np.asarray(values)
     wanted = (dataset.GetNumberOfPoints(), *shape)
     if array.shape != wanted or array.dtype.kind not in "fiub":

@@ -9,7 +9,15 @@ from typing import Any
 from . import _world
 from ._parameters import assign, parameters_of, refuse_unknown, table
 from ._places import direction, places
-from ._types import ArrayLike, Progress, vtkCompositeDataSet, vtkPointSet, vtkPolyData
+from ._types import (
+    ArrayLike,
+    MadeMesh,
+    Mesh,
+    Progress,
+    vtkCompositeDataSet,
+    vtkPointSet,
+    vtkPolyData,
+)
 
 # Those that have names or places of their own in the signature.
 _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
@@ -29,14 +37,14 @@ ENSEMBLE_PARAMETERS = {
 
 
 def reconstruct(
-    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | str | os.PathLike,
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | str | os.PathLike,
     vertices: int = 20000,
     seed: int = 1,
     *,
     variant: str = "noise",
     order: str = "exact",
     preset: str = "default",
-    first_mesh: vtkPolyData | None = None,
+    first_mesh: vtkPolyData | Mesh | None = None,
     ensemble: int | None = None,
     weights: ArrayLike | str | None = None,
     viewpoints: ArrayLike | None = None,
@@ -47,7 +55,7 @@ def reconstruct(
     explain: bool = False,
     progress: Progress | None = None,
     **parameters: float | bool | str,
-) -> vtkPolyData | tuple[vtkPolyData, vtkPolyData]:
+) -> MadeMesh:
     """Make a triangle mesh from a point cloud.
 
         Args:
@@ -207,7 +215,7 @@ def require_one_start(ensemble: object, first_mesh: object) -> None:
 
 def take_input(
     mesh: Any,
-    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | str | os.PathLike,
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | str | os.PathLike,
     weights: ArrayLike | str | None = None,
     views: ArrayLike | str | None = None,
     normals: ArrayLike | None = None,

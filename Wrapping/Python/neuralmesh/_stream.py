@@ -11,7 +11,7 @@ import numpy as np
 from . import _world
 from ._parameters import assign, parameters_of, refuse_unknown, table
 from ._places import direction, place
-from ._types import ArrayLike, Progress, vtkPointSet, vtkPolyData
+from ._types import ArrayLike, MadeMesh, Mesh, Progress, vtkPointSet
 
 _NAMED = ("number_of_vertices", "seed", "reservoir_size", "finish_output")
 # A stream is learnt in one variant, with one order; so these can have no other value ...
@@ -39,7 +39,7 @@ class Stream:
 
     def add_points(
         self,
-        points: ArrayLike | vtkPointSet,
+        points: ArrayLike | vtkPointSet | Mesh,
         *,
         viewpoint: ArrayLike | None = None,
         normals: ArrayLike | None = None,
@@ -97,7 +97,7 @@ class Stream:
             samples = 60 * self._algorithm.GetNumberOfVertices() + 150000
         return _world.learn_samples(self._algorithm, int(samples), progress)
 
-    def mesh(self, finish: bool = True, *, progress: Progress | None = None) -> vtkPolyData:
+    def mesh(self, finish: bool = True, *, progress: Progress | None = None) -> MadeMesh:
         """The mesh learnt so far; the stream goes on afterwards.
 
         Args:

@@ -2,7 +2,8 @@
 """Types in the signatures of the functions.
 
 Where VTK is installed a mesh is a vtkPolyData, of which pyvista.PolyData is a subclass. Where it is not, type
-checkers take vtkPolyData for anything: there a mesh is a neuralmesh.Mesh.
+checkers take vtkPolyData for anything: there a mesh is a neuralmesh.Mesh, which the functions take
+beside VTK, too, unless the C++ classes are there.
 """
 
 from __future__ import annotations
@@ -18,6 +19,23 @@ if TYPE_CHECKING or VTK_VERSION:
 else:
     vtkCompositeDataSet = vtkPointSet = vtkPolyData = Any
 
-__all__ = ["ArrayLike", "Progress", "vtkCompositeDataSet", "vtkPointSet", "vtkPolyData"]
+if TYPE_CHECKING or not VTK_VERSION:
+    from .engine.mesh import Mesh
+else:
+    Mesh = vtkPolyData
+
+# What the functions return: a vtkPolyData, a pyvista.PolyData or a neuralmesh.Mesh as the points were, and
+# with explain a pair of them. Hints that said it would be wrong for some.
+MadeMesh = Any
+
+__all__ = [
+    "ArrayLike",
+    "MadeMesh",
+    "Mesh",
+    "Progress",
+    "vtkCompositeDataSet",
+    "vtkPointSet",
+    "vtkPolyData",
+]
 
 Progress = Callable[[float], "bool | None"]

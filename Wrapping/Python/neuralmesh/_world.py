@@ -3,9 +3,12 @@
 alone.
 """
 
+from typing import TYPE_CHECKING
+
 from ._build import VTK_VERSION
 
-if VTK_VERSION:
-    from ._wrapped import *
-else:
+# Type checkers take the names for those of one module.
+if TYPE_CHECKING or not VTK_VERSION:
     from .engine.world import *
+else:
+    from ._wrapped import *

@@ -5,10 +5,8 @@ for where they are not.
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
-from vtkmodules.vtkCommonCore import vtkDataArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ._execution import Progress, check_parameters, execute, observed_call
@@ -114,8 +112,8 @@ def report(mesh: vtkPolyData) -> dict[str, Any]:
     return {snake_case(array.GetName()): _figure(array) for array in arrays}
 
 
-def _figure(array: vtkDataArray) -> Any:
-    """A number, whether something holds, or what belongs to each number."""
+def _figure(array: Any) -> Any:
+    """Of a vtkDataArray: a number, whether something holds, or what belongs to each number."""
     if array.GetNumberOfComponents() == 2:
         pairs = [array.GetTuple2(i) for i in range(array.GetNumberOfTuples())]
         return {int(number): int(count) for number, count in pairs}

@@ -52,7 +52,7 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         points = read_points(job.scan)
-        first_mesh = job.first_mesh and read_mesh(job.first_mesh)
+        first_mesh = read_mesh(job.first_mesh) if job.first_mesh else None
         times.append(time.perf_counter())
         mesh_filter = make_filter(**parameters)
         # If it is there, the job was killed: it goes on from there.

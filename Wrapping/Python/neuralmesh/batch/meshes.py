@@ -3,9 +3,12 @@
 built.
 """
 
+from typing import TYPE_CHECKING
+
 from .._build import VTK_VERSION
 
-if VTK_VERSION:
-    from .wrapped_meshes import *
-else:
+# Type checkers take the names for those of one module.
+if TYPE_CHECKING or not VTK_VERSION:
     from .engine_meshes import *
+else:
+    from .wrapped_meshes import *

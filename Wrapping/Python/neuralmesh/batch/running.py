@@ -83,6 +83,7 @@ class _Process:
             "format": mesh_format,
         }
         try:
+            assert self._process.stdin is not None  # as it is a pipe
             with self._process.stdin as stdin:
                 stdin.write(json.dumps(content).encode())
         except BrokenPipeError:

@@ -89,8 +89,10 @@ def read_mesh(path: Path) -> vtkPolyData:
     """
     try:
         mesh = read_points(path)
-        is_mesh = isinstance(mesh, vtkPolyData)
-        if not is_mesh or mesh.GetNumberOfPolys() + mesh.GetNumberOfStrips() == 0:
+        if (
+            not isinstance(mesh, vtkPolyData)
+            or mesh.GetNumberOfPolys() + mesh.GetNumberOfStrips() == 0
+        ):
             raise ValueError("there are no triangles in it")
     except (OSError, ValueError, RuntimeError) as error:
         raise ValueError(f"first mesh {path}: {error}") from None
@@ -112,7 +114,7 @@ def _merge_equal_points(mesh: vtkPolyData) -> vtkPolyData:
     return clean.GetOutput()
 
 
-def mesh_writer(path: Path, shift: object = None) -> vtkNeuralMeshWriter:
+def mesh_writer(path: Path, shift: Any = None) -> vtkNeuralMeshWriter:
     """A writer of the format that the extension tells; shift is None, "auto" or three numbers."""
     writer = vtkNeuralMeshWriter()
     writer.SetFileName(str(path))
@@ -122,13 +124,13 @@ def mesh_writer(path: Path, shift: object = None) -> vtkNeuralMeshWriter:
     return writer
 
 
-def require_digits(points: vtkPointSet, vertices: int, path: Path, shift: object = None) -> None:
+def require_digits(points: vtkPointSet, vertices: int, path: Path, shift: Any = None) -> None:
     """Raise ValueError if the format cannot hold the digits of a mesh of these points."""
     writer = mesh_writer(path, shift)
     observed_call(writer, None, writer.CheckCoordinates, points, vertices)
 
 
-def write_mesh(mesh: vtkPolyData, path: Path, shift: object = None) -> list[float]:
+def write_mesh(mesh: vtkPolyData, path: Path, shift: Any = None) -> list[float]:
     """Write a mesh, whole or not at all; what was taken off the coordinates.
 
     The format is that of the extension; shift is None, "auto" or three numbers.

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from .. import _engine
@@ -60,8 +58,8 @@ def _joined(parts: list[Mesh]) -> Mesh:
         np.empty((0, 3), dtype=np.int64),
     )
     for name, first in parts[0].point_data.items():
-        arrays = [part.point_data.get(name) for part in parts]
-        if all(_is_like(array, first) for array in arrays):
+        arrays = [part.point_data[name] for part in parts if name in part.point_data]
+        if len(arrays) == len(parts) and all(_is_like(array, first) for array in arrays):
             joined.point_data[name] = np.concatenate(arrays)
     if parts[0].scalars in joined.point_data:
         joined.scalars = parts[0].scalars
@@ -71,8 +69,8 @@ def _joined(parts: list[Mesh]) -> Mesh:
     return joined
 
 
-def _is_like(array: Any, first: np.ndarray) -> bool:
-    return array is not None and array.dtype == first.dtype and array.shape[1:] == first.shape[1:]
+def _is_like(array: np.ndarray, first: np.ndarray) -> bool:
+    return array.dtype == first.dtype and array.shape[1:] == first.shape[1:]
 
 
 def _apply_given(points: Mesh, seen: list[tuple[int, np.ndarray, np.ndarray]], wanted: int) -> None:

@@ -277,7 +277,7 @@ def _table_of(curve: dict[str, np.ndarray]) -> bytes:
     return ("\n".join(lines) + "\n").encode()
 
 
-def _print_shift(shift: tuple[float, ...], path: str) -> None:
+def _print_shift(shift: tuple[float, float, float], path: str) -> None:
     if not any(shift):
         print("shift      none")
         return

@@ -57,7 +57,8 @@ class NeuralMeshAlgorithm:
             self._warn(
                 f"Preset must be DEFAULT or THESIS: not {preset} but {self._preset} is used."
             )
-        values = _engine.preset(self._preset, self._values["Variant"], self._values["Order"])
+        variant, order = int(self._values["Variant"]), int(self._values["Order"])
+        values = _engine.preset(self._preset, variant, order)
         if any(self._values[name] != value for name, value in values.items()):
             self._values.update(
                 {name: self.PROPERTIES[name].clamped(v) for name, v in values.items()}

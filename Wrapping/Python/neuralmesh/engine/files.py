@@ -64,7 +64,9 @@ def read(path: str | os.PathLike[str]) -> Mesh:
     return _reader_of(name)(name)
 
 
-def write_mesh(mesh: Mesh, path: str | os.PathLike[str], shift: Any = None) -> tuple[float, ...]:
+def write_mesh(
+    mesh: Mesh, path: str | os.PathLike[str], shift: Any = None
+) -> tuple[float, float, float]:
     """Write a mesh, whole or not at all; what is taken off its coordinates in the file.
 
     Args:
@@ -201,7 +203,7 @@ def _npy_of(points: np.ndarray) -> bytes:
     return content.getvalue()
 
 
-def _write_by_vtk(mesh: Mesh, path: str, shift: Any) -> tuple[float, ...]:
+def _write_by_vtk(mesh: Mesh, path: str, shift: Any) -> tuple[float, float, float]:
     from .vtk_files import vtk_bytes_of
 
     taken = _three(shift) if shift != "auto" else _NO_SHIFT
@@ -209,7 +211,7 @@ def _write_by_vtk(mesh: Mesh, path: str, shift: Any) -> tuple[float, ...]:
         taken = _engine.round_shift(as_points(mesh.points))
     if not np.isfinite(taken).all():
         raise ValueError(f"{path}: cannot be written: the shift is not finite")
-    noted = tuple(one + other for one, other in zip(_noted(mesh), taken))
+    noted = _three(one + other for one, other in zip(_noted(mesh), taken))
     if any(taken):
         fields = {name: value for name, value in mesh.field_data.items() if name != _NOTE}
         if any(noted):

@@ -59,11 +59,11 @@ class NeuralMeshComparison(Measure):
         self, reference: Mesh, result: Mesh, progress: Progress | None = None
     ) -> Comparison | None:
         """How far two surfaces are from each other; None if progress ended it, or both are empty."""
-        surfaces = [reference, result]
-        if all(len(one.points) == 0 and len(one.triangles) == 0 for one in surfaces):
+        if all(len(one.points) == 0 and len(one.triangles) == 0 for one in (reference, result)):
             return None
         figures = _engine.compare(
-            *(array for surface in surfaces for array in as_arrays(surface)),
+            *as_arrays(reference),
+            *as_arrays(result),
             int(self._values["NumberOfSamples"]),
             int(self._values["Seed"]),
             progress,

@@ -113,7 +113,7 @@ class Mesh:
             data.GetFieldData().AddArray(field_array(value, name, package))
 
 
-def as_mesh(surface: object, parameter: str) -> Mesh:
+def as_mesh(surface: Any, parameter: str) -> Mesh:
     """The triangles of a Mesh, a vtkPolyData, or a pair of points and triangles. ValueError for anything
     else, which names the parameter.
     """

@@ -6,14 +6,14 @@ another name where PyVista takes another build of it.
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from .._kinds import vtk_package_of
 
 if TYPE_CHECKING:
-    from vtkmodules.vtkCommonCore import vtkAbstractArray, vtkPoints
+    from vtkmodules.vtkCommonCore import vtkAbstractArray, vtkBitArray, vtkDataArray, vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 
@@ -28,7 +28,8 @@ def to_numpy(array: vtkAbstractArray) -> np.ndarray:
     """
     components = array.GetNumberOfComponents()
     if array.IsA("vtkBitArray"):
-        numbers = [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+        bit_array = cast("vtkBitArray", array)
+        numbers = [bit_array.GetValue(i) for i in range(bit_array.GetNumberOfValues())]
         bits = np.array(numbers, dtype=np.uint8)
         return bits.reshape(-1, components) if components > 1 else bits
     if not array.IsA("vtkDataArray"):
@@ -39,7 +40,7 @@ def to_numpy(array: vtkAbstractArray) -> np.ndarray:
     if not array.HasStandardMemoryLayout():
         copy = array.NewInstance()
         if not copy.HasStandardMemoryLayout():
-            copy = array.CreateDataArray(array.GetDataType())
+            copy = cast("vtkDataArray", array).CreateDataArray(array.GetDataType())
         copy.DeepCopy(array)
         array = copy
     return vtk_module(vtk_package_of(array), "util.numpy_support").vtk_to_numpy(array)
