@@ -30,7 +30,7 @@ tests_of()
   local tests=(wheel command files batch batch_recipe)
   case $1 in
     vtk | old)
-      tests+=(checkpoint compare explain info orientation parameters pipeline progress reconstruct stream)
+      tests+=(checkpoint compare explain orientation parameters pipeline progress reconstruct stream)
       ;;
     pyvista) tests+=(reconstruct pyvista) ;;
     cvista) tests=(wheel command files pyvista) ;;
@@ -54,7 +54,8 @@ try_world()
   "$python" -m pip install --quiet "$what" mypy $(brings "$world")
   [ "$world" != cvista ] || "$python" -m pip uninstall --quiet --yes vtk
   for test in $(tests_of "$world"); do
-    if (cd "$venv" && NEURALMESH_WORLD=$world NEURALMESH_TEST_PYTHON=$python PYTHONPATH=$repository/Testing/Python:$repository/Testing/Support \
+    if (cd "$venv" && NEURALMESH_WORLD=$world NEURALMESH_TEST_PYTHON=$python \
+      PYTHONPATH=$repository/Testing/Python:$repository/Testing/Support \
       "$python" "$repository/Testing/Python/test_$test.py" > "$test.log" 2>&1); then
       printf '%-8s %-14s well   %s\n' "$world" "$test" "$(tail -n 1 "$venv/$test.log")"
     else

@@ -60,7 +60,7 @@ class Compare(unittest.TestCase):
         cases = {
             "samples must be an integer from 1000 to 100000000, not 10": {"samples": 10},
             "seed must be an integer from 0 to 2147483647, not -1": {"seed": -1},
-            "reference must be a vtkPolyData, not vtkUnstructuredGrid": {
+            f"reference must be a vtkPolyData, not {vtkUnstructuredGrid().__class__.__name__}": {
                 "reference": vtkUnstructuredGrid()
             },
             "result must be a vtkPolyData, not NoneType": {"result": None},

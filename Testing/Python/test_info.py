@@ -66,7 +66,7 @@ class Info(unittest.TestCase):
         self.assertEqual(
             (figures["vertices"], figures["surface_area"], figures["valences"]), (0, 0.0, {})
         )
-        for mesh, kind in ((vtkUnstructuredGrid(), "vtkUnstructuredGrid"), (None, "NoneType")):
+        for mesh, kind in ((vtkUnstructuredGrid(), vtkUnstructuredGrid().__class__.__name__), (None, "NoneType")):
             with self.assertRaises(ValueError) as caught:
                 neuralmesh.info(mesh)
             self.assertEqual(str(caught.exception), f"mesh must be a vtkPolyData, not {kind}")

@@ -83,7 +83,7 @@ class Arrays(unittest.TestCase):
             "bool": np.ones((10, 3), bool),
             "<U1": [["a", "b", "c"]],
             "list": [[1, 2, 3], [4, 5]],
-            "vtkImageData": vtkImageData(),
+            "ImageData": vtkImageData(),
         }
         for part, points in wrong.items():
             with self.subTest(part):

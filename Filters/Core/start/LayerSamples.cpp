@@ -50,6 +50,11 @@ constexpr float NoticeableError = 0.02f;
 constexpr float FarthestMove = 0.7f;
 /// Points that spread so much of their radius across are in no layer.
 constexpr float ScatterOfNoLayer = 0.25f;
+/// Points that are so much farther apart than usual, and scatter so much more, are scattered in space: sparse
+/// parts of a surface are as noisy as others, about.
+constexpr float SparseAgainstUsual = 3.f;
+constexpr float NoisyAgainstUsual = 4.f;
+constexpr float NoisyAgainstRadius = 0.1f;
 /// Samples that came that close to each other when they were moved.
 constexpr float ClosestOfMoved = 0.4f;
 /// The layer of a sample goes up so much at most, against the distance, and is so thick against the noise.
@@ -340,6 +345,26 @@ std::vector<LayerSample> withoutStrays(std::vector<LayerSample> samples)
   return samples;
 }
 
+/// Without those of points that are scattered in space.
+std::vector<LayerSample> withoutScattered(std::vector<LayerSample> samples)
+{
+  std::vector<float> radii, noises;
+  for (const LayerSample& sample : samples)
+  {
+    radii.push_back(sample.radius);
+    noises.push_back(sample.noise);
+  }
+  const float radius = medianOf(std::move(radii)), noise = medianOf(std::move(noises));
+  std::erase_if(samples,
+    [&](const LayerSample& sample)
+    {
+      return sample.radius > SparseAgainstUsual * radius &&
+        sample.noise > NoisyAgainstUsual * noise &&
+        sample.noise > NoisyAgainstRadius * sample.radius;
+    });
+  return samples;
+}
+
 /// Whether too many of those tried lie in no layer.
 bool areTooMany(std::size_t inNoLayer, std::size_t tried, double most)
 {
@@ -427,6 +452,10 @@ LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layer
     {
       ++inNoLayer;
     }
+  }
+  if (!samples.empty())
+  {
+    samples = withoutScattered(std::move(samples));
   }
   samples = apart(std::move(samples), layers, seed);
   return { layers == Layers::Apart ? withoutStrays(std::move(samples)) : std::move(samples),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Clusters.h"
 #include "ManifoldCheck.h"
+#include "mesh/SurfaceReport.h"
 #include "run/Reconstruction.h"
 #include "SphereRuns.h"
 #include "TrueSurfaces.h"
@@ -75,6 +76,41 @@ TEST(Robustness, Clusters)
       expectRight(shape, mesh, 2.5 * Near);
       EXPECT_LT(largestDistanceTo(mesh, shape, 1000), Near * shape.diagonal);
     }
+  }
+}
+
+// Outliers all over the box are no surface beside a body and a speck that learning has to reach, either: no
+// flaps go from one to the other.
+TEST(Robustness, OutliersAroundASpeck)
+{
+  constexpr double Speck = 0.08;
+  const Eigen::Vector3d beside(1.3, 0.6, 0.6);
+  for (const std::uint64_t seed : { 1u, 2u, 3u, 4u })
+  {
+    SCOPED_TRACE(seed);
+    const TrueSurface body = trueSphere(), speck = trueSphere();
+    CloudOptions options;
+    options.count = 40000;
+    options.noise = 0.004;
+    options.seed = seed;
+    std::vector<Eigen::Vector3d> points = generateCloud(body.triangles, options);
+    options.count = 300;
+    options.noise = 0.;
+    for (const Eigen::Vector3d& point : generateCloud(speck.triangles, options))
+    {
+      points.push_back(beside + Speck * point);
+    }
+    Random random(seed);
+    for (int i = 0; i < 200; ++i)
+    {
+      const auto coordinate = [&random] { return 1.4 * (2. * random.uniform() - 1.); };
+      const double x = coordinate(), y = coordinate(), z = coordinate();
+      points.emplace_back(x, y, z);
+    }
+    const Reconstruction result = reconstruct(PointCloud(points), defaults(3000), goOn);
+    const double area = reportSurface(body.triangles).area;
+    EXPECT_LT(result.quality->surface.area, 1.15 * (1. + Speck * Speck) * area);
+    EXPECT_GT(result.quality->surface.area, 0.95 * area);
   }
 }
 
