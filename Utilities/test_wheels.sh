@@ -5,18 +5,19 @@
 #   Utilities/test_wheels.sh on SUITE          in a Debian of its own that has nothing but Python
 #
 # Worlds: none (NumPy alone), vtk (the newest), pyvista (with vtk), cvista (PyVista on the fork alone), old (VTK
-# 9.2, Python 3.11), source (the source distribution, compiled by g++).
+# 9.2, Python 3.11), source (the source distribution, compiled by g++), paraview (that of Debian: pvpython,
+# pvbatch, and the window, whose picture goes to packages/).
 set -euo pipefail
 
 repository=$(cd "$(dirname "$0")/.." && pwd)
 source "$repository/Utilities/build.sh"
-all_worlds=(none vtk pyvista cvista old source)
+all_worlds=(none vtk pyvista cvista old source paraview)
 
 # What pip installs beside the wheel: brings WORLD.
 brings()
 {
   case $1 in
-    none | source) ;;
+    none | source | paraview) ;;
     vtk) echo vtk ;;
     pyvista) echo pyvista ;;
     cvista) echo pyvista cvista ;;
@@ -34,8 +35,37 @@ tests_of()
       ;;
     pyvista) tests+=(reconstruct pyvista) ;;
     cvista) tests=(wheel command files pyvista) ;;
+    paraview) tests=() ;;
   esac
   echo "${tests[@]}"
+}
+
+# try_paraview VENV: the plugin of the environment, in Debian's ParaView.
+try_paraview()
+{
+  local venv=$1 script=$repository/Testing/ParaView/wheel_in_paraview.py picture
+  install_packages paraview python3-paraview xvfb xauth libgl1-mesa-dri
+  # ParaView 5.11 asks for a function that Python 3.11 has no more.
+  mkdir "$venv/argspec"
+  printf 'import inspect\n\nif not hasattr(inspect, "getargspec"):\n    inspect.getargspec = inspect.getfullargspec\n' \
+    > "$venv/argspec/sitecustomize.py"
+  export PYTHONPATH=$venv/argspec NEURALMESH_PLUGIN
+  NEURALMESH_PLUGIN=$("$venv/bin/neuralmesh" paraview --path)
+  local way status=0
+  picture=$repository/packages/paraview-$(pvpython --version 2>&1 | grep -oE '[0-9.]+$').png
+  for way in pvpython pvbatch 'paraview --script'; do
+    local command=($way "$script")
+    [ "$way" != 'paraview --script' ] ||
+      command=(env "NEURALMESH_PICTURE=$picture" xvfb-run -a paraview "--script=$script")
+    if timeout 300 "${command[@]}" > "$venv/paraview.log" 2>&1 && grep -q '^well' "$venv/paraview.log"; then
+      printf '%-8s %-14s well   %s\n' paraview "${way%% *}" "$(pvpython --version 2>&1 | tail -n 1)"
+    else
+      printf '%-8s %-14s FAILED\n' paraview "${way%% *}"
+      cat "$venv/paraview.log" >&2
+      status=1
+    fi
+  done
+  return $status
 }
 
 # try_world WORLD: prints a line for each test.
@@ -53,6 +83,9 @@ try_world()
   # shellcheck disable=SC2046 # words
   "$python" -m pip install --quiet "$what" mypy $(brings "$world")
   [ "$world" != cvista ] || "$python" -m pip uninstall --quiet --yes vtk
+  if [ "$world" = paraview ]; then
+    (try_paraview "$venv") || status=1
+  fi
   for test in $(tests_of "$world"); do
     if (cd "$venv" && NEURALMESH_WORLD=$world NEURALMESH_TEST_PYTHON=$python \
       PYTHONPATH=$repository/Testing/Python:$repository/Testing/Support \
@@ -102,6 +135,7 @@ if [ "${1:-}" = on ]; then
   cp -r packages "$debian/neuralmesh/"
   status=0
   in_debian "$debian" plain bash /neuralmesh/Utilities/test_wheels.sh "${@:3}" || status=1
+  cp "$debian"/neuralmesh/packages/*.png packages/ 2> /dev/null || true
   leave_debian "$debian"
   rm -rf --one-file-system "$debian"
   exit $status
