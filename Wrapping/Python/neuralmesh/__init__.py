@@ -5,9 +5,9 @@
 >>> mesh = neuralmesh.reconstruct(points, vertices=20000)
 
 reconstruct() does it in one call, stream() while points arrive, compare() tells how far a mesh is
-from a reference, explain() what it leaves of the points, info() whether it is sound. The VTK classes, vtkNeuralMesh and its
-sisters, are here for pipelines. The methods of a mesh and of all VTK objects are those of the package
-vtkmodules. Where this package was built with a VTK, VTK_VERSION, vtkmodules must be of that very one.
+from a reference, explain() what it leaves of the points, info() whether it is sound. The VTK classes,
+vtkNeuralMesh and its sisters, are here for pipelines. The methods of a mesh and of all VTK objects are
+those of the package vtkmodules. Where this package was built with a VTK, VTK_VERSION, vtkmodules must be of that very one.
 What pip installs was built without: there any VTK will do, or none, and a mesh is a neuralmesh.Mesh then.
 """
 
