@@ -33,7 +33,8 @@ def main():
         simple.ResetCamera(view)
         simple.Render(view)
         simple.SaveScreenshot(picture, view)
-    print("well", flush=True)
+    # Not sys.stdout, which in the window is its shell.
+    print("well", file=sys.__stdout__, flush=True)
 
 
 try:

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import textwrap
+import threading
 import unittest
 from pathlib import Path
 
@@ -130,6 +131,25 @@ class Functions(unittest.TestCase):
             with self.assertRaises(ValueError):
                 neuralmesh.reconstruct(empty, 300)
 
+    # Promise: a Mesh whose arrays do not go together is told in words, and no foreign memory is read.
+    def test_bad_meshes(self):
+        empty = np.empty((0, 3), dtype=np.int64)
+        for data in ({"Normals": ball()[:9]}, {"Normals": ball()[:, :2]}, {"w": np.ones(9)}):
+            with self.assertRaisesRegex(ValueError, "must have a row for each of 4000 points"):
+                neuralmesh.reconstruct(neuralmesh.Mesh(ball(), empty, data), 300)
+        for triangles in ([[0, 1, 2, 3]], [[0.0, 1.0, 2.0]], [0, 1, 2], np.empty((0, 4), dtype=int)):
+            with self.assertRaisesRegex(ValueError, r"triangles of a mesh .* shape \(N, 3\)"):
+                neuralmesh.info(neuralmesh.Mesh(ball(), np.array(triangles)))
+
+    # Promise: masked points are not there.
+    def test_masked(self):
+        cloud = np.ma.array(np.vstack((ball(), [[9.0, 9.0, 9.0]])))
+        cloud[-1] = np.ma.masked
+        mesh = neuralmesh.reconstruct(cloud, 300)
+        self.assertEqual(
+            points_of(mesh).tobytes(), points_of(neuralmesh.reconstruct(ball(), 300)).tobytes()
+        )
+
     # Promise: every way of learning works: variants, orders, ensembles, boundaries, weights, a first mesh.
     def test_ways(self):
         cloud = ball()
@@ -195,6 +215,17 @@ class Functions(unittest.TestCase):
         self.assertEqual(stream.learn(60000), 60000)
         self.assertEqual((stream.points, stream.samples), (4000, 60000))
         self.assertGreater(len(points_of(stream.mesh())), 200)
+
+    # Promise: a stream may be fed by one thread while another one learns.
+    def test_stream_in_two_threads(self):
+        stream, cloud = neuralmesh.stream(1000), ball(20000)
+        stream.add_points(cloud)
+        feeding = threading.Thread(target=lambda: [stream.add_points(cloud) for _ in range(20)])
+        feeding.start()
+        for _ in range(20):
+            stream.learn(5000, progress=lambda _fraction: stream.points > 0)
+        feeding.join()
+        self.assertEqual((stream.points, stream.samples), (21 * 20000, 20 * 5000))
 
 
 def parameters_of(function):

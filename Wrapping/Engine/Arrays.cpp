@@ -47,6 +47,13 @@ std::vector<Eigen::Vector3d> placesOf(const ArrayOf<double>& array)
 
 TriangleMesh meshOf(const ArrayOf<double>& points, const ArrayOf<std::int64_t>& triangles)
 {
+  const auto hasThreeColumns = [](const auto& array)
+  { return array.ndim() == 2 && array.shape(1) == 3; };
+  if (!hasThreeColumns(points) || !hasThreeColumns(triangles))
+  {
+    throw std::invalid_argument(
+      "points and triangles of a mesh are arrays of shape (N, 3) and (T, 3)");
+  }
   TriangleMesh mesh{ placesOf(points), {} };
   if (mesh.points.size() > UINT32_MAX)
   {

@@ -170,12 +170,21 @@ void bindStream(nb::module_& module)
       },
       "finished"_a, "viewpoints"_a, "views"_a.none(), "normals"_a.none(), "up"_a.none(),
       "progress"_a.none())
-    .def_prop_ro("points", [](const Stream& stream) { return stream.engine().pointCount(); })
-    .def_prop_ro(
-      "dropped_points", [](const Stream& stream) { return stream.engine().droppedCount(); })
-    .def_prop_ro("samples", [](const Stream& stream) { return stream.engine().sampleCount(); })
-    .def_prop_ro("vertices", [](const Stream& stream) { return stream.engine().vertexCount(); })
-    .def_prop_ro("beginnings", [](const Stream& stream) { return stream.engine().beginnings(); });
+    .def_prop_ro("points",
+      [](const Stream& stream)
+      { return stream.look([](const auto& engine) { return engine.pointCount(); }); })
+    .def_prop_ro("dropped_points",
+      [](const Stream& stream)
+      { return stream.look([](const auto& engine) { return engine.droppedCount(); }); })
+    .def_prop_ro("samples",
+      [](const Stream& stream)
+      { return stream.look([](const auto& engine) { return engine.sampleCount(); }); })
+    .def_prop_ro("vertices",
+      [](const Stream& stream)
+      { return stream.look([](const auto& engine) { return engine.vertexCount(); }); })
+    .def_prop_ro("beginnings",
+      [](const Stream& stream)
+      { return stream.look([](const auto& engine) { return engine.beginnings(); }); });
 }
 
 void bindMeasures(nb::module_& module)

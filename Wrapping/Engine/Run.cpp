@@ -25,6 +25,14 @@ namespace neuralmesh::binding
 {
 namespace
 {
+void requireCount(std::size_t values, bool areGiven, std::size_t points)
+{
+  if (areGiven && values != points)
+  {
+    throw std::invalid_argument("there are not as many weights as points");
+  }
+}
+
 void requireWeights(std::span<const double> weights)
 {
   const auto isPositive = [](double weight) { return weight > 0. && std::isfinite(weight); };
@@ -47,6 +55,8 @@ Run::Run(std::vector<AnyArray> points, std::optional<ArrayOf<double>> weights, S
     weights ? valuesOf(*weights) : std::span<const double>();
   requireWeights(weightsOfPoints);
   pointCount_ = spans.size();
+  requireCount(weightsOfPoints.size(), weights.has_value(), pointCount_);
+  sides_.requireCount(pointCount_);
   const nb::gil_scoped_release unlocked;
   times_.enter(Phase::Cloud);
   cloud_.emplace(spans, weightsOfPoints, keepsOrigins || hints_.needOrigins(), executor_);
@@ -265,8 +275,17 @@ bool Run::findPlaces(Call& call, double begin, double end)
   return call.goesOn();
 }
 
+void Run::requirePointData(std::size_t rows) const
+{
+  if (rows != pointCount_)
+  {
+    throw std::invalid_argument("point data has not as many rows as there are points");
+  }
+}
+
 nb::object Run::fit(const ArrayOf<double>& values) const
 {
+  requirePointData(values.shape(0));
   const std::size_t components = values.size() / std::max<std::size_t>(1, pointCount_);
   std::vector<double> fitted;
   {
@@ -282,6 +301,7 @@ nb::object Run::fit(const ArrayOf<double>& values) const
 
 nb::object Run::vote(const ArrayOf<std::uint32_t>& kinds) const
 {
+  requirePointData(kinds.shape(0));
   std::vector<std::uint32_t> winners;
   {
     const nb::gil_scoped_release unlocked;

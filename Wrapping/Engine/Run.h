@@ -74,6 +74,7 @@ public:
   nanobind::object vote(const ArrayOf<std::uint32_t>& kinds) const;
 
 private:
+  void requirePointData(std::size_t rows) const;
   using Tell = std::function<void(const char* kind, const std::string& text)>;
 
   std::optional<Mesh> firstMeshOf(std::optional<TriangleMesh> triangles) const;

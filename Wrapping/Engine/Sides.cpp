@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sides.h"
 
+#include <stdexcept>
+
 namespace neuralmesh::binding
 {
 OrientationHints Sides::hints() const
@@ -22,5 +24,17 @@ OrientationHints Sides::hints() const
     result.up = Eigen::Vector3d(up->data());
   }
   return result;
+}
+
+void Sides::requireCount(std::size_t points) const
+{
+  if (views && views->size() != points)
+  {
+    throw std::invalid_argument("there are not as many views as points");
+  }
+  if (normals && normals->size() != 3 * points)
+  {
+    throw std::invalid_argument("there are not as many normals as points, of three numbers each");
+  }
 }
 }

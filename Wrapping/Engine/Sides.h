@@ -18,5 +18,7 @@ struct Sides
   std::optional<ArrayOf<double>> up;           ///< of shape (3,)
 
   OrientationHints hints() const;
+  /// Throws std::invalid_argument where views or normals are not as many as the points.
+  void requireCount(std::size_t points) const;
 };
 }

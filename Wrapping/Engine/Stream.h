@@ -8,6 +8,7 @@
 #include "run/StreamingReconstruction.h"
 
 #include <cstdint>
+#include <mutex>
 
 namespace neuralmesh::binding
 {
@@ -24,9 +25,19 @@ public:
   /// direction are what is known now.
   nanobind::dict mesh(bool isFinished, const Sides& sides, Call& call) const;
 
-  const StreamingReconstruction& engine() const { return engine_; }
+  /// What `use` tells of the stream as it is.
+  template <typename Use>
+  auto look(const Use& use) const
+  {
+    const nanobind::gil_scoped_release unlocked;
+    const std::lock_guard alone(mutex_);
+    return use(engine_);
+  }
 
 private:
   StreamingReconstruction engine_;
+  /// Several threads of Python may call at a time, and a function of progress may look. It is locked without
+  /// Python's own lock.
+  mutable std::recursive_mutex mutex_;
 };
 }

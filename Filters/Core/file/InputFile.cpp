@@ -32,6 +32,12 @@ bool InputFile::nextLine()
     return false;
   }
   ++lineNumber_;
+  // Some programs begin text with a mark of its encoding.
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  if (lineNumber_ == 1 && line_.starts_with(mark))
+  {
+    line_.erase(0, mark.size());
+  }
   return true;
 }
 

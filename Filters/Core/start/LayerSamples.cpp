@@ -54,7 +54,7 @@ constexpr float ScatterOfNoLayer = 0.25f;
 /// parts of a surface are as noisy as others, about.
 constexpr float SparseAgainstUsual = 3.f;
 constexpr float NoisyAgainstUsual = 4.f;
-constexpr float NoisyAgainstRadius = 0.1f;
+constexpr float NoisyAgainstRadius = 0.11f;
 /// Samples that came that close to each other when they were moved.
 constexpr float ClosestOfMoved = 0.4f;
 /// The layer of a sample goes up so much at most, against the distance, and is so thick against the noise.

@@ -208,6 +208,14 @@ TEST(JoinedViews, KeepFilesApart)
   EXPECT_TRUE(joinedViews(nothing).views.empty());
 }
 
+// Promise: the mark that some programs begin text with is no part of the first point.
+TEST_F(ScannerFiles, TextWithAMarkOfItsEncoding)
+{
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_EQ(contentsOf("a.xyz", mark + "1 2 3\n4 5 6\n").doubles,
+    (std::vector<double>{ 1, 2, 3, 4, 5, 6 }));
+}
+
 // Promise: for files that Python reads there is the command; for others there is none.
 TEST_F(ScannerFiles, ConversionsAreTold)
 {

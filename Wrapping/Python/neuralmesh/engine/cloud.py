@@ -125,8 +125,15 @@ def as_cloud(points: object, blocks: bool = True) -> Cloud:
 
 
 def _of_mesh(mesh: Mesh) -> Cloud:
+    points = as_points(mesh.points)
     data = {name: np.asarray(values) for name, values in mesh.point_data.items()}
-    block = Block(as_points(mesh.points), data, data.pop("Normals", None), mesh.scalars)
+    for name, values in data.items():
+        if values.shape[:1] != (len(points),) or (name == "Normals" and values.shape[1:] != (3,)):
+            raise ValueError(
+                f"point data {name} must have a row for each of {len(points)} points, and is of shape "
+                f"{values.shape}"
+            )
+    block = Block(points, data, data.pop("Normals", None), mesh.scalars)
     cloud = Cloud([block] if len(block.points) > 0 else [])
     viewpoints = mesh.field_data.get("Viewpoints")
     if viewpoints is not None:
@@ -135,6 +142,9 @@ def _of_mesh(mesh: Mesh) -> Cloud:
 
 
 def as_points(points: object) -> np.ndarray:
+    if isinstance(points, np.ma.MaskedArray):
+        # Masked points are not there.
+        points = points.astype(float).filled(np.nan)
     wanted = "points must be a vtkPointSet or an array of numbers of shape (N, 3)"
     try:
         array = np.asarray(points)

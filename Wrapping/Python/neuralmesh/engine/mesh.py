@@ -118,6 +118,13 @@ def as_mesh(surface: Any, parameter: str) -> Mesh:
     else, which names the parameter.
     """
     if isinstance(surface, Mesh):
+        points, triangles = np.asarray(surface.points), np.asarray(surface.triangles)
+        for name, array, kinds in (("points", points, "fiu"), ("triangles", triangles, "iu")):
+            if array.shape[1:] != (3,) or array.dtype.kind not in kinds:
+                raise ValueError(
+                    f"{parameter}: {name} of a mesh must be numbers of shape (N, 3), not of shape "
+                    f"{array.shape} and type {array.dtype}"
+                )
         return surface
     if isinstance(surface, tuple) and len(surface) == 2:
         points, triangles = (np.asarray(part) for part in surface)
