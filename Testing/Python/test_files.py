@@ -198,7 +198,7 @@ class Read(FileTest):
             with self.assertRaisesRegex(ValueError, f"{name}.npy: "):
                 neuralmesh.read(self.folder / f"{name}.npy")
         for extension, package, is_there in (
-            ("vtp", "pip install vtk", HAS_VTK),
+            ("vtp", "pip install vtk", files.has_vtk_for(".vtp")),
             ("las", r"pip install 'neuralmesh\[lidar\]'", HAS_LASPY),
             ("e57", r"pip install 'neuralmesh\[lidar\]'", HAS_PYE57),
         ):

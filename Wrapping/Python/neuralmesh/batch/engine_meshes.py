@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from .._kinds import vtk_package
 from ..engine import files
 from ..engine.mesh import Mesh
 from .atomic_file import atomic_file
@@ -32,7 +31,7 @@ __all__ = [
 ]
 
 FORMATS = ("vtp", "ply", "obj", "stl", "glb", "off", "vtk")
-DEFAULT_FORMAT = "ply" if vtk_package() is None else "vtp"
+DEFAULT_FORMAT = "vtp" if files.has_vtk_for(".vtp") else "ply"
 
 
 def problem_of_format(mesh_format: str) -> str:

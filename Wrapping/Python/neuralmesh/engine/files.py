@@ -5,6 +5,7 @@ are installed.
 
 from __future__ import annotations
 
+import importlib.util
 import io
 import os
 from typing import Any, Callable
@@ -108,12 +109,19 @@ def write_mesh(
     )
 
 
+def has_vtk_for(extension: str) -> bool:
+    """Whether there is a VTK with the module for these files; cvista lacks some."""
+    package = vtk_package()
+    module = "vtkIOLegacy" if extension == ".vtk" else "vtkIOXML"
+    return package is not None and importlib.util.find_spec(f"{package}.{module}") is not None
+
+
 def require_writable(path: str) -> None:
     """ValueError if the format cannot be written, or not without a package."""
     extension = extension_of(path)
     if extension not in WRITABLE:
         raise ValueError(f"{path}: unknown extension; writable are {' '.join(WRITABLE)}")
-    if extension in _WRITTEN_BY_VTK and vtk_package() is None:
+    if extension in _WRITTEN_BY_VTK and not has_vtk_for(extension):
         raise ValueError(f"{path}: {extension} files are written by VTK: pip install vtk")
 
 
@@ -150,7 +158,7 @@ def _reader_of(path: str) -> Callable[[str], Mesh]:
     if extension == ".npy":
         return _read_npy
     if extension in BY_VTK:
-        if vtk_package() is None:
+        if not has_vtk_for(extension):
             raise missing_package(path, "VTK", "vtk")
         from .vtk_files import read_by_vtk
 
