@@ -197,6 +197,10 @@ class Read(FileTest):
             np.save(self.folder / f"{name}.npy", values)
             with self.assertRaisesRegex(ValueError, f"{name}.npy: "):
                 neuralmesh.read(self.folder / f"{name}.npy")
+        for content in (b"\x93NUMPY\x01\x00\x10\x00{'descr': [(((", b"PK\x03\x04", b""):
+            (self.folder / "damaged.npy").write_bytes(content)
+            with self.assertRaisesRegex(ValueError, "damaged.npy: "):
+                neuralmesh.read(self.folder / "damaged.npy")
         for extension, package, is_there in (
             ("vtp", "pip install vtk", files.has_vtk_for(".vtp")),
             ("las", r"pip install 'neuralmesh\[lidar\]'", HAS_LASPY),

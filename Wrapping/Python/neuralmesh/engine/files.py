@@ -198,7 +198,9 @@ def _read_npy(path: str) -> Mesh:
         with open(path, "rb") as file:
             content = np.load(file, allow_pickle=False)
         points = as_points(content)
-    except (ValueError, EOFError, MemoryError, SyntaxError, TypeError) as error:
+    except OSError:
+        raise
+    except Exception as error:  # NumPy parses the header as Python, with all that this raises
         raise ValueError(
             f"{path}: no .npy of numbers of shape (N, 3), or damaged: {error}"
         ) from None
