@@ -144,7 +144,7 @@ def _of_mesh(mesh: Mesh) -> Cloud:
 def as_points(points: object) -> np.ndarray:
     if isinstance(points, np.ma.MaskedArray):
         # Masked points are not there.
-        points = points.astype(float).filled(np.nan)
+        points = np.ma.filled(points.astype(float), np.nan)
     wanted = "points must be a vtkPointSet or an array of numbers of shape (N, 3)"
     try:
         array = np.asarray(points)
