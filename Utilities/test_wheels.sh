@@ -72,7 +72,7 @@ try_paraview()
 try_world()
 {
   local world=$1 venv python test what status=0
-  venv=$(mktemp -d "${TMPDIR:-/tmp}/neuralmesh-$world.XXXXXX")
+  venv=$scratch/$world
   /usr/bin/python3 -m venv "$venv"
   python=$venv/bin/python
   what=$(ls packages/neuralmesh-*"$(tag)"*.whl)
@@ -110,6 +110,9 @@ tag()
 try_here()
 {
   local world failed=0
+  # However this ends, no environment is left.
+  scratch=$(mktemp -d)
+  trap 'rm -rf "$scratch"' EXIT
   install_packages python3-venv
   for world in "${@:-${all_worlds[@]}}"; do
     # There is no such VTK for other versions of Python.

@@ -141,7 +141,7 @@ class Files(BatchTest):
             "pipe": "no regular file",
             "none": "no such file",
             "half.stl": "damaged",
-            "cut": "in the middle of a line" if neuralmesh.VTK_VERSION else "ends in the middle of it",
+            "cut": "ends in the middle of it",
             "fewer": "before its last point",
             "open": "before its endsolid",
         }

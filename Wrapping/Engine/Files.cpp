@@ -69,6 +69,10 @@ CoordinateRange rangeOfArray(const AnyArray& points)
 FileContents contentsOf(const AnyArray& points, const ArrayOf<std::int64_t>& triangles,
   const std::optional<ArrayOf<float>>& normals, const std::optional<ArrayOf<std::uint8_t>>& colors)
 {
+  if (triangles.ndim() != 2 || triangles.shape(1) != 3)
+  {
+    throw std::invalid_argument("triangles are an array of shape (T, 3)");
+  }
   FileContents contents;
   const std::size_t count = spansOf({ points }).size();
   if (points.dtype() == nb::dtype<float>())

@@ -25,14 +25,6 @@ namespace neuralmesh::binding
 {
 namespace
 {
-void requireCount(std::size_t values, bool areGiven, std::size_t points)
-{
-  if (areGiven && values != points)
-  {
-    throw std::invalid_argument("there are not as many weights as points");
-  }
-}
-
 void requireWeights(std::span<const double> weights)
 {
   const auto isPositive = [](double weight) { return weight > 0. && std::isfinite(weight); };
@@ -55,7 +47,10 @@ Run::Run(std::vector<AnyArray> points, std::optional<ArrayOf<double>> weights, S
     weights ? valuesOf(*weights) : std::span<const double>();
   requireWeights(weightsOfPoints);
   pointCount_ = spans.size();
-  requireCount(weightsOfPoints.size(), weights.has_value(), pointCount_);
+  if (weights && weights->size() != pointCount_)
+  {
+    throw std::invalid_argument("there are not as many weights as points");
+  }
   sides_.requireCount(pointCount_);
   const nb::gil_scoped_release unlocked;
   times_.enter(Phase::Cloud);
@@ -305,8 +300,18 @@ nb::object Run::vote(const ArrayOf<std::uint32_t>& kinds) const
   std::vector<std::uint32_t> winners;
   {
     const nb::gil_scoped_release unlocked;
-    winners = voteForKinds(
-      *places_, [&](std::uint32_t point) { return std::to_string(kinds.data()[point]); });
+    const std::span<const std::uint32_t> origins = cloud_->origins();
+    // The label of a kind is the first of its points that count.
+    std::vector<std::uint32_t> first(pointCount_, NoLabel);
+    for (const std::uint32_t origin : origins)
+    {
+      std::uint32_t& label = first[kinds.data()[origin]];
+      label = std::min(label, origin);
+    }
+    std::vector<std::uint32_t> labels(origins.size());
+    std::transform(origins.begin(), origins.end(), labels.begin(),
+      [&](std::uint32_t origin) { return first[kinds.data()[origin]]; });
+    winners = voteForLabels(*places_, labels);
   }
   return arrayOf(std::move(winners));
 }

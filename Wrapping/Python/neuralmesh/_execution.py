@@ -12,12 +12,12 @@ import numpy as np
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
+from ._types import Progress
 from ._warning import warn
 
 if TYPE_CHECKING:
     from .vtkFiltersNeuralMesh import vtkNeuralMeshAlgorithm
 
-Progress = Callable[[float], bool | None]
 Result = TypeVar("Result")
 
 

@@ -39,7 +39,7 @@ def problem_of_format(mesh_format: str) -> str:
     try:
         files.require_writable(f"meshes.{mesh_format}")
     except ValueError as error:
-        return _without(f"meshes.{mesh_format}", error)
+        return str(error).removeprefix(f"meshes.{mesh_format}: ")
     return ""
 
 
@@ -56,10 +56,7 @@ def read_points(path: Path) -> Mesh:
         raise FileNotFoundError("there is no such file")
     if not path.is_file():
         raise ValueError("this is no regular file")
-    try:
-        points = files.read(path)
-    except ValueError as error:
-        raise ValueError(_without(str(path), error)) from None
+    points = files.read(path)
     if len(points.points) == 0:
         raise ValueError("there are no points in it")
     return points
@@ -72,7 +69,8 @@ def read_mesh(path: Path) -> Mesh:
         if len(mesh.triangles) == 0:
             raise ValueError("there are no triangles in it")
     except (OSError, ValueError) as error:
-        raise ValueError(f"first mesh {path}: {error}") from None
+        # Some readers name the file themselves.
+        raise ValueError(f"first mesh {path}: {str(error).removeprefix(f'{path}: ')}") from None
     return mesh
 
 
@@ -118,8 +116,3 @@ def _first(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return value[0]
     return value.reshape(-1)[0].item() if isinstance(value, np.ndarray) else value
-
-
-def _without(path: str, error: Exception) -> str:
-    """The message without the name of the file, which stands elsewhere."""
-    return str(error).removeprefix(f"{path}: ")

@@ -39,7 +39,9 @@ def main() -> None:
     try:
         run(job, Path(content["folder"]), content["format"])
     except Exception as error:  # whatever it is: it goes into the report
-        sys.exit(f"{job.scan}: {error or type(error).__name__}")
+        text = str(error) or type(error).__name__
+        # Some readers name the file, with the line where it is wrong.
+        sys.exit(text if text.startswith(str(job.scan)) else f"{job.scan}: {text}")
 
 
 def run(job: Job, folder: Path, mesh_format: str) -> None:

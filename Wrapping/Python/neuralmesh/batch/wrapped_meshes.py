@@ -17,7 +17,6 @@ from vtkmodules.vtkIOLegacy import vtkGenericDataObjectReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 from .._execution import execute, observed_call
-from .._points import as_dataset
 from ..vtkFiltersNeuralMesh import (
     vtkNeuralMeshPLYReader,
     vtkNeuralMeshReader,
@@ -65,10 +64,8 @@ def read_points(path: Path) -> vtkPointSet:
     if not path.is_file():
         raise ValueError("this is no regular file")
     extension = path.suffix.lower()
-    if extension in _TEXT:
-        return as_dataset(_read_text(path))
     if extension not in _READERS:
-        readable = " ".join((*_READERS, *_TEXT))
+        readable = " ".join(_READERS)
         conversion = vtkNeuralMeshReader.GetConversion(str(path))
         raise ValueError(conversion or f"unknown extension; readable are {readable}")
     _require_end(path, extension)
@@ -78,6 +75,8 @@ def read_points(path: Path) -> vtkPointSet:
     points = reader.GetOutputDataObject(0)
     if not isinstance(points, vtkPointSet):
         raise ValueError("this holds no point set")
+    if points.GetNumberOfPoints() == 0 and extension in _TEXT:
+        raise ValueError("there are no points in it")
     vtkNeuralMeshWriter.UndoShift(str(path), points)
     return points
 
@@ -95,7 +94,8 @@ def read_mesh(path: Path) -> vtkPolyData:
         ):
             raise ValueError("there are no triangles in it")
     except (OSError, ValueError, RuntimeError) as error:
-        raise ValueError(f"first mesh {path}: {error}") from None
+        # Some readers name the file themselves.
+        raise ValueError(f"first mesh {path}: {str(error).removeprefix(f'{path}: ')}") from None
     # VTK takes the points of an .obj apart where there are normals or texture coordinates.
     is_apart = path.suffix.lower() == ".obj" and mesh.GetPointData().GetNumberOfArrays() > 0
     return _merge_equal_points(mesh) if is_apart else mesh
@@ -154,55 +154,11 @@ _READERS = {
     ".pcd": vtkNeuralMeshReader,
     ".ptx": vtkNeuralMeshReader,
     ".pwn": vtkNeuralMeshReader,
+    ".xyz": vtkNeuralMeshReader,
+    ".pts": vtkNeuralMeshReader,
+    ".txt": vtkNeuralMeshReader,
+    ".csv": vtkNeuralMeshReader,
 }
-
-
-def _read_text(path: Path) -> np.ndarray:
-    """The first three numbers of each line, between blanks, commas or semicolons."""
-    delimiter, skipped, announced = None, 0, 0.0
-    with open(path, encoding="utf-8", errors="replace") as file:
-        for line in file:
-            words = line.replace(",", " ").replace(";", " ").split()
-            if len(words) >= 3 and all(map(_is_number, words[:3])):
-                delimiter = next((sign for sign in ",;" if sign in line), None)
-                break
-            # Names of columns, or a count of points, or a comment.
-            announced = float(words[0]) if len(words) == 1 and _is_number(words[0]) else announced
-            skipped += 1
-        else:
-            raise ValueError("there are no points in it")
-    _require_whole_last_line(path)
-    points = np.loadtxt(
-        path,
-        comments=["#", "//"],
-        delimiter=delimiter,
-        skiprows=skipped,
-        usecols=(0, 1, 2),
-        ndmin=2,
-        encoding="utf-8",
-    )
-    if len(points) < announced:
-        raise ValueError("damaged: it ends before its last point")
-    return points
-
-
-def _require_whole_last_line(path: Path) -> None:
-    """Raise ValueError if the file has no end of line, and fewer words in its last than before."""
-    with open(path, "rb") as file:
-        file.seek(max(file.seek(0, 2) - 4096, 0))
-        lines = [line.split(b"#")[0].split(b"//")[0] for line in file.read().split(b"\n")]
-    counts = [len(line.replace(b",", b" ").replace(b";", b" ").split()) for line in lines]
-    before = next((count for count in reversed(counts[:-1]) if count > 0), 0)
-    if 0 < counts[-1] < before:
-        raise ValueError("damaged: it ends in the middle of a line")
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
 
 
 def _require_end(path: Path, extension: str) -> None:

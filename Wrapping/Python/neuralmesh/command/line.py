@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import importlib
-import importlib.util
 import os
 import signal
 import sys
@@ -36,7 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if words[0] == "--version":
         print(__version__)
         return 0
-    if words[0] not in _subcommands():
+    if words[0] not in _SUBCOMMANDS:
         unknown = words[0].startswith("-")
         print(
             (
@@ -52,13 +51,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return _run(_command(words[0]), words[1:])
 
 
-def _subcommands() -> dict[str, str]:
-    has_paraview = importlib.util.find_spec("neuralmesh.paraview") is not None
-    return {name: text for name, text in _SUBCOMMANDS.items() if name != "paraview" or has_paraview}
-
-
 def _help() -> str:
-    lines = "".join(f"  {name:28}{text}\n" for name, text in _subcommands().items())
+    lines = "".join(f"  {name:28}{text}\n" for name, text in _SUBCOMMANDS.items())
     return (
         "Triangle meshes from point clouds, by learning\n"
         "Usage: neuralmesh [OPTIONS] SUBCOMMAND\n\n"

@@ -7,7 +7,7 @@ import json
 from typing import Any, Sequence
 
 from .. import _engine
-from ..engine.cloud import as_points
+from .._arrays import as_points
 from .names import POINTS, read_points
 from .parsing import Parser, described
 

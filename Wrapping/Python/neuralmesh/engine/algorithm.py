@@ -35,7 +35,6 @@ class NeuralMeshAlgorithm:
 
     PROPERTIES: dict[str, Property]
     DEFAULT, THESIS = 0, 1  # presets
-    CONSTANT_JUMP = 0
 
     def __init__(self) -> None:
         self._values = new_values(type(self))

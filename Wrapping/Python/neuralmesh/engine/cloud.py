@@ -8,6 +8,7 @@ from typing import Any, Iterator
 
 import numpy as np
 
+from .._arrays import as_points
 from .mesh import Mesh
 from .vtk_arrays import to_numpy
 
@@ -139,23 +140,6 @@ def _of_mesh(mesh: Mesh) -> Cloud:
     if viewpoints is not None:
         cloud.viewpoints = np.asarray(viewpoints, dtype=np.float64).reshape(-1, 3)
     return cloud
-
-
-def as_points(points: object) -> np.ndarray:
-    if isinstance(points, np.ma.MaskedArray):
-        # Masked points are not there.
-        points = np.ma.filled(points.astype(float), np.nan)
-    wanted = "points must be a vtkPointSet or an array of numbers of shape (N, 3)"
-    try:
-        array = np.asarray(points)
-    except ValueError as error:
-        raise ValueError(f"{wanted}, not {type(points).__name__}: {error}") from None
-    if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "fiu":
-        raise ValueError(
-            f"{wanted}, not {type(points).__name__} of shape {array.shape} and type {array.dtype}"
-        )
-    single = array.dtype.kind == "f" and array.dtype.itemsize == 4
-    return np.ascontiguousarray(array, dtype=np.float32 if single else np.float64)
 
 
 def _leaves(composite: Any) -> Iterator[Any]:

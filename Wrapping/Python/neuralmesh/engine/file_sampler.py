@@ -6,16 +6,14 @@ VTK.
 from __future__ import annotations
 
 import os
-from typing import Callable
 
 from .. import _engine
 from .._property import Property, with_properties
+from .._types import Progress
 from .algorithm import of_name
 from .cloud import Block
 from .measures import Measure
 from .reconstruction import block_of_file
-
-Progress = Callable[[float], "bool | None"]
 
 _FORMATS = (("ByExtension", "BY_EXTENSION"), ("RawFloat", "RAW_FLOAT"), ("RawDouble", "RAW_DOUBLE"))
 _RAW = ("", "float", "double")  # what the numbers are, by the format

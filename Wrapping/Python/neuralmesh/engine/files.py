@@ -13,9 +13,9 @@ from typing import Any, Callable
 import numpy as np
 
 from .. import _engine
+from .._arrays import as_points
 from .._kinds import vtk_package
-from .cloud import as_points
-from .mesh import Mesh
+from .mesh import Mesh, as_mesh
 
 _BY_ENGINE = (
     ".ply", ".stl", ".obj", ".off", ".pcd", ".pwn", ".ptx", ".xyz", ".pts", ".txt", ".csv",
@@ -90,6 +90,7 @@ def write_mesh(
         raise OSError(str(error)) from None
     if len(mesh.points) == 0:
         raise ValueError(f"{name}: cannot be written: there are no points to write")
+    mesh = as_mesh(mesh, name)
     extension = extension_of(name)
     if extension == ".npy":
         if shift is not None:

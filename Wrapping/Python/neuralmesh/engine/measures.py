@@ -6,18 +6,17 @@ without VTK.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Callable
+from typing import Any
 
 import numpy as np
 
 from .. import _engine
 from .._property import Property, new_values, with_properties
+from .._types import Progress
 from .algorithm import of_name
 from .cloud import Cloud
 from .mesh import Mesh
 from .reconstruction import explained_points
-
-Progress = Callable[[float], "bool | None"]
 
 DIRECTIONS = ("reference to result", "result to reference")
 _LENGTHS = ("Mean", "RMS", "Percentile99", "Maximum")

@@ -11,12 +11,11 @@ import numpy as np
 
 from .. import _engine
 from .._property import with_properties
+from .._types import Progress
 from .algorithm import NeuralMeshAlgorithm, of_class
 from .carrying import carry
 from .cloud import Block, Cloud
 from .mesh import Mesh
-
-Progress = Callable[[float], "bool | None"]
 
 _END_OF_MESH = 0.95  # of the progress; then point data is carried over
 _SINGLE, _DOUBLE = 0, 1

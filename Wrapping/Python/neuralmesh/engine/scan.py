@@ -3,17 +3,16 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable
+from typing import Any
 
 import numpy as np
 
 from .. import _engine
 from .._property import Property, with_properties
+from .._types import Progress
 from .algorithm import of_name, three
 from .measures import Measure, as_arrays
 from .mesh import Mesh
-
-Progress = Callable[[float], "bool | None"]
 
 
 @with_properties(

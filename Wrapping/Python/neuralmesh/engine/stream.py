@@ -3,15 +3,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable
+from typing import Any
 
 from .. import _engine
 from .._property import Property, with_properties
+from .._types import Progress
 from .algorithm import NeuralMeshAlgorithm, of_name
 from .cloud import Cloud
 from .mesh import Mesh
-
-Progress = Callable[[float], "bool | None"]
 
 
 @with_properties(

@@ -6,11 +6,13 @@ for where they are.
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Callable
+from typing import Any
 
 import numpy as np
 
+from .._arrays import kind_of_numbers, values_of_points
 from .._kinds import as_given, vtk_package, vtk_package_of
+from .._types import Progress
 from .._warning import warn
 from .cloud import Cloud, as_cloud
 from .measures import NeuralMeshComparison, NeuralMeshExplanation, report
@@ -39,8 +41,6 @@ __all__ = [
     "with_normals",
 ]
 
-Progress = Callable[[float], "bool | None"]
-
 
 def take_points(points: object, blocks: bool = True) -> Cloud:
     """The points as a cloud."""
@@ -53,19 +53,19 @@ def with_array(cloud: Cloud, values: object, parameter: str, name: str) -> tuple
     """
     if isinstance(values, str):
         return cloud, values
-    array = _array_of_points(cloud, values, parameter, "the name of a point array", ())
-    # Whole numbers stay so where they name something: they are not to be averaged on the mesh.
-    kind = np.int64 if name == "View" and array.dtype.kind in "iub" else np.float64
+    _require_one_block(cloud, parameter, "the name of a point array")
+    array = values_of_points(values, len(cloud), parameter, ())
     if not cloud.blocks:
         return cloud, name
     block = cloud.blocks[0]
-    data = {**block.data, name: np.ascontiguousarray(array, dtype=kind)}
+    data = {**block.data, name: np.ascontiguousarray(array, dtype=kind_of_numbers(name, array))}
     return dataclasses.replace(cloud, blocks=[dataclasses.replace(block, data=data)]), name
 
 
 def with_normals(cloud: Cloud, normals: object) -> Cloud:
     """The cloud with these normals. ValueError for anything but numbers of shape (N, 3)."""
-    array = _array_of_points(cloud, normals, "normals", "given with the blocks", (3,))
+    _require_one_block(cloud, "normals", "given with the blocks")
+    array = values_of_points(normals, len(cloud), "normals", (3,))
     if not cloud.blocks:
         return cloud
     block = dataclasses.replace(cloud.blocks[0], normals=np.asarray(array, dtype=np.float64))
@@ -168,17 +168,6 @@ def _told(progress: Progress | None) -> Progress | None:
     return tell
 
 
-def _array_of_points(
-    cloud: Cloud, values: object, parameter: str, other: str, shape: tuple[int, ...]
-) -> np.ndarray:
+def _require_one_block(cloud: Cloud, parameter: str, other: str) -> None:
     if cloud.is_in_blocks:
         raise ValueError(f"{parameter} must be {other} where points are in blocks")
-    array = np.asarray(values)
-    wanted = (len(cloud), *shape)
-    if array.shape != wanted or array.dtype.kind not in "fiub":
-        named = "the name of a point array or " if not shape else ""
-        raise ValueError(
-            f"{parameter} must be {named}numbers of shape {wanted}, not "
-            f"{type(values).__name__} of shape {array.shape} and type {array.dtype}"
-        )
-    return array

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrays as people have them, as both worlds take them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def as_points(points: object) -> np.ndarray:
+    """Numbers of shape (N, 3), one behind the other; masked ones are NaN.
+
+    Arrays of 4-byte floats stay so; all other numbers become 8-byte floats. ValueError for anything
+    but numbers of that shape.
+    """
+    if isinstance(points, np.ma.MaskedArray):
+        # Masked points are not there.
+        points = np.ma.filled(points.astype(float), np.nan)
+    wanted = "points must be a vtkPointSet or an array of numbers of shape (N, 3)"
+    try:
+        array = np.asarray(points)
+    except ValueError as error:
+        raise ValueError(f"{wanted}, not {type(points).__name__}: {error}") from None
+    if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "fiu":
+        raise ValueError(
+            f"{wanted}, not {type(points).__name__} of shape {array.shape} and type {array.dtype}"
+        )
+    single = array.dtype.kind == "f" and array.dtype.itemsize == 4
+    return np.ascontiguousarray(array, dtype=np.float32 if single else np.float64)
+
+
+def values_of_points(
+    values: object, count: int, parameter: str, shape: tuple[int, ...]
+) -> np.ndarray:
+    """What a parameter gives for each of so many points; of one number, or of such a shape. ValueError for
+    anything else.
+    """
+    array = np.asarray(values)
+    wanted = (count, *shape)
+    if array.shape != wanted or array.dtype.kind not in "fiub":
+        named = "the name of a point array or " if not shape else ""
+        raise ValueError(
+            f"{parameter} must be {named}numbers of shape {wanted}, not "
+            f"{type(values).__name__} of shape {array.shape} and type {array.dtype}"
+        )
+    return array
+
+
+def kind_of_numbers(name: str, values: np.ndarray) -> type:
+    """Whole numbers stay so where they name something: they are not to be averaged on the mesh."""
+    return np.int64 if name == "View" and values.dtype.kind in "iub" else np.float64
