@@ -45,6 +45,6 @@ def values_of_points(
     return array
 
 
-def kind_of_numbers(name: str, values: np.ndarray) -> type:
+def kind_of_numbers(name: str, values: np.ndarray) -> type[np.int64] | type[np.float64]:
     """Whole numbers stay so where they name something: they are not to be averaged on the mesh."""
     return np.int64 if name == "View" and values.dtype.kind in "iub" else np.float64

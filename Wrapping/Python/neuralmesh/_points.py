@@ -73,7 +73,7 @@ def _one_block(
 
 
 def _with(dataset: vtkPointSet, array: np.ndarray, name: str) -> vtkPointSet:
-    values = np.ascontiguousarray(array, dtype=kind_of_numbers(name, array))
+    values: np.ndarray = np.ascontiguousarray(array, dtype=kind_of_numbers(name, array))
     vtk_array = numpy_to_vtk(values)
     vtk_array.SetName(name)
     copy = dataset.NewInstance()
