@@ -9,6 +9,7 @@
 #include "run/Reconstruction.h"
 #include "run/Warnings.h"
 #include "vtkExplainedPoints.h"
+#include "vtkFeatureLines.h"
 #include "vtkFilePoints.h"
 #include "vtkNeuralMeshGrowth.h"
 #include "vtkNeuralMeshOrientation.h"
@@ -48,7 +49,7 @@ vtkNeuralMesh::vtkNeuralMesh()
   , Times(std::make_unique<neuralmesh::PhaseTimes>())
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(this->ExplanationPort + 1);
+  this->SetNumberOfOutputPorts(this->ExplanationPort + 2);
 }
 
 vtkNeuralMesh::~vtkNeuralMesh() = default;
@@ -101,7 +102,12 @@ vtkTable* vtkNeuralMesh::GetLearningCurve()
 
 vtkPolyData* vtkNeuralMesh::GetExplainedPoints()
 {
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(this->ExplanationPort));
+  return this->GetOutput(this->ExplanationPort);
+}
+
+vtkPolyData* vtkNeuralMesh::GetFeatureLines()
+{
+  return this->GetOutput(this->ExplanationPort + 1);
 }
 
 #define FOR_EACH_PHASE(F) F(Drawing) F(Cloud) F(Choice) F(Start) F(Learning) F(Finish)
@@ -367,7 +373,8 @@ int vtkNeuralMesh::RequestData(
     static_cast<std::size_t>(this->NumberOfVertices), Eigen::Vector3d::Zero());
   vtkNeuralMeshRun run{ cloud, {},
     this->GetUsedPrecision(collector.HasDoublePoints() || needsDoubles),
-    vtkNeuralMeshProgress(this), {}, executor, {}, carries ? EndOfMesh : 1.0, hints };
+    vtkNeuralMeshProgress(this), {}, executor, {},
+    carries || this->ComputeFeatureLines ? EndOfMesh : 1.0, hints };
   if (!this->BeginRun(run, inputVector, outputVector))
   {
     return 0;
@@ -389,10 +396,18 @@ int vtkNeuralMesh::RequestData(
       vtkPolyData::GetData(outputVector, this->ExplanationPort));
   }
   bool isComplete = result.isComplete();
-  if (carries && result.stopReason != neuralmesh::StopReason::Cancelled)
+  const bool isWhole = result.stopReason != neuralmesh::StopReason::Cancelled;
+  if (this->ComputeFeatureLines && isWhole)
+  {
+    isComplete = vtkFeatureLines::Find(run, result.surface, this->FeatureAngle, output,
+                   vtkPolyData::GetData(outputVector, this->ExplanationPort + 1)) &&
+      isComplete;
+  }
+  if (carries && isWhole)
   {
     isComplete = this->Carry(run, result, *carrier, output) && isComplete;
   }
+  this->AbortExecute = 0;
   if (!this->KeepCheckpoint && isComplete)
   {
     this->RemoveCheckpoint();
@@ -556,9 +571,7 @@ bool vtkNeuralMesh::Carry(vtkNeuralMeshRun& run, const neuralmesh::Reconstructio
     run.Cloud, result.surface, neuralmesh::partOf(carrying, 0.0, 0.5), run.Executor);
   carrier.Carry(
     places, output->GetPointData(), run.Executor, neuralmesh::partOf(carrying, 0.5, 1.0));
-  const bool isDone = !this->AbortExecute;
-  this->AbortExecute = 0;
-  return isDone;
+  return !this->AbortExecute;
 }
 
 void vtkNeuralMesh::PrepareRun(

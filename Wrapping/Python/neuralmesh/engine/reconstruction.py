@@ -28,6 +28,7 @@ class Outcome:
     mesh: Mesh
     curve: dict[str, np.ndarray] = field(default_factory=dict)
     explained: Mesh | None = None
+    feature_lines: Mesh | None = None
     average: Mesh | None = None  # of an ensemble
     votes: dict[str, Any] | None = None  # likewise
     warnings: list[str] = field(default_factory=list)
@@ -185,7 +186,8 @@ class NeuralMesh(NeuralMeshAlgorithm):
             precision != _SINGLE
             and (cloud.has_doubles or run.needs_doubles(int(self._values["NumberOfVertices"])))
         )
-        end_of_mesh = _END_OF_MESH if carried else 1.0
+        finds_lines = bool(self._values["ComputeFeatureLines"])
+        end_of_mesh = _END_OF_MESH if carried or finds_lines else 1.0
         run.learn(
             self._engine_values(),
             self._ensemble_values(),
@@ -220,6 +222,14 @@ class NeuralMesh(NeuralMeshAlgorithm):
         if self.IS_ENSEMBLE:
             outcome.average, outcome.votes = _average_of(run, is_double), run.votes()
         is_complete = run.is_complete
+        if finds_lines and run.stop_reason != "cancelled":
+            found = run.feature_lines(
+                float(self._values["FeatureAngle"]), is_double, end_of_mesh, progress
+            )
+            is_complete = bool(found) and is_complete
+            if found:
+                outcome.mesh.point_data["Crease"] = found.pop("creases")
+                outcome.feature_lines = _lines_of(found)
         if carried and run.stop_reason != "cancelled":
             is_complete = carry(run, cloud, carried, outcome.mesh, progress) and is_complete
         if is_complete and not self._values["KeepCheckpoint"]:
@@ -276,6 +286,12 @@ def explained_points(cloud: Cloud, explained: dict[str, Any]) -> Mesh:
     points = np.concatenate([block.points for block in cloud.blocks]).astype(kind, copy=False)
     fields = explained.pop("field_data")
     return Mesh(points, np.empty((0, 3), dtype=np.int64), explained, fields, "Reason")
+
+
+def _lines_of(found: dict[str, Any]) -> Mesh:
+    ends = found.pop("line_ends")
+    lines = np.split(found.pop("line_points"), ends[:-1]) if len(ends) > 0 else []
+    return Mesh(**found, triangles=np.empty((0, 3), dtype=np.int64), lines=lines)
 
 
 def _snapshot_taker(take: Callable[[Mesh], None] | None, is_double: bool) -> Any:
