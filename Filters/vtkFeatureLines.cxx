@@ -84,11 +84,10 @@ void FillPoints(const neuralmesh::FeatureLines& found, int precision, vtkPolyDat
 }
 
 bool vtkFeatureLines::Find(const vtkNeuralMeshRun& run, const neuralmesh::Mesh& surface,
-  double angle, vtkPolyData* mesh, vtkPolyData* lines)
+  double angle, const neuralmesh::Progress& progress, vtkPolyData* mesh, vtkPolyData* lines)
 {
-  vtkNeuralMeshProgress progress = run.Progress;
-  const std::optional<neuralmesh::FeatureLines> found = neuralmesh::findFeatureLines(
-    surface, run.Cloud, angle, progress.GetPart(run.EndOfMesh, run.EndOfMesh), run.Executor);
+  const std::optional<neuralmesh::FeatureLines> found =
+    neuralmesh::findFeatureLines(surface, run.Cloud, angle, progress, run.Executor);
   if (!found)
   {
     return false;

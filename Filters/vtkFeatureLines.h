@@ -9,6 +9,8 @@
 #ifndef vtkFeatureLines_h
 #define vtkFeatureLines_h
 
+#include "base/Progress.h"
+
 class vtkPolyData;
 struct vtkNeuralMeshRun;
 namespace neuralmesh
@@ -22,10 +24,10 @@ public:
   /**
    * Finds the lines of what a run has learnt that are sharper than an angle in degrees. Fills `lines`,
    * with points of the precision of the run, and gives `mesh` the array `Crease`. Returns false, and
-   * does nothing, if it was aborted.
+   * does nothing, if `progress` ends it.
    */
   static bool Find(const vtkNeuralMeshRun& run, const neuralmesh::Mesh& surface, double angle,
-    vtkPolyData* mesh, vtkPolyData* lines);
+    const neuralmesh::Progress& progress, vtkPolyData* mesh, vtkPolyData* lines);
 };
 
 #endif

@@ -40,8 +40,9 @@ vtkStandardNewMacro(vtkNeuralMesh);
 
 namespace
 {
-/// Where point data begins to be carried over, as a fraction of the run.
-constexpr double EndOfMesh = 0.95;
+/// Where feature lines begin to be looked for, and point data to be carried over, as fractions of the run.
+constexpr double BeginOfLines = 0.9;
+constexpr double BeginOfCarrying = 0.95;
 }
 
 vtkNeuralMesh::vtkNeuralMesh()
@@ -98,16 +99,6 @@ vtkPolyData* vtkNeuralMesh::GetFirstMesh()
 vtkTable* vtkNeuralMesh::GetLearningCurve()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-vtkPolyData* vtkNeuralMesh::GetExplainedPoints()
-{
-  return this->GetOutput(this->ExplanationPort);
-}
-
-vtkPolyData* vtkNeuralMesh::GetFeatureLines()
-{
-  return this->GetOutput(this->ExplanationPort + 1);
 }
 
 #define FOR_EACH_PHASE(F) F(Drawing) F(Cloud) F(Choice) F(Start) F(Learning) F(Finish)
@@ -374,7 +365,7 @@ int vtkNeuralMesh::RequestData(
   vtkNeuralMeshRun run{ cloud, {},
     this->GetUsedPrecision(collector.HasDoublePoints() || needsDoubles),
     vtkNeuralMeshProgress(this), {}, executor, {},
-    carries || this->ComputeFeatureLines ? EndOfMesh : 1.0, hints };
+    this->ComputeFeatureLines ? BeginOfLines : (carries ? BeginOfCarrying : 1.0), hints };
   if (!this->BeginRun(run, inputVector, outputVector))
   {
     return 0;
@@ -399,7 +390,8 @@ int vtkNeuralMesh::RequestData(
   const bool isWhole = result.stopReason != neuralmesh::StopReason::Cancelled;
   if (this->ComputeFeatureLines && isWhole)
   {
-    isComplete = vtkFeatureLines::Find(run, result.surface, this->FeatureAngle, output,
+    isComplete = vtkFeatureLines::Find(run, result.surface, this->FeatureAngle,
+                   run.Progress.GetPart(BeginOfLines, BeginOfCarrying), output,
                    vtkPolyData::GetData(outputVector, this->ExplanationPort + 1)) &&
       isComplete;
   }
@@ -566,7 +558,7 @@ void vtkNeuralMesh::FillOutput(const vtkNeuralMeshRun& run,
 bool vtkNeuralMesh::Carry(vtkNeuralMeshRun& run, const neuralmesh::Reconstruction& result,
   const vtkPointDataCarrier& carrier, vtkPolyData* output)
 {
-  const neuralmesh::Progress carrying = run.Progress.GetPart(run.EndOfMesh, 1.0);
+  const neuralmesh::Progress carrying = run.Progress.GetPart(BeginOfCarrying, 1.0);
   const neuralmesh::CloudPlaces places(
     run.Cloud, result.surface, neuralmesh::partOf(carrying, 0.0, 0.5), run.Executor);
   carrier.Carry(

@@ -94,14 +94,14 @@ void bindRun(nb::module_& module)
     .def("explained", &Run::explained)
     .def(
       "feature_lines",
-      [](Run& run, double angle, bool isDouble, double at, nb::object progress)
+      [](Run& run, double angle, bool isDouble, double begin, double end, nb::object progress)
       {
         Call call(std::move(progress));
-        nb::dict lines = run.featureLines(angle, isDouble, at, call);
+        nb::dict lines = run.featureLines(angle, isDouble, call, begin, end);
         call.rethrow();
         return lines;
       },
-      "angle"_a, "double"_a, "at"_a, "progress"_a.none())
+      "angle"_a, "double"_a, "begin"_a, "end"_a, "progress"_a.none())
     .def("times", &Run::times)
     .def(
       "find_places",

@@ -157,7 +157,10 @@ double FacePlanes::noiseAcross(std::uint32_t triangle, const Moments& own) const
   const Eigen::Vector2d tilt =
     covariance.topLeftCorner<2, 2>().ldlt().solve(covariance.topRightCorner<2, 1>());
   const double across = covariance(2, 2) - tilt.dot(covariance.topRightCorner<2, 1>());
-  return std::max(0., across) * double(own.count) / double(own.count - 3);
+  // Of such numbers a median is taken, which for few points lies below the variance: by Wilson and Hilferty.
+  const double freedom = double(own.count - 3);
+  const double medianToMean = std::pow(1. - 2. / (9. * freedom), 3.);
+  return std::max(0., across) * double(own.count) / (freedom * medianToMean);
 }
 
 /// The triangles within so many rings of vertices around one, in rising order.

@@ -53,7 +53,8 @@ public:
   /// How many rings of vertices a patch has.
   unsigned rings() const { return rings_; }
   const Plane& planeOf(std::uint32_t triangle) const { return patches_[chosen_[triangle]].plane; }
-  /// Variance of the points on a triangle across the plane that fits them best; NaN where they are too few.
+  /// Variance of the points on a triangle across the plane that fits them best, so that the median of several
+  /// triangles is that of the noise; NaN where they are too few.
   double noiseOn(std::uint32_t triangle) const { return noise_[triangle]; }
   /// Twice the area, as a vector.
   Eigen::Vector3d normalOf(std::uint32_t triangle) const;

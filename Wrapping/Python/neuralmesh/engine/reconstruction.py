@@ -17,7 +17,8 @@ from .carrying import carry
 from .cloud import Block, Cloud
 from .mesh import Mesh
 
-_END_OF_MESH = 0.95  # of the progress; then point data is carried over
+# Of the progress: then feature lines are looked for, and point data is carried over.
+_BEGIN_OF_LINES, _BEGIN_OF_CARRYING = 0.9, 0.95
 _SINGLE, _DOUBLE = 0, 1
 
 
@@ -187,7 +188,9 @@ class NeuralMesh(NeuralMeshAlgorithm):
             and (cloud.has_doubles or run.needs_doubles(int(self._values["NumberOfVertices"])))
         )
         finds_lines = bool(self._values["ComputeFeatureLines"])
-        end_of_mesh = _END_OF_MESH if carried or finds_lines else 1.0
+        end_of_mesh = _BEGIN_OF_CARRYING if carried else 1.0
+        if finds_lines:
+            end_of_mesh = _BEGIN_OF_LINES
         run.learn(
             self._engine_values(),
             self._ensemble_values(),
@@ -223,8 +226,9 @@ class NeuralMesh(NeuralMeshAlgorithm):
             outcome.average, outcome.votes = _average_of(run, is_double), run.votes()
         is_complete = run.is_complete
         if finds_lines and run.stop_reason != "cancelled":
+            angle = float(self._values["FeatureAngle"])
             found = run.feature_lines(
-                float(self._values["FeatureAngle"]), is_double, end_of_mesh, progress
+                angle, is_double, _BEGIN_OF_LINES, _BEGIN_OF_CARRYING, progress
             )
             is_complete = bool(found) and is_complete
             if found:
@@ -289,8 +293,8 @@ def explained_points(cloud: Cloud, explained: dict[str, Any]) -> Mesh:
 
 
 def _lines_of(found: dict[str, Any]) -> Mesh:
-    ends = found.pop("line_ends")
-    lines = np.split(found.pop("line_points"), ends[:-1]) if len(ends) > 0 else []
+    ends, points = found.pop("line_ends"), found.pop("line_points")
+    lines = np.split(points, ends[:-1]) if len(ends) > 0 else []
     return Mesh(**found, triangles=np.empty((0, 3), dtype=np.int64), lines=lines)
 
 
