@@ -32,7 +32,7 @@ def look(view, direction, up):
     view.CameraViewUp = up
     view.CameraParallelProjection = 1
     view.ResetCamera()
-    view.CameraParallelScale *= 0.62
+    view.CameraParallelScale = 0.4  # of the diagonal: half of what is seen
 
 
 def show(path, direction, up):
@@ -40,14 +40,14 @@ def show(path, direction, up):
     mesh = simple.NeuralMesh(Input=simple.PLYReader(FileNames=[path]), NumberOfVertices=VERTICES,
                              ComputeFeatureLines=1)
     surface = simple.Show(mesh, view)
-    simple.ColorBy(surface, None)
+    surface.ColorArrayName = [None, ""]
     surface.DiffuseColor = surface.AmbientColor = [0.75, 0.8, 0.9]
     mesh.UpdatePipeline()
     lines = simple.OutputPort(mesh, 3)
     if lines.GetDataInformation().GetNumberOfCells() > 0:
         # As tubes, half of which stands out of the surface.
-        tubes = simple.Show(simple.Tube(Input=lines, Radius=0.003, Capping=1), view)
-        simple.ColorBy(tubes, None)
+        tubes = simple.Show(simple.Tube(Input=lines, Radius=0.0025, Capping=1), view)
+        tubes.ColorArrayName = [None, ""]
         tubes.DiffuseColor = tubes.AmbientColor = [0.8, 0.1, 0.1]
     view.OrientationAxesVisibility = 0
     look(view, direction, up)
@@ -55,7 +55,6 @@ def show(path, direction, up):
 
 
 def main():
-    simple.LoadPlugin(os.environ["NEURALMESH_PLUGIN"], ns=globals())
     layout = simple.CreateLayout("lines")
     with tempfile.TemporaryDirectory() as folder:
         views = []

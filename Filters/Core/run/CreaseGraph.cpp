@@ -4,6 +4,7 @@
 #include "base/DisjointSets.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace neuralmesh
@@ -15,7 +16,7 @@ namespace
 constexpr std::size_t LongestSpur = 3;
 constexpr std::size_t FewestConfirmed = 4;
 /// Edges that close a gap in a line.
-constexpr std::size_t LongestGap = 6;
+constexpr std::size_t LongestGap = 10;
 }
 
 CreaseGraph::CreaseGraph(std::vector<CreaseEdge> edges, const Mesh& mesh, unsigned width)
@@ -43,8 +44,8 @@ void CreaseGraph::prune()
     }
   }
   closeGaps();
-  // Where a spur has gone, what was two paths is one.
-  while (dropPaths([this](const Path& path) { return isSpur(path); }))
+  // Where one has gone, what was two paths is one.
+  while (dropPaths([this](const Path& path) { return isSpur(path); }) || dropDetours())
   {
   }
   dropSmallPieces();
@@ -192,6 +193,34 @@ bool CreaseGraph::isSpur(const Path& path) const
 {
   return path.edges.size() <= LongestSpur * width_ &&
     (isOpenEnd(path.vertices.front()) || isOpenEnd(path.vertices.back()) || path.isLoop());
+}
+
+/// Of short paths between the same two ends only the shortest stays: what lies between them is a few triangles
+/// that are taken for either side.
+bool CreaseGraph::dropDetours()
+{
+  std::map<std::pair<VertexIndex, VertexIndex>, Path> shortest;
+  bool hasDropped = false;
+  for (Path& path : paths())
+  {
+    if (path.isLoop() || path.edges.size() > LongestSpur * width_)
+    {
+      continue;
+    }
+    const auto ends = std::minmax(path.vertices.front(), path.vertices.back());
+    const auto [place, isFirst] = shortest.try_emplace(ends, path);
+    if (isFirst)
+    {
+      continue;
+    }
+    if (path.edges.size() < place->second.edges.size())
+    {
+      std::swap(path, place->second);
+    }
+    std::for_each(path.edges.begin(), path.edges.end(), [this](std::uint32_t e) { drop(e); });
+    hasDropped = true;
+  }
+  return hasDropped;
 }
 
 void CreaseGraph::dropSmallPieces()

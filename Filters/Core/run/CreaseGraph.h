@@ -27,9 +27,9 @@ public:
   /// is as long.
   CreaseGraph(std::vector<CreaseEdge> edges, const Mesh& mesh, unsigned width);
 
-  /// Leaves the edges that make lines: those that are confirmed, and others where a few of them close a gap,
+  /// Leaves the edges that make lines: those that are confirmed, and others where at most ten of them close a gap,
   /// from where a line ends to the next place of any. Then what ends away from other lines and from
-  /// boundaries after a few edges goes, as do pieces of a few edges.
+  /// boundaries after a few edges goes, as do short ways round another one, and pieces of a few edges.
   void prune();
 
   const CreaseEdge& edge(std::uint32_t index) const { return edges_[index]; }
@@ -47,6 +47,7 @@ private:
   void add(std::uint32_t edge);
   void closeGaps();
   std::vector<std::uint32_t> shortestWay(VertexIndex from) const;
+  bool dropDetours();
   void dropSmallPieces();
   template <typename Condition>
   bool dropPaths(const Condition& isToGo);

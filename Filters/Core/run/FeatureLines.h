@@ -44,7 +44,7 @@ struct FeatureLines
 };
 
 /// Finds the lines along which the surface is sharper than `leastAngle`, in degrees, as findCreaseEdges() has
-/// it. Edges that are less sharp, or not confirmed, belong to a line if they close a gap of a few edges in
+/// it. Edges that are less sharp, or not confirmed, belong to a line if they close a gap of at most ten edges in
 /// it. What ends in the open after a few edges is no line, nor is a boundary. Lines run along edges of the
 /// mesh, of which no vertex may be erased, but their points lie where the planes of both sides meet, at most
 /// an edge away from their vertex. Takes about 2 microseconds a point. Nothing if `progress` ends it.
