@@ -300,8 +300,8 @@ int Reconstruct(const ReconstructOptions& options)
   }
   files.insert(files.end(),
     { { "OUTPUT", options.Output, true }, { "--statistics", options.Statistics, true },
-      { "--explain", options.Explanation, true },
-      { "--feature-lines", options.FeatureLines, true }, { "--checkpoint", options.Checkpoint, true } });
+      { "--explain", options.Explanation, true }, { "--feature-lines", options.FeatureLines, true },
+      { "--checkpoint", options.Checkpoint, true } });
   RequireDistinctFiles(files);
   RequireWritableExtension(options.Output);
   const MeshShift shift = ParseShift(options.Shift);
@@ -522,7 +522,8 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   command
     ->add_option("--feature-lines", options->FeatureLines,
       "Write the edges of the shape that are sharper than FeatureAngle (30 degrees), and that the "
-      "points confirm, to this .vtp or .vtk file, as lines with corners; OUTPUT gets the array Crease")
+      "points confirm, to this .vtp or .vtk file, as lines with corners; OUTPUT gets the array "
+      "Crease")
     ->type_name("FILE");
   command->add_flag("--strict", options->Strict,
     "Exit with status 3 if there was a warning; the mesh is written all the same");

@@ -250,8 +250,7 @@ nb::dict Run::explained() const
   return result_.explanation ? explainedOf(*result_.explanation, *cloud_, pointCount_) : nb::dict();
 }
 
-nb::dict Run::featureLines(
-  double angle, bool isDouble, Call& call, double begin, double end) const
+nb::dict Run::featureLines(double angle, bool isDouble, Call& call, double begin, double end) const
 {
   std::optional<FeatureLines> lines;
   {

@@ -177,10 +177,10 @@ double residualOfOneSurface(const std::array<Points, 2>& points, const Eigen::Ve
     {
       const double height = t[0] + t[1] * x + t[2] * y + t[3] * x * x + t[4] * x * y +
         t[5] * y * y + t[6] * x * x * x + t[7] * x * x * y + t[8] * x * y * y + t[9] * y * y * y;
-      const double dx = t[1] + 2. * t[3] * x + t[4] * y + 3. * t[6] * x * x + 2. * t[7] * x * y +
-        t[8] * y * y;
-      const double dy = t[2] + t[4] * x + 2. * t[5] * y + t[7] * x * x + 2. * t[8] * x * y +
-        3. * t[9] * y * y;
+      const double dx =
+        t[1] + 2. * t[3] * x + t[4] * y + 3. * t[6] * x * x + 2. * t[7] * x * y + t[8] * y * y;
+      const double dy =
+        t[2] + t[4] * x + 2. * t[5] * y + t[7] * x * x + 2. * t[8] * x * y + 3. * t[9] * y * y;
       // The distance from the tangent plane there.
       sum += (z - height) * (z - height) / (1. + dx * dx + dy * dy);
     });
@@ -201,8 +201,8 @@ public:
   void run(std::array<std::uint32_t, 2> triangles, const Eigen::Vector3d& middle, double length,
     CreaseEdge& edge)
   {
-    edge.angle = degrees(angleBetween(
-      planes_.planeOf(triangles[0]).normal, planes_.planeOf(triangles[1]).normal));
+    edge.angle = degrees(
+      angleBetween(planes_.planeOf(triangles[0]).normal, planes_.planeOf(triangles[1]).normal));
     for (const double reach : Reaches)
     {
       gather(triangles, middle, reach * length);
@@ -309,8 +309,7 @@ private:
   {
     const std::array normals{ planes_.planeOf(triangles[0]).normal,
       planes_.planeOf(triangles[1]).normal };
-    const double turn =
-      std::max(radians(TurnOfSide), 0.5 * angleBetween(normals[0], normals[1]));
+    const double turn = std::max(radians(TurnOfSide), 0.5 * angleBetween(normals[0], normals[1]));
     const double least = std::cos(std::min(turn, std::numbers::pi / 2.));
     taken_.assign(triangles.begin(), triangles.end());
     side_.assign({ 0, 1 });
@@ -348,8 +347,7 @@ private:
   }
 
   /// Where both planes meet, at the place next to the edge. False if that is far off.
-  bool findMeeting(
-    const std::array<Plane, 2>& sides, const Eigen::Vector3d& middle, double length)
+  bool findMeeting(const std::array<Plane, 2>& sides, const Eigen::Vector3d& middle, double length)
   {
     const Eigen::Vector3d& a = sides[0].normal;
     const Eigen::Vector3d& b = sides[1].normal;
@@ -435,8 +433,8 @@ std::vector<Candidate> candidatesOf(const FacePlanes& planes, double leastAngle)
 }
 }
 
-std::vector<CreaseEdge> findCreaseEdges(const FacePlanes& planes, const CloudPlaces& places,
-  double leastAngle, const Executor& executor)
+std::vector<CreaseEdge> findCreaseEdges(
+  const FacePlanes& planes, const CloudPlaces& places, double leastAngle, const Executor& executor)
 {
   const std::vector<Candidate> candidates = candidatesOf(planes, leastAngle);
   std::vector<CreaseEdge> result(candidates.size());

@@ -13,7 +13,8 @@ namespace neuralmesh
 struct CreaseEdge
 {
   std::array<VertexIndex, 2> ends{};
-  double angle = 0.; ///< between both sides of the surface, by the points, where they meet; in degrees
+  double angle =
+    0.; ///< between both sides of the surface, by the points, where they meet; in degrees
   bool isConfirmed = false;
   /// Of the two sides, at the edge; unknown where there are too few points.
   std::array<FacePlanes::Plane, 2> sides;

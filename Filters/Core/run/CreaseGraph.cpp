@@ -61,8 +61,7 @@ std::vector<CreaseGraph::Path> CreaseGraph::paths(const std::vector<bool>& isEnd
 {
   std::vector<Path> result;
   std::vector<bool> isTaken(edges_.size());
-  const auto endsAt = [&](VertexIndex v)
-  { return degree(v) != 2 || (!isEnd.empty() && isEnd[v]); };
+  const auto endsAt = [&](VertexIndex v) { return degree(v) != 2 || (!isEnd.empty() && isEnd[v]); };
   const auto follow = [&](VertexIndex from, std::uint32_t e)
   {
     Path path{ {}, { from } };

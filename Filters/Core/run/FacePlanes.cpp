@@ -129,8 +129,7 @@ Eigen::Vector3d FacePlanes::normalOf(std::uint32_t triangle) const
   const Triangle& corners = triangles_.all()[triangle];
   const Mesh& mesh = places_.mesh();
   const Eigen::Vector3d a = mesh.position(corners[0]).toDouble();
-  return (mesh.position(corners[1]).toDouble() - a)
-    .cross(mesh.position(corners[2]).toDouble() - a);
+  return (mesh.position(corners[1]).toDouble() - a).cross(mesh.position(corners[2]).toDouble() - a);
 }
 
 Eigen::Vector3d FacePlanes::centerOf(std::uint32_t triangle) const
@@ -277,8 +276,7 @@ void FacePlanes::shortenBorders(std::span<const Moments> moments)
         }
         const std::uint32_t over = chosen_[a];
         const double size = std::sqrt(normalOf(t).norm());
-        const double most =
-          FarthestOver * FarthestOver * size * size + patches_[over].variance;
+        const double most = FarthestOver * FarthestOver * size * size + patches_[over].variance;
         if (misfit(t, patches_[over].plane, moments[t]) <= most)
         {
           chosen_[t] = over;

@@ -71,8 +71,8 @@ private:
     double planes = 0., longest = 0.;
     for (const std::uint32_t e : graph_.edgesAt(v))
     {
-      longest = std::max(
-        longest, (mesh_.position(graph_.otherEnd(e, v)).toDouble() - position).norm());
+      longest =
+        std::max(longest, (mesh_.position(graph_.otherEnd(e, v)).toDouble() - position).norm());
       if (!graph_.edge(e).isConfirmed)
       {
         continue;
@@ -102,7 +102,8 @@ private:
     const bool isLoop = path.isLoop();
     const auto at = [&](std::ptrdiff_t i)
     {
-      const std::ptrdiff_t place = isLoop ? (i + count) % count : std::clamp<std::ptrdiff_t>(i, 0, count);
+      const std::ptrdiff_t place =
+        isLoop ? (i + count) % count : std::clamp<std::ptrdiff_t>(i, 0, count);
       return positions_[vertices[std::size_t(place)]];
     };
     if (count <= 2 * step)

@@ -19,8 +19,8 @@ namespace neuralmesh
 struct FeatureLine
 {
   std::vector<std::uint32_t> points; ///< along it, by their index
-  double angle = 0.;  ///< between the sides, in degrees: the mean along the line
-  double length = 0.; ///< in units of the input
+  double angle = 0.;                 ///< between the sides, in degrees: the mean along the line
+  double length = 0.;                ///< in units of the input
   std::size_t chain = 0; ///< lines that hang together have the same; the longest chain is 0
 };
 
