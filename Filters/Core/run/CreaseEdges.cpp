@@ -26,6 +26,9 @@ constexpr double NoisesOfReach = 10.;
 /// it is more, the shape is another one.
 constexpr double MostMisfit = 1.1;
 constexpr double ChanceOfMisfit = 3.;
+/// By how many degrees the angle where both sides meet may exceed that of their planes: from farther away it is
+/// guessed.
+constexpr double MostGuessed = 30.;
 /// Noise below this part of an edge does not matter.
 constexpr double LeastNoise = 0.03;
 /// One surface without a crease must fit so much worse than two, and by so many times what one more number in
@@ -223,7 +226,9 @@ public:
       }
       edge.angle = degrees(bend->angle);
       const double error = degrees(bend->error);
-      edge.isConfirmed = edge.angle - StandardErrors * error > leastAngle_ &&
+      const double ofPlanes = degrees(angleBetween(edge.sides[0].normal, edge.sides[1].normal));
+      edge.isConfirmed = edge.angle < ofPlanes + MostGuessed &&
+        edge.angle - StandardErrors * error > leastAngle_ &&
         isCrease(bend->residual, edge.sides, length);
       if (edge.isConfirmed || edge.angle + error < leastAngle_)
       {
