@@ -137,7 +137,7 @@ std::optional<Slope> slopeOf(const Points& points, const Plane& plane, const Eig
 {
   if (points.size() >= FewestOfCurve)
   {
-    if (const auto slope = fitSlope<6>(points, plane, along, origin, unit))
+    if (auto slope = fitSlope<6>(points, plane, along, origin, unit))
     {
       return slope;
     }

@@ -84,13 +84,9 @@ private:
         ++planes;
       }
     }
-    if (planes == 0.)
-    {
-      return position;
-    }
-    matrix.diagonal().array() += PullOfVertex * planes;
+    matrix.diagonal().array() += PullOfVertex * std::max(planes, 1.);
     const Eigen::Vector3d move = matrix.ldlt().solve(right);
-    return move.norm() <= longest ? Eigen::Vector3d(position + move) : position;
+    return position + (move.norm() <= longest ? 1. : 0.) * move;
   }
 
   /// Marks the vertices at which a path turns more sharply than SharpTurn, and than at those beside them.
