@@ -54,14 +54,14 @@ def show(path, direction, up):
     return view
 
 
-def main():
+def draw_feature_lines(path):
     layout = simple.CreateLayout("lines")
     with tempfile.TemporaryDirectory() as folder:
         views = []
         for number, (shape, noise, direction) in enumerate(PARTS):
-            path = os.path.join(folder, f"{number}.ply")
-            write_cloud(path, shape, noise)
-            views.append(show(path, direction, (0, 0, 1) if shape == "fandisk" else (0, 1, 0)))
+            cloud = os.path.join(folder, f"{number}.ply")
+            write_cloud(cloud, shape, noise)
+            views.append(show(cloud, direction, (0, 0, 1) if shape == "fandisk" else (0, 1, 0)))
         place = 0
         for number, view in enumerate(views):
             if number + 1 < len(views):
@@ -69,9 +69,13 @@ def main():
             layout.AssignView(place, view)
             place += 1
         layout.SetSize(*SIZE)
-        simple.SaveScreenshot(os.path.join(sys.argv[1], "feature_lines.png"), layout,
-                              ImageResolution=SIZE, CompressionLevel=9, SeparatorWidth=0,
+        simple.SaveScreenshot(path, layout, ImageResolution=SIZE, CompressionLevel=9, SeparatorWidth=0,
                               OverrideColorPalette="WhiteBackground")
+
+
+def main():
+    draw_feature_lines(os.path.join(sys.argv[1], "feature_lines.png"))
+    # Views that are left to the end of the process end it with an error of X.
     for view in simple.GetViews():
         simple.Delete(view)
 
