@@ -14,7 +14,7 @@ namespace neuralmesh
 {
 namespace
 {
-using Plane = FacePlanes::Plane;
+using SidePlane = FacePlanes::Plane;
 
 constexpr double PartOfAngle = 0.5; ///< from which on planes differ
 constexpr double StandardErrors = 3.;
@@ -55,7 +55,7 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 using Points = std::vector<Eigen::Vector3d>;
 
 /// The plane that fits points best along a direction.
-std::optional<Plane> planeThrough(const Points& points, const Eigen::Vector3d& direction)
+std::optional<SidePlane> planeThrough(const Points& points, const Eigen::Vector3d& direction)
 {
   if (points.size() < FewestOfPlane)
   {
@@ -79,7 +79,7 @@ std::optional<Plane> planeThrough(const Points& points, const Eigen::Vector3d& d
     right += direction.dot(from) * place;
   }
   const Eigen::Vector2d slopes = matrix.ldlt().solve(right);
-  return Plane{ (direction - slopes[0] * first - slopes[1] * second).normalized(), center };
+  return SidePlane{ (direction - slopes[0] * first - slopes[1] * second).normalized(), center };
 }
 
 /// The slope of one side where it meets the other.
@@ -93,7 +93,7 @@ struct Slope
 /// Fits z = a + b x + c y + d x^2 + e x y + f y^2 over a plane, with x away from the crease and y along it; of
 /// few points only what is linear.
 template <int Terms>
-std::optional<Slope> fitSlope(const Points& points, const Plane& plane,
+std::optional<Slope> fitSlope(const Points& points, const SidePlane& plane,
   const Eigen::Vector3d& along, const Eigen::Vector3d& origin, double unit)
 {
   using Vector = Eigen::Matrix<double, Terms, 1>;
@@ -132,8 +132,8 @@ std::optional<Slope> fitSlope(const Points& points, const Plane& plane,
     residual * unit * unit };
 }
 
-std::optional<Slope> slopeOf(const Points& points, const Plane& plane, const Eigen::Vector3d& along,
-  const Eigen::Vector3d& origin, double unit)
+std::optional<Slope> slopeOf(const Points& points, const SidePlane& plane,
+  const Eigen::Vector3d& along, const Eigen::Vector3d& origin, double unit)
 {
   if (points.size() >= FewestOfCurve)
   {
@@ -247,7 +247,7 @@ private:
 
   /// How the two sides meet, by the points that are gathered.
   std::optional<Bend> findBend(std::array<std::uint32_t, 2> triangles,
-    const Eigen::Vector3d& middle, double length, std::array<Plane, 2>& sides)
+    const Eigen::Vector3d& middle, double length, std::array<SidePlane, 2>& sides)
   {
     for (unsigned round = 0; round <= RoundsOfSorting; ++round)
     {
@@ -280,7 +280,7 @@ private:
   double pointCount() const { return double(points_[0].size() + points_[1].size()); }
 
   /// Whether two surfaces fit better than one that goes over both sides.
-  bool isCrease(double residual, const std::array<Plane, 2>& sides, double length) const
+  bool isCrease(double residual, const std::array<SidePlane, 2>& sides, double length) const
   {
     const Eigen::Vector3d normal = (sides[0].normal + sides[1].normal).normalized();
     const double ofOne = residualOfOneSurface(points_, normal, along_, origin_, length);
@@ -352,7 +352,8 @@ private:
   }
 
   /// Where both planes meet, at the place next to the edge. False if that is far off.
-  bool findMeeting(const std::array<Plane, 2>& sides, const Eigen::Vector3d& middle, double length)
+  bool findMeeting(
+    const std::array<SidePlane, 2>& sides, const Eigen::Vector3d& middle, double length)
   {
     const Eigen::Vector3d& a = sides[0].normal;
     const Eigen::Vector3d& b = sides[1].normal;
@@ -372,7 +373,7 @@ private:
 
   /// Points go to the side of the plane that halves the angle: the mesh does not know. (Going to the nearer of
   /// both sides they would make a roof of noise.)
-  void sort(const std::array<Plane, 2>& sides)
+  void sort(const std::array<SidePlane, 2>& sides)
   {
     std::array<Eigen::Vector3d, 2> away;
     for (unsigned side = 0; side < 2; ++side)
@@ -407,16 +408,16 @@ private:
 };
 
 /// The edges between triangles whose planes differ, each with its triangles.
-struct Candidate
+struct CandidateEdge
 {
   std::array<std::uint32_t, 2> triangles{};
   unsigned corner = 0; ///< of the first triangle, where the edge begins
 };
 
-std::vector<Candidate> candidatesOf(const FacePlanes& planes, double leastAngle)
+std::vector<CandidateEdge> candidatesOf(const FacePlanes& planes, double leastAngle)
 {
   const double most = std::cos(radians(PartOfAngle * leastAngle));
-  std::vector<Candidate> result;
+  std::vector<CandidateEdge> result;
   for (std::uint32_t t = 0; t < planes.triangles().all().size(); ++t)
   {
     for (unsigned corner = 0; corner < 3; ++corner)
@@ -426,8 +427,8 @@ std::vector<Candidate> candidatesOf(const FacePlanes& planes, double leastAngle)
       {
         continue;
       }
-      const Plane& a = planes.planeOf(t);
-      const Plane& b = planes.planeOf(beyond);
+      const SidePlane& a = planes.planeOf(t);
+      const SidePlane& b = planes.planeOf(beyond);
       if (a.isKnown() && b.isKnown() && a.normal.dot(b.normal) < most)
       {
         result.push_back({ { t, beyond }, corner });
@@ -441,7 +442,7 @@ std::vector<Candidate> candidatesOf(const FacePlanes& planes, double leastAngle)
 std::vector<CreaseEdge> findCreaseEdges(
   const FacePlanes& planes, const CloudPlaces& places, double leastAngle, const Executor& executor)
 {
-  const std::vector<Candidate> candidates = candidatesOf(planes, leastAngle);
+  const std::vector<CandidateEdge> candidates = candidatesOf(planes, leastAngle);
   std::vector<CreaseEdge> result(candidates.size());
   const Mesh& mesh = places.mesh();
   executor.forEachRange(candidates.size(), EdgesPerRange,
