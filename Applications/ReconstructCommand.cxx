@@ -5,6 +5,7 @@
 #include "DistinctFiles.h"
 #include "ErrorCollector.h"
 #include "ExplainedPoints.h"
+#include "FeatureLines.h"
 #include "FileArguments.h"
 #include "FileExtension.h"
 #include "Interruption.h"
@@ -79,6 +80,7 @@ struct ReconstructOptions
   int Threads = 0;
   std::string Statistics;
   std::string Explanation;
+  std::string FeatureLines;
   bool Strict = false;
   std::string Checkpoint;
   double CheckpointInterval = 0.0;
@@ -158,6 +160,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
   filter->SetPreset(options.Preset);
   filter->SetAutomatic(options.Automatic);
   filter->SetExplainPoints(!options.Explanation.empty());
+  filter->SetComputeFeatureLines(!options.FeatureLines.empty());
   filter->SetTimeLimit(options.TimeLimit);
   filter->SetNumberOfThreads(options.Threads);
   filter->SetWeightArrayName(options.Weights.c_str());
@@ -297,7 +300,8 @@ int Reconstruct(const ReconstructOptions& options)
   }
   files.insert(files.end(),
     { { "OUTPUT", options.Output, true }, { "--statistics", options.Statistics, true },
-      { "--explain", options.Explanation, true }, { "--checkpoint", options.Checkpoint, true } });
+      { "--explain", options.Explanation, true }, { "--feature-lines", options.FeatureLines, true },
+      { "--checkpoint", options.Checkpoint, true } });
   RequireDistinctFiles(files);
   RequireWritableExtension(options.Output);
   const MeshShift shift = ParseShift(options.Shift);
@@ -316,6 +320,10 @@ int Reconstruct(const ReconstructOptions& options)
   if (!options.Explanation.empty())
   {
     RequireExplanationPlace("--explain", options.Explanation);
+  }
+  if (!options.FeatureLines.empty())
+  {
+    RequireFeatureLinesPlace("--feature-lines", options.FeatureLines);
   }
   if (!options.Checkpoint.empty())
   {
@@ -359,6 +367,7 @@ int Reconstruct(const ReconstructOptions& options)
   {
     WriteExplanation(filter->GetExplainedPoints(), options.Explanation);
   }
+  WriteFeatureLines(filter, options.FeatureLines);
   seconds.Writing = stopwatch.Lap();
   const std::string_view reason = filter->GetStopReason();
   const bool isCancelled = reason == "cancelled";
@@ -370,6 +379,7 @@ int Reconstruct(const ReconstructOptions& options)
   if (!options.Quiet)
   {
     PrintRun(filter, points, sampler, seconds);
+    PrintFeatureLines(filter);
     if (!options.Shift.empty())
     {
       PrintShift(stored, options.Output);
@@ -508,6 +518,12 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
       "Write the points of INPUT to this .vtp file, each with its Distance to the mesh and the "
       "Reason "
       "why it lies there; takes some seconds for millions of points")
+    ->type_name("FILE");
+  command
+    ->add_option("--feature-lines", options->FeatureLines,
+      "Write the edges of the shape that are sharper than FeatureAngle (30 degrees), and that the "
+      "points confirm, to this .vtp or .vtk file, as lines with corners; OUTPUT gets the array "
+      "Crease")
     ->type_name("FILE");
   command->add_flag("--strict", options->Strict,
     "Exit with status 3 if there was a warning; the mesh is written all the same");

@@ -9,6 +9,7 @@
 #include "run/Reconstruction.h"
 #include "run/Warnings.h"
 #include "vtkExplainedPoints.h"
+#include "vtkFeatureLines.h"
 #include "vtkFilePoints.h"
 #include "vtkNeuralMeshGrowth.h"
 #include "vtkNeuralMeshOrientation.h"
@@ -39,8 +40,9 @@ vtkStandardNewMacro(vtkNeuralMesh);
 
 namespace
 {
-/// Where point data begins to be carried over, as a fraction of the run.
-constexpr double EndOfMesh = 0.95;
+/// Where feature lines begin to be looked for, and point data to be carried over, as fractions of the run.
+constexpr double BeginOfLines = 0.9;
+constexpr double BeginOfCarrying = 0.95;
 }
 
 vtkNeuralMesh::vtkNeuralMesh()
@@ -48,7 +50,7 @@ vtkNeuralMesh::vtkNeuralMesh()
   , Times(std::make_unique<neuralmesh::PhaseTimes>())
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(this->ExplanationPort + 1);
+  this->SetNumberOfOutputPorts(this->ExplanationPort + 2);
 }
 
 vtkNeuralMesh::~vtkNeuralMesh() = default;
@@ -97,11 +99,6 @@ vtkPolyData* vtkNeuralMesh::GetFirstMesh()
 vtkTable* vtkNeuralMesh::GetLearningCurve()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-vtkPolyData* vtkNeuralMesh::GetExplainedPoints()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(this->ExplanationPort));
 }
 
 #define FOR_EACH_PHASE(F) F(Drawing) F(Cloud) F(Choice) F(Start) F(Learning) F(Finish)
@@ -367,7 +364,8 @@ int vtkNeuralMesh::RequestData(
     static_cast<std::size_t>(this->NumberOfVertices), Eigen::Vector3d::Zero());
   vtkNeuralMeshRun run{ cloud, {},
     this->GetUsedPrecision(collector.HasDoublePoints() || needsDoubles),
-    vtkNeuralMeshProgress(this), {}, executor, {}, carries ? EndOfMesh : 1.0, hints };
+    vtkNeuralMeshProgress(this), {}, executor, {},
+    this->ComputeFeatureLines ? BeginOfLines : (carries ? BeginOfCarrying : 1.0), hints };
   if (!this->BeginRun(run, inputVector, outputVector))
   {
     return 0;
@@ -389,10 +387,19 @@ int vtkNeuralMesh::RequestData(
       vtkPolyData::GetData(outputVector, this->ExplanationPort));
   }
   bool isComplete = result.isComplete();
-  if (carries && result.stopReason != neuralmesh::StopReason::Cancelled)
+  const bool isWhole = result.stopReason != neuralmesh::StopReason::Cancelled;
+  if (this->ComputeFeatureLines && isWhole)
+  {
+    isComplete = vtkFeatureLines::Find(run, result.surface, this->FeatureAngle,
+                   run.Progress.GetPart(BeginOfLines, BeginOfCarrying), output,
+                   vtkPolyData::GetData(outputVector, this->ExplanationPort + 1)) &&
+      isComplete;
+  }
+  if (carries && isWhole)
   {
     isComplete = this->Carry(run, result, *carrier, output) && isComplete;
   }
+  this->AbortExecute = 0;
   if (!this->KeepCheckpoint && isComplete)
   {
     this->RemoveCheckpoint();
@@ -551,14 +558,12 @@ void vtkNeuralMesh::FillOutput(const vtkNeuralMeshRun& run,
 bool vtkNeuralMesh::Carry(vtkNeuralMeshRun& run, const neuralmesh::Reconstruction& result,
   const vtkPointDataCarrier& carrier, vtkPolyData* output)
 {
-  const neuralmesh::Progress carrying = run.Progress.GetPart(run.EndOfMesh, 1.0);
+  const neuralmesh::Progress carrying = run.Progress.GetPart(BeginOfCarrying, 1.0);
   const neuralmesh::CloudPlaces places(
     run.Cloud, result.surface, neuralmesh::partOf(carrying, 0.0, 0.5), run.Executor);
   carrier.Carry(
     places, output->GetPointData(), run.Executor, neuralmesh::partOf(carrying, 0.5, 1.0));
-  const bool isDone = !this->AbortExecute;
-  this->AbortExecute = 0;
-  return isDone;
+  return !this->AbortExecute;
 }
 
 void vtkNeuralMesh::PrepareRun(

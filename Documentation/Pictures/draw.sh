@@ -9,6 +9,7 @@ declare -A pictures=(
     sides orders failure_missing failure_thin failure_finer"
   [draw_charts.py]="steps sweep_moves sweep_growth sweep_noise sweep_fit"
   [draw_house.py]="rooms"
+  [draw_lines.py]="feature_lines"
   [draw_tutorial.sh]="tutorial_scan tutorial_mesh tutorial_window tutorial_colours
     tutorial_distances tutorial_step12 tutorial_step17 tutorial_step23"
   [draw_pyvista.sh]="pyvista_mesh pyvista_distance pyvista_left_out"
@@ -45,6 +46,10 @@ for maker in draw.py draw_charts.py draw_house.py; do
   names=$(wanted_of "$maker")
   [ -z "$names" ] || xvfb-run -a /usr/bin/python3 "$folder/$maker" "$folder" $names
 done
+# In ParaView, which is told where the plugin is.
+[ -z "$(wanted_of draw_lines.py)" ] ||
+  PV_PLUGIN_CONFIG_FILE=$PWD/build/lib/neuralmesh/neuralmesh.plugins.xml xvfb-run -a \
+    -s "-screen 0 1280x1024x24 -noreset" pvpython "$folder/draw_lines.py" "$folder"
 # They are steps of one tutorial, and drawn together.
 [ -z "$(wanted_of draw_tutorial.sh)" ] || bash "$folder/draw_tutorial.sh"
 [ -z "$(wanted_of draw_pyvista.sh)" ] || bash "$folder/draw_pyvista.sh"

@@ -138,6 +138,25 @@ class Filters(unittest.TestCase):
         average = support.information_of(mesh, 2)
         self.assertGreater(average.GetNumberOfPoints(), 100)
 
+    # Promise: feature lines are an output with a name, empty until they are asked for.
+    def test_feature_lines(self):
+        scan = simple.NeuralMeshScan(Input=simple.Box(), NumberOfPoints=20000)
+        for mesh, port in (
+            (simple.NeuralMesh(Input=scan, NumberOfVertices=1000), 3),
+            (simple.NeuralMeshEnsemble(Input=scan, NumberOfVertices=1000, NumberOfMembers=3,
+                                       VerticesPerMember=200), 5),
+        ):
+            self.assertEqual(mesh.SMProxy.GetOutputPortName(port), "Feature Lines")
+            mesh.UpdatePipeline()
+            self.assertEqual(support.information_of(mesh, port).GetNumberOfPoints(), 0)
+            mesh.ComputeFeatureLines = 1
+            mesh.UpdatePipeline()
+            lines = simple.OutputPort(mesh, port)
+            self.assertGreaterEqual(lines.GetDataInformation().GetNumberOfCells(), 20)
+            sharpest = lines.GetCellDataInformation()["Angle"].GetRange()[1]
+            self.assertAlmostEqual(sharpest, 90, delta=20)
+            self.assertEqual(mesh.GetPointDataInformation()["Crease"].GetRange(0)[0], 0.0)
+
     # Promise: a comparison gives the distances on both meshes and the table of the figures.
     def test_comparison(self):
         inner = simple.Sphere(Radius=1.0, ThetaResolution=100, PhiResolution=100)

@@ -16,7 +16,8 @@ import parameter_list
 LIST = parameter_list.read(ROOT / "Filters" / "Parameters.json")
 BY_NAME = {parameter.name: parameter for parameter in LIST.parameters}
 # Pages that have such a table.
-PAGES = {"ActivityList", "Basic", "Ensembles", "Fit", "NoiseFiltering", "NormalBased", "Start", "Topology"}
+PAGES = {"ActivityList", "Basic", "Ensembles", "FeatureLines", "Fit", "NoiseFiltering", "NormalBased", "Start",
+         "Topology"}
 NAME = re.compile("`([A-Z][A-Za-z]+)`")
 
 

@@ -14,8 +14,8 @@ from neuralmesh import vtkNeuralMesh
 # count.
 # Of `automatic` the values that are chosen are compared.
 FREE = {"automatic", "time_limit", "carry_point_data", "output_points_precision",
-        "checkpoint_interval", "keep_checkpoint", "number_of_threads", "maximum_points"}
-REFUSED_BEFORE = {"explain_points", "growth_as_time", "number_of_snapshots", "preset", "jump"}
+        "checkpoint_interval", "feature_angle", "keep_checkpoint", "number_of_threads", "maximum_points"}
+REFUSED_BEFORE = {"compute_feature_lines", "explain_points", "growth_as_time", "number_of_snapshots", "preset", "jump"}
 
 
 def reconstruct(**parameters):

@@ -79,6 +79,11 @@ class Worlds(unittest.TestCase):
         names = {"Color", "RGBA", "Class", "Number", "Flag", "Byte", "Pair", "Activity_Input", "Name"}
         self.assertLessEqual(names, arrays.keys())
         self.assertNotIn("Ids", arrays)
+        lines = self.engine["lines"]["outputs"][3]
+        self.assertEqual([name for name, _ in lines["cells"]], ["Angle", "Chain", "Length"])
+        self.assertGreaterEqual(lines["Lines"][0], 12)
+        mesh = dict(self.engine["lines"]["outputs"][0]["points"])
+        self.assertLessEqual({"Crease", "Crease_Input"}, mesh.keys())
         for name in ("first_bad", "first_beyond", "no_weights", "no_views", "exclusive", "nothing",
                      "both", "one_place", "comparison_bad", "explanation_bad", "scan_bad"):
             with self.subTest(name):

@@ -66,6 +66,16 @@ def add(data, name, values, cls=None):
     return array
 
 
+def box(dtype=np.float32, count=20000):
+    """Points on a cube of side 1, with heights that may be taken for creases."""
+    random = np.random.default_rng(1)
+    points = random.uniform(-0.5, 0.5, (count, 3))
+    points[np.arange(count), random.integers(0, 3, count)] = random.choice((-0.5, 0.5), count)
+    data = point_set(points, dtype)
+    add(data, "Crease", points[:, 2])
+    return data
+
+
 def rich(count=4000):
     """A cloud with point data of all kinds."""
     points = ball(count)
@@ -125,7 +135,8 @@ def data_of(data):
         result["grid"] = [data.GetDimensions(), data.GetOrigin(), data.GetSpacing()]
         return result
     result["places"] = array_of(data.GetPoints().GetData()) if data.GetPoints() else None
-    for kind in ("Verts", "Polys"):
+    result["cells"] = fields_of(data.GetCellData())
+    for kind in ("Verts", "Lines", "Polys"):
         cells = getattr(data, f"Get{kind}")()
         ids = vtkIdTypeArray()
         cells.ExportLegacyFormat(ids)
@@ -439,6 +450,11 @@ CASES = {
     "rich": lambda: learn(rich()),
     "not_carried": lambda: learn(rich(), CarryPointData=0),
     "explained": lambda: learn(rich(), ExplainPoints=1, ComputeFeatureStrength=1),
+    "lines": lambda: learn(box(), ComputeFeatureLines=1, NumberOfVertices=1000),
+    "lines_of_doubles": lambda: learn(box(np.float64), "vtkNeuralMeshEnsemble", NumberOfMembers=3,
+                                      VerticesPerMember=200, ComputeFeatureLines=1, FeatureAngle=60,
+                                      NumberOfVertices=1000),
+    "no_lines": lambda: learn(rich(), ComputeFeatureLines=1, ExplainPoints=1),
     "ghosts": lambda: learn(ghosts(), ExplainPoints=1, WeightArrayName="Trust"),
     "stale": lambda: learn(stale()),
     "blocks": lambda: learn(blocks(), ExplainPoints=1),

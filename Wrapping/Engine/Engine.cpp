@@ -92,6 +92,16 @@ void bindRun(nb::module_& module)
     .def("votes", &Run::votes)
     .def("curve", &Run::curve)
     .def("explained", &Run::explained)
+    .def(
+      "feature_lines",
+      [](Run& run, double angle, bool isDouble, double begin, double end, nb::object progress)
+      {
+        Call call(std::move(progress));
+        nb::dict lines = run.featureLines(angle, isDouble, call, begin, end);
+        call.rethrow();
+        return lines;
+      },
+      "angle"_a, "double"_a, "begin"_a, "end"_a, "progress"_a.none())
     .def("times", &Run::times)
     .def(
       "find_places",

@@ -211,4 +211,45 @@ nb::dict explainedOf(
   result["field_data"] = fields;
   return result;
 }
+
+nb::dict linesOf(const FeatureLines& lines, bool isDouble)
+{
+  std::vector<std::int64_t> corners, linePoints, lineEnds;
+  std::vector<double> angles, lengths;
+  std::vector<std::int32_t> chains;
+  std::vector<std::uint8_t> isCorner(lines.points.size());
+  const auto addData = [&](double angle, std::size_t chain, double length)
+  {
+    angles.push_back(angle);
+    chains.push_back(std::int32_t(chain));
+    lengths.push_back(length);
+  };
+  for (const FeatureLines::Corner& corner : lines.corners)
+  {
+    corners.push_back(corner.point);
+    isCorner[corner.point] = 1;
+    addData(corner.angle, corner.chain, 0.);
+  }
+  for (const FeatureLine& line : lines.lines)
+  {
+    linePoints.insert(linePoints.end(), line.points.begin(), line.points.end());
+    lineEnds.push_back(std::int64_t(linePoints.size()));
+    addData(line.angle, line.chain, line.length);
+  }
+  nb::dict pointData, cellData, result;
+  pointData["Corner"] = arrayOf(std::move(isCorner));
+  pointData["Vertex"] =
+    arrayOf(std::vector<std::int32_t>(lines.vertices.begin(), lines.vertices.end()));
+  cellData["Angle"] = arrayOf(std::move(angles));
+  cellData["Chain"] = arrayOf(std::move(chains));
+  cellData["Length"] = arrayOf(std::move(lengths));
+  result["points"] = isDouble ? rowsOf<double>(lines.points) : rowsOf<float>(lines.points);
+  result["corners"] = arrayOf(std::move(corners));
+  result["line_points"] = arrayOf(std::move(linePoints));
+  result["line_ends"] = arrayOf(std::move(lineEnds));
+  result["point_data"] = pointData;
+  result["cell_data"] = cellData;
+  result["creases"] = arrayOf(lines.creases);
+  return result;
+}
 }

@@ -4,6 +4,7 @@
 
 #include "cloud/PointCloud.h"
 #include "learn/GrowthWatch.h"
+#include "run/FeatureLines.h"
 #include "run/Reconstruction.h"
 #include "run/Tuning.h"
 
@@ -33,4 +34,8 @@ nanobind::dict curveOf(const LearningCurve& curve);
 /// Of as many points as the input has, a dict of the arrays `Distance` and `Reason`, and the fields.
 nanobind::dict explainedOf(
   const Explanation& explanation, const PointCloud& cloud, std::size_t pointCount);
+
+/// A dict of `points`, `corners` (points), `line_points` of all lines one behind the other, `line_ends`, the
+/// dicts `point_data` and `cell_data` (of corners, and behind them of lines), and `creases` of the mesh.
+nanobind::dict linesOf(const FeatureLines& lines, bool isDouble);
 }

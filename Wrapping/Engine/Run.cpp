@@ -250,6 +250,16 @@ nb::dict Run::explained() const
   return result_.explanation ? explainedOf(*result_.explanation, *cloud_, pointCount_) : nb::dict();
 }
 
+nb::dict Run::featureLines(double angle, bool isDouble, Call& call, double begin, double end) const
+{
+  std::optional<FeatureLines> lines;
+  {
+    const nb::gil_scoped_release unlocked;
+    lines = findFeatureLines(result_.surface, *cloud_, angle, call.part(begin, end), executor_);
+  }
+  return lines ? linesOf(*lines, isDouble) : nb::dict();
+}
+
 nb::dict Run::times() const
 {
   nb::dict seconds;

@@ -59,6 +59,9 @@ public:
   nanobind::dict votes() const;
   nanobind::dict curve() const;
   nanobind::dict explained() const;
+  /// Of the mesh, those sharper than an angle in degrees; empty if that was ended.
+  nanobind::dict featureLines(
+    double angle, bool isDouble, Call& call, double begin, double end) const;
   nanobind::dict times() const;
   std::vector<std::string> warnings() const;
   std::string stopReason() const;

@@ -15,7 +15,7 @@ constexpr double BytesPerVertex = 400.;
 
 /// Up to about so many vertices the mesh is in the cache. Each doubling beyond adds this part of
 /// the time of a sample, averaged over the run; see the table of growth in the README.
-constexpr double VerticesInCache = 32768.;
+constexpr double CachedVertices = 32768.;
 constexpr double SlowdownPerDoubling = 0.35;
 
 /// The rest of the vertices are those of the average mesh.
@@ -46,7 +46,7 @@ RunEstimate estimateRun(
     (run.isEnsemble ? PartLearntByEnsemble : 1.) * std::max(0., run.vertices - last.vertices);
   const double samplesLeft = left * iterations / std::max(1., vertices) + run.samplesForFeatures;
   const double slowdown =
-    1. + SlowdownPerDoubling * std::max(0., std::log2(run.vertices / VerticesInCache));
+    1. + SlowdownPerDoubling * std::max(0., std::log2(run.vertices / CachedVertices));
   const double secondsLeft = samplesLeft * slowdown * (last.seconds - middle.seconds) / iterations;
   estimate.samples = last.iterations + samplesLeft;
   estimate.seconds = (run.isEnsemble ? secondsOfTrial : last.seconds) + secondsLeft;

@@ -21,8 +21,8 @@ from ._types import (
 
 # Those that have names or places of their own in the signature.
 _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
-# Time steps are for pipelines: a function gives the finished mesh. What explains the points is a flag.
-_OF_PIPELINES = ("growth_as_time", "number_of_snapshots", "explain_points")
+# Time steps are for pipelines: a function gives the finished mesh. What gives more outputs are flags.
+_OF_PIPELINES = ("growth_as_time", "number_of_snapshots", "explain_points", "compute_feature_lines")
 PARAMETERS = {
     name: parameter
     for name, parameter in parameters_of(_world.NeuralMesh).items()
@@ -53,6 +53,7 @@ def reconstruct(
     up: ArrayLike | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     explain: bool = False,
+    feature_lines: bool = False,
     progress: Progress | None = None,
     **parameters: float | bool | str,
 ) -> MadeMesh:
@@ -97,6 +98,10 @@ def reconstruct(
             explain: Whether the points are explained: then the result is the mesh and, as a second
                 vtkPolyData, the points with `Distance` and `Reason` as the run decided them, see
                 neuralmesh.explain(). It has no points if progress ended the run.
+            feature_lines: Whether the edges of the shape that are sharper than feature_angle, and that the
+                points confirm, are found: then they are one more result, the last one, as a vtkPolyData of
+                lines and corners, and the mesh has the point data `Crease`. It has no points if progress
+                ended the run.
             progress: A function that is called now and then with the fraction that is done, from 0 to
                 1. If it returns False, the mesh learnt so far is the result. An exception that it
                 raises ends the run and comes out of this function.
@@ -160,9 +165,11 @@ def reconstruct(
     cloud = take_input(mesh, points, weights, views, normals)
     first = None if first_mesh is None else _world.take_surface(first_mesh, "first_mesh")
     mesh.SetExplainPoints(bool(explain))
-    result, explained = _world.learn(mesh, cloud, first, progress, points)
+    mesh.SetComputeFeatureLines(bool(feature_lines))
+    result, explained, lines = _world.learn(mesh, cloud, first, progress, points)
     require_points(result)
-    return (result, explained) if explain else result
+    more = ([explained] if explain else []) + ([lines] if feature_lines else [])
+    return (result, *more) if more else result
 
 
 if reconstruct.__doc__:

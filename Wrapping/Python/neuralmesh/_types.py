@@ -25,7 +25,7 @@ else:
     Mesh = vtkPolyData
 
 # What the functions return: a vtkPolyData, a pyvista.PolyData or a neuralmesh.Mesh as the points were, and
-# with explain a pair of them. Hints that said it would be wrong for some.
+# with explain or feature_lines several of them. Hints that said it would be wrong for some.
 MadeMesh = Any
 
 __all__ = [

@@ -58,14 +58,17 @@ def learn(
     first_mesh: vtkPolyData | None,
     progress: Progress | None,
     given: object = None,
-) -> tuple[Any, Any]:
-    """Execute a filter with points, or with its file where there are none; mesh and explained points."""
+) -> tuple[Any, Any, Any]:
+    """Execute a filter with points, or with its file where there are none; mesh, explained points and
+    feature lines.
+    """
     if points is not None:
         mesh.SetInputData(points)
     if first_mesh is not None:
         mesh.SetFirstMeshData(first_mesh)
     execute(mesh, progress)
-    return _copy(mesh.GetOutput(), given), _copy(mesh.GetExplainedPoints(), given)
+    outputs = (mesh.GetOutput(), mesh.GetExplainedPoints(), mesh.GetFeatureLines())
+    return tuple(_copy(output, given) for output in outputs)  # type: ignore[return-value]
 
 
 def add_points(stream: NeuralMeshStream, points: Any) -> None:

@@ -57,6 +57,14 @@ def require_explanation(option: str, path: str) -> None:
     _engine.require_place(path)
 
 
+def require_lines(option: str, path: str) -> None:
+    """Raise what is wrong with the name of a file of feature lines."""
+    if files.extension_of(path) not in (".vtp", ".vtk"):
+        raise UsageError(f"{option}: {path} must be a .vtp or .vtk; no other format keeps lines")
+    files.require_writable(path)
+    _engine.require_place(path)
+
+
 def read_points(path: str) -> Mesh:
     """Points, or a mesh. Readers of VTK may end the process where a file is damaged: not without words."""
     if files.extension_of(path) in files.BY_VTK and os.path.isfile(path):

@@ -22,12 +22,13 @@ from . import settings
 from .estimate import print_estimate
 from .inputs import read_inputs
 from .names import (
-    NamedFile, read_mesh, read_points, require_distinct, require_explanation, require_output,
+    NamedFile, read_mesh, read_points, require_distinct, require_explanation, require_lines,
+    require_output,
 )  # fmt: skip
 from .parsing import UsageError, three_numbers, words_of
 from .progress_bar import ProgressBar
 from .reconstruct_options import parser
-from .run_report import Drawn, Seconds, print_run
+from .run_report import Drawn, Seconds, print_lines, print_run
 
 _WARNED = 3  # the exit status with --strict, if there was a warning
 _INTERRUPTED = 128 + signal.SIGINT
@@ -63,6 +64,8 @@ def run(arguments: Sequence[str]) -> int:
         # A run that was ended early has explained nothing.
         if outcome.explained is not None and len(outcome.explained.points) > 0:
             files.write_mesh(outcome.explained, options.explain)
+        if outcome.feature_lines is not None and outcome.feature_lines.lines:
+            files.write_mesh(outcome.feature_lines, options.feature_lines)
         watch.append(time.monotonic())
     reason = mesh.GetStopReason()
     if reason not in ("cancelled", "time limit"):
@@ -70,6 +73,8 @@ def run(arguments: Sequence[str]) -> int:
     if not options.quiet:
         seconds = Seconds(*(after - before for before, after in zip(watch, watch[1:])))
         print_run(mesh, outcome.mesh, points, drawn, seconds)
+        if outcome.feature_lines is not None:
+            print_lines(outcome.feature_lines)
         if options.shift:
             _print_shift(stored, options.output)
     if reason == "cancelled":
@@ -106,6 +111,7 @@ def _filter_of(options: argparse.Namespace) -> Any:
     mesh.SetPreset(options.preset)
     mesh.SetAutomatic(options.automatic)
     mesh.SetExplainPoints(bool(options.explain))
+    mesh.SetComputeFeatureLines(bool(options.feature_lines))
     mesh.SetTimeLimit(options.time_limit)
     mesh.SetNumberOfThreads(options.threads)
     mesh.SetWeightArrayName(options.weights)
@@ -174,6 +180,7 @@ def _require_sound_files(options: argparse.Namespace, mesh: Any) -> None:
             NamedFile("OUTPUT", options.output, True),
             NamedFile("--statistics", options.statistics, True),
             NamedFile("--explain", options.explain, True),
+            NamedFile("--feature-lines", options.feature_lines, True),
             NamedFile("--checkpoint", options.checkpoint, True),
         ]
     )
@@ -189,6 +196,8 @@ def _require_sound_files(options: argparse.Namespace, mesh: Any) -> None:
         _engine.require_place(options.statistics)
     if options.explain:
         require_explanation("--explain", options.explain)
+    if options.feature_lines:
+        require_lines("--feature-lines", options.feature_lines)
     if options.checkpoint:
         _engine.require_place(options.checkpoint)
     if options.skip > 0 and options.raw is None:

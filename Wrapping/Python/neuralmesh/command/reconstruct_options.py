@@ -211,6 +211,12 @@ def _add_run(result: Parser) -> None:
         "the Reason why it lies there; takes some seconds for millions of points",
         "FILE",
     )
+    result.add_text(
+        "--feature-lines",
+        "Write the edges of the shape that are sharper than FeatureAngle (30 degrees), and that the points "
+        "confirm, to this .vtp or .vtk file (by VTK), as lines with corners; OUTPUT gets the array Crease",
+        "FILE",
+    )
     result.add_flag(
         "--strict", "Exit with status 3 if there was a warning; the mesh is written all the same"
     )

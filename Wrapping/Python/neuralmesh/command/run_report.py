@@ -57,6 +57,18 @@ def print_reasons(fields: dict[str, Any]) -> None:
     )
 
 
+def print_lines(lines: Mesh) -> None:
+    """How many feature lines there are, and how long they are."""
+    if not lines.lines:
+        print("lines      none, so that no file is written")
+        return
+    corners = 0 if lines.corners is None else len(lines.corners)
+    print(
+        f"lines      {len(lines.lines)} of the length {sum(lines.cell_data['Length']):.4g}, with "
+        f"{corners} corners"
+    )
+
+
 def _print_points(points: Mesh, drawn: Drawn | None, fields: dict[str, Any]) -> None:
     count, dropped = len(points.points), fields["DroppedPoints"]
     if drawn:

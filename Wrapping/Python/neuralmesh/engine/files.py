@@ -8,6 +8,7 @@ from __future__ import annotations
 import importlib.util
 import io
 import os
+from dataclasses import replace
 from typing import Any, Callable
 
 import numpy as np
@@ -92,6 +93,8 @@ def write_mesh(
         raise ValueError(f"{name}: cannot be written: there are no points to write")
     mesh = as_mesh(mesh, name)
     extension = extension_of(name)
+    if mesh.corners is not None and extension not in _WRITTEN_BY_VTK:
+        raise ValueError(f"{name}: lines are written as .vtp or .vtk; no other format keeps them")
     if extension == ".npy":
         if shift is not None:
             raise ValueError(f"{name}: cannot be written: an .npy has no place to note a shift")
@@ -228,7 +231,7 @@ def _write_by_vtk(mesh: Mesh, path: str, shift: Any) -> tuple[float, float, floa
         if any(noted):
             fields[_NOTE] = np.array([noted])
         points = (mesh.points - np.array(taken)).astype(mesh.points.dtype)
-        mesh = Mesh(points, mesh.triangles, mesh.point_data, fields, mesh.scalars)
+        mesh = replace(mesh, points=points, field_data=fields)
     _engine.write_whole(path, vtk_bytes_of(mesh.to_vtk(), extension_of(path), path))
     return noted
 

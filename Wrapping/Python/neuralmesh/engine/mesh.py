@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes and explained points as NumPy arrays, and as objects of VTK and PyVista."""
+"""Meshes, explained points and feature lines as NumPy arrays, and as objects of VTK and PyVista."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class Mesh:
-    """Triangles, or points alone, as NumPy arrays.
+    """Triangles, or lines, or points alone, as NumPy arrays.
 
     Attributes:
         points: Of shape (N, 3), 4- or 8-byte floats.
@@ -26,6 +26,9 @@ class Mesh:
             outside.
         point_data: An array of N rows for each name.
         field_data: A number, a text, a list of texts, or an array for each name.
+        lines: The points of each line, in their order; 8-byte integers.
+        corners: The points where lines meet, end or turn sharply.
+        cell_data: An array for each name: of a row for each corner, and behind them for each line.
         scalars: The name of the point data by which VTK colours the mesh; empty for none.
     """
 
@@ -36,6 +39,9 @@ class Mesh:
     scalars: str = ""
     # Arrays of VTK by the names of point data that is to be of the same kind there.
     vtk_kinds: dict[str, Any] = field(default_factory=dict, repr=False, compare=False)
+    lines: list[np.ndarray] = field(default_factory=list)
+    corners: np.ndarray | None = None
+    cell_data: dict[str, Any] = field(default_factory=dict)
 
     @property
     def warnings(self) -> list[str]:
@@ -43,6 +49,8 @@ class Mesh:
         return list(self.field_data.get("Warnings", ()))
 
     def __repr__(self) -> str:
+        if self.lines:
+            return f"<neuralmesh.Mesh of {len(self.points)} points and {len(self.lines)} lines>"
         return f"<neuralmesh.Mesh of {len(self.points)} points and {len(self.triangles)} triangles>"
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -92,15 +100,12 @@ class Mesh:
             corners = np.ascontiguousarray(self.triangles, dtype=np.int64)
             cells.SetData(3, support.numpy_to_vtkIdTypeArray(corners.reshape(-1), deep=True))
             data.SetPolys(cells)
+        elif self.corners is not None:
+            data.SetVerts(_cells_of(self.corners[:, None], package))
+            data.SetLines(_cells_of(self.lines, package))
         elif len(self.points) > 0:
             # Points alone are to be seen, too: all are one cell.
-            numbers = np.arange(len(self.points), dtype=np.int64)
-            offsets = np.array([0, len(self.points)], dtype=np.int64)
-            cells.SetData(
-                support.numpy_to_vtkIdTypeArray(offsets, deep=True),
-                support.numpy_to_vtkIdTypeArray(numbers, deep=True),
-            )
-            data.SetVerts(cells)
+            data.SetVerts(_cells_of([np.arange(len(self.points))], package))
         for name, values in self.point_data.items():
             array = named(values, name, package, self.vtk_kinds.get(name))
             if name == "Normals":
@@ -109,8 +114,23 @@ class Mesh:
                 data.GetPointData().SetScalars(array)
             else:
                 data.GetPointData().AddArray(array)
+        for name, values in self.cell_data.items():
+            data.GetCellData().AddArray(named(values, name, package))
         for name, value in self.field_data.items():
             data.GetFieldData().AddArray(field_array(value, name, package))
+
+
+def _cells_of(cells: Any, package: str | None) -> Any:
+    """A vtkCellArray of cells with these points."""
+    support = vtk_module(package, "util.numpy_support")
+    result = vtk_module(package, "vtkCommonDataModel").vtkCellArray()
+    ends = np.cumsum([0, *(len(cell) for cell in cells)], dtype=np.int64)
+    points = np.concatenate([np.empty(0, dtype=np.int64), *cells]).astype(np.int64)
+    result.SetData(
+        support.numpy_to_vtkIdTypeArray(ends, deep=True),
+        support.numpy_to_vtkIdTypeArray(points, deep=True),
+    )
+    return result
 
 
 def as_mesh(surface: Any, parameter: str) -> Mesh:

@@ -17,7 +17,8 @@ from .carrying import carry
 from .cloud import Block, Cloud
 from .mesh import Mesh
 
-_END_OF_MESH = 0.95  # of the progress; then point data is carried over
+# Of the progress: then feature lines are looked for, and point data is carried over.
+_BEGIN_OF_LINES, _BEGIN_OF_CARRYING = 0.9, 0.95
 _SINGLE, _DOUBLE = 0, 1
 
 
@@ -28,6 +29,7 @@ class Outcome:
     mesh: Mesh
     curve: dict[str, np.ndarray] = field(default_factory=dict)
     explained: Mesh | None = None
+    feature_lines: Mesh | None = None
     average: Mesh | None = None  # of an ensemble
     votes: dict[str, Any] | None = None  # likewise
     warnings: list[str] = field(default_factory=list)
@@ -185,7 +187,10 @@ class NeuralMesh(NeuralMeshAlgorithm):
             precision != _SINGLE
             and (cloud.has_doubles or run.needs_doubles(int(self._values["NumberOfVertices"])))
         )
-        end_of_mesh = _END_OF_MESH if carried else 1.0
+        finds_lines = bool(self._values["ComputeFeatureLines"])
+        end_of_mesh = _BEGIN_OF_CARRYING if carried else 1.0
+        if finds_lines:
+            end_of_mesh = _BEGIN_OF_LINES
         run.learn(
             self._engine_values(),
             self._ensemble_values(),
@@ -220,6 +225,15 @@ class NeuralMesh(NeuralMeshAlgorithm):
         if self.IS_ENSEMBLE:
             outcome.average, outcome.votes = _average_of(run, is_double), run.votes()
         is_complete = run.is_complete
+        if finds_lines and run.stop_reason != "cancelled":
+            angle = float(self._values["FeatureAngle"])
+            found = run.feature_lines(
+                angle, is_double, _BEGIN_OF_LINES, _BEGIN_OF_CARRYING, progress
+            )
+            is_complete = bool(found) and is_complete
+            if found:
+                outcome.mesh.point_data["Crease"] = found.pop("creases")
+                outcome.feature_lines = _lines_of(found)
         if carried and run.stop_reason != "cancelled":
             is_complete = carry(run, cloud, carried, outcome.mesh, progress) and is_complete
         if is_complete and not self._values["KeepCheckpoint"]:
@@ -276,6 +290,12 @@ def explained_points(cloud: Cloud, explained: dict[str, Any]) -> Mesh:
     points = np.concatenate([block.points for block in cloud.blocks]).astype(kind, copy=False)
     fields = explained.pop("field_data")
     return Mesh(points, np.empty((0, 3), dtype=np.int64), explained, fields, "Reason")
+
+
+def _lines_of(found: dict[str, Any]) -> Mesh:
+    ends, points = found.pop("line_ends"), found.pop("line_points")
+    lines = np.split(points, ends[:-1]) if len(ends) > 0 else []
+    return Mesh(**found, triangles=np.empty((0, 3), dtype=np.int64), lines=lines)
 
 
 def _snapshot_taker(take: Callable[[Mesh], None] | None, is_double: bool) -> Any:

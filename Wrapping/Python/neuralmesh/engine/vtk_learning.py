@@ -54,12 +54,12 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
     """Triangle mesh of a wanted size from a raw point cloud, by learning.
 
     Input port 0 takes a vtkPointSet, or a composite dataset, of which all point sets are one cloud; port 1,
-    optional, the triangles to start from. Outputs are the mesh, the learning curve as a vtkTable, and the
-    explained points. Documentation/Filters.md of the project tells of all.
+    optional, the triangles to start from. Outputs are the mesh, the learning curve as a vtkTable, the
+    explained points, and the feature lines. Documentation/Filters.md of the project tells of all.
     """
 
     _INPUTS: tuple[tuple[str, ...], ...] = (_POINT_SETS, ("vtkPolyData",))
-    _OUTPUTS: tuple[str, ...] = ("vtkPolyData", "vtkTable", "vtkPolyData")
+    _OUTPUTS: tuple[str, ...] = ("vtkPolyData", "vtkTable", "vtkPolyData", "vtkPolyData")
     _OPTIONAL_INPUTS = True
     SnapshotEvent = vtkCommand.UserEvent + 2004
 
@@ -89,7 +89,11 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
         return self.GetOutputDataObject(1)
 
     def GetExplainedPoints(self) -> Any:
-        """The last output port; empty without ExplainPoints."""
+        """Output port 2, of an ensemble port 4; empty without ExplainPoints."""
+        return self.GetOutputDataObject(len(self._OUTPUTS) - 2)
+
+    def GetFeatureLines(self) -> Any:
+        """The last output port; empty without ComputeFeatureLines."""
         return self.GetOutputDataObject(len(self._OUTPUTS) - 1)
 
     def SetWeightArrayName(self, name: str | None) -> None:
@@ -207,7 +211,9 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
             output.GetFieldData().RemoveArray(name)
         outcome.mesh.fill(output)
         if outcome.explained is not None and outcome.explained.point_data:
-            outcome.explained.fill(vtkPolyData.GetData(outputs, len(self._OUTPUTS) - 1))
+            outcome.explained.fill(vtkPolyData.GetData(outputs, len(self._OUTPUTS) - 2))
+        if outcome.feature_lines is not None:
+            outcome.feature_lines.fill(vtkPolyData.GetData(outputs, len(self._OUTPUTS) - 1))
 
 
 def _weights_of(block: Any, information: Any) -> np.ndarray | None:
@@ -229,7 +235,9 @@ class vtkNeuralMeshEnsemble(vtkNeuralMesh, NeuralMeshEnsemble):
     """
 
     _INPUTS = (_POINT_SETS,)
-    _OUTPUTS = ("vtkPolyData", "vtkTable", "vtkPolyData", "vtkImageData", "vtkPolyData")
+    _OUTPUTS = (
+        "vtkPolyData", "vtkTable", "vtkPolyData", "vtkImageData", "vtkPolyData", "vtkPolyData",
+    )  # fmt: skip
 
     def _begin_values(self) -> None:
         NeuralMeshEnsemble.__init__(self)

@@ -85,8 +85,10 @@ def learn(
     first_mesh: Mesh | None,
     progress: Progress | None,
     given: object = None,
-) -> tuple[Any, Any]:
-    """Run with points, or with the file of the mesh where there are none; mesh and explained points."""
+) -> tuple[Any, Any, Any]:
+    """Run with points, or with the file of the mesh where there are none; mesh, explained points and
+    feature lines.
+    """
     told = _told(progress)
     outcome = (
         mesh.run_on_file(first_mesh, told) if points is None else mesh.run(points, first_mesh, told)
@@ -95,10 +97,15 @@ def learn(
         told(1.0)
     for text in outcome.warnings:
         warn(text)
-    explained = outcome.explained
-    if explained is None:
-        explained = Mesh(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
-    return present(outcome.mesh, given), present(explained, given)
+    return (
+        present(outcome.mesh, given),
+        present(outcome.explained or _nothing(), given),
+        present(outcome.feature_lines or _nothing(), given),
+    )
+
+
+def _nothing() -> Mesh:
+    return Mesh(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
 
 
 def add_points(stream: NeuralMeshStream, points: Cloud) -> None:
