@@ -13,6 +13,7 @@
 #include "vtkPolyData.h"
 
 #include <cstdio>
+#include <iostream>
 
 namespace
 {
@@ -39,18 +40,18 @@ void WriteFeatureLines(vtkNeuralMesh* filter, const std::string& path)
   {
     WriteMesh(filter->GetFeatureLines(), path);
   }
+  else if (HasLooked(filter))
+  {
+    // On stderr, whatever else is said: a file of that name may be of another run.
+    std::cerr << "neuralmesh: there are no feature lines, so " << path << " is not written\n";
+  }
 }
 
 void PrintFeatureLines(vtkNeuralMesh* filter)
 {
-  if (!HasLooked(filter))
-  {
-    return;
-  }
   vtkPolyData* lines = filter->GetFeatureLines();
   if (lines->GetNumberOfPoints() == 0)
   {
-    std::printf("lines      none, so that no file is written\n");
     return;
   }
   vtkDataArray* lengths = lines->GetCellData()->GetArray("Length");

@@ -9,10 +9,10 @@ class vtkNeuralMesh;
 /** Throws UsageError or std::runtime_error if no file of feature lines can be written there. */
 void RequireFeatureLinesPlace(const std::string& option, const std::string& path);
 
-/** Writes the lines that a run has found, if there are any; throws std::runtime_error. */
+/** Writes the lines that a run has found; if there are none, says so on stderr. Throws std::runtime_error. */
 void WriteFeatureLines(vtkNeuralMesh* filter, const std::string& path);
 
-/** Prints how many there are, if the run has looked for them. */
+/** Prints how many there are, if there are some. */
 void PrintFeatureLines(vtkNeuralMesh* filter);
 
 #endif

@@ -42,7 +42,8 @@ constexpr double FarthestMeeting = 1.;
 constexpr unsigned RoundsOfSorting = 3;
 constexpr std::size_t FewestOfPlane = 5;
 constexpr std::size_t FewestOfCurve = 14;
-constexpr std::size_t EdgesPerRange = 16;
+constexpr std::size_t EdgesPerRange = 64;
+constexpr std::size_t EdgesPerAbortCheck = 1024;
 
 double degrees(double radians) { return radians * 180. / std::numbers::pi; }
 double radians(double degrees) { return degrees * std::numbers::pi / 180.; }
@@ -198,6 +199,7 @@ public:
     : planes_(planes)
     , cloud_(cloud)
     , leastAngle_(leastAngle)
+    , takenBy_(planes.triangles().all().size(), 0)
   {
   }
 
@@ -316,16 +318,17 @@ private:
       planes_.planeOf(triangles[1]).normal };
     const double turn = std::max(radians(TurnOfSide), 0.5 * angleBetween(normals[0], normals[1]));
     const double least = std::cos(std::min(turn, std::numbers::pi / 2.));
+    ++gathering_;
     taken_.assign(triangles.begin(), triangles.end());
     side_.assign({ 0, 1 });
+    takenBy_[triangles[0]] = takenBy_[triangles[1]] = gathering_;
     for (std::size_t next = 0; next < taken_.size(); ++next)
     {
       const unsigned side = side_[next];
       for (unsigned corner = 0; corner < 3; ++corner)
       {
         const std::uint32_t beyond = planes_.beyond(taken_[next], corner);
-        if (beyond == FacePlanes::None ||
-          std::find(taken_.begin(), taken_.end(), beyond) != taken_.end() ||
+        if (beyond == FacePlanes::None || takenBy_[beyond] == gathering_ ||
           (planes_.centerOf(beyond) - middle).norm() > reach)
         {
           continue;
@@ -336,6 +339,7 @@ private:
         if (std::max(own, other) >= least)
         {
           taken_.push_back(beyond);
+          takenBy_[beyond] = gathering_;
           side_.push_back(own >= other ? side : 1 - side);
         }
       }
@@ -399,6 +403,8 @@ private:
   const FacePlanes& planes_;
   const PointCloud& cloud_;
   double leastAngle_;
+  std::uint32_t gathering_ = 0;
+  std::vector<std::uint32_t> takenBy_; ///< of each triangle, the last gathering that took it
   std::vector<std::uint32_t> taken_;
   std::vector<unsigned> side_;
   std::vector<double> noises_;
@@ -439,30 +445,36 @@ std::vector<CandidateEdge> candidatesOf(const FacePlanes& planes, double leastAn
 }
 }
 
-std::vector<CreaseEdge> findCreaseEdges(
-  const FacePlanes& planes, const CloudPlaces& places, double leastAngle, const Executor& executor)
+std::vector<CreaseEdge> findCreaseEdges(const FacePlanes& planes, const CloudPlaces& places,
+  double leastAngle, const Progress& progress, const Executor& executor)
 {
   const std::vector<CandidateEdge> candidates = candidatesOf(planes, leastAngle);
-  std::vector<CreaseEdge> result(candidates.size());
+  const std::size_t count = candidates.size();
+  std::vector<CreaseEdge> result(count);
   const Mesh& mesh = places.mesh();
-  executor.forEachRange(candidates.size(), EdgesPerRange,
-    [&](std::size_t begin, std::size_t end)
+  const auto examine = [&](std::size_t begin, std::size_t end)
+  {
+    EdgeExam exam(planes, places.cloud(), leastAngle);
+    for (std::size_t i = begin; i < end; ++i)
     {
-      EdgeExam exam(planes, places.cloud(), leastAngle);
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const auto& [triangles, corner] = candidates[i];
-        const Triangle& corners = planes.triangles().all()[triangles[0]];
-        result[i].ends = { corners[corner], corners[(corner + 1) % 3] };
-        const Eigen::Vector3d a = mesh.position(result[i].ends[0]).toDouble();
-        const Eigen::Vector3d b = mesh.position(result[i].ends[1]).toDouble();
-        const double area =
-          0.25 * (planes.normalOf(triangles[0]).norm() + planes.normalOf(triangles[1]).norm());
-        // Of a triangle of equal sides with that area, or longer.
-        const double length = std::max((b - a).norm(), std::sqrt(area / 0.433));
-        exam.run(triangles, 0.5 * (a + b), length, result[i]);
-      }
-    });
+      const auto& [triangles, corner] = candidates[i];
+      const Triangle& corners = planes.triangles().all()[triangles[0]];
+      result[i].ends = { corners[corner], corners[(corner + 1) % 3] };
+      const Eigen::Vector3d a = mesh.position(result[i].ends[0]).toDouble();
+      const Eigen::Vector3d b = mesh.position(result[i].ends[1]).toDouble();
+      const double area =
+        0.25 * (planes.normalOf(triangles[0]).norm() + planes.normalOf(triangles[1]).norm());
+      // Of a triangle of equal sides with that area, or longer.
+      const double length = std::max((b - a).norm(), std::sqrt(area / 0.433));
+      exam.run(triangles, 0.5 * (a + b), length, result[i]);
+    }
+  };
+  for (std::size_t first = 0; first < count && progress(double(first) / double(count));
+       first += EdgesPerAbortCheck)
+  {
+    executor.forEachRange(std::min(EdgesPerAbortCheck, count - first), EdgesPerRange,
+      [&](std::size_t begin, std::size_t end) { examine(first + begin, first + end); });
+  }
   return result;
 }
 }

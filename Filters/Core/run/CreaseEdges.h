@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/Progress.h"
 #include "run/FacePlanes.h"
 
 #include <array>
@@ -23,8 +24,10 @@ struct CreaseEdge
 /// The edges whose planes differ by more than half of `leastAngle`, in degrees. Such an edge is confirmed if
 /// the points say so: on each side a surface of second degree is fitted to the points within a few edges,
 /// which goes up to where both sides meet. There its slope has a standard error, by the residuals and the
-/// number of points. The angle between both slopes must be larger than `leastAngle` by two standard errors. So
-/// neither noise nor a smooth bend makes a crease: what bends smoothly has about the same slope from both sides.
+/// number of points. The angle between both slopes must be larger than `leastAngle` by three standard errors, both
+/// surfaces must fit within the noise, and one surface of third degree over both sides must fit clearly worse.
+/// So neither noise nor a smooth bend makes a crease: what bends smoothly has about the same slope from both
+/// sides. If `progress` ends it, the edges that were not looked at are not confirmed.
 std::vector<CreaseEdge> findCreaseEdges(const FacePlanes& planes, const CloudPlaces& places,
-  double leastAngle, const Executor& executor = Executor::sequential());
+  double leastAngle, const Progress& progress, const Executor& executor = Executor::sequential());
 }

@@ -22,8 +22,9 @@ constexpr double SharpTurn = 50.;
 constexpr std::size_t EdgesOfTurn = 2;
 /// How much a point of a line stays at its vertex, beside each plane that draws it away.
 constexpr double PullOfVertex = 0.01;
-/// Of the progress: then the points have their places on the mesh.
-constexpr double EndOfPlaces = 0.6;
+/// Of the progress: then the points have their places on the mesh, and triangles their planes.
+constexpr double EndOfPlaces = 0.4;
+constexpr double EndOfPlanes = 0.5;
 
 /// Makes lines of what is left of a graph.
 class LineBuilder
@@ -237,12 +238,15 @@ std::optional<FeatureLines> findFeatureLines(const Mesh& mesh, const PointCloud&
     return {};
   }
   const FacePlanes planes(places, executor);
-  CreaseGraph graph(findCreaseEdges(planes, places, leastAngle, executor), mesh, planes.rings());
-  graph.prune();
+  std::vector<CreaseEdge> edges = findCreaseEdges(
+    planes, places, leastAngle,
+    [&](double fraction) { return report(EndOfPlanes + (1. - EndOfPlanes) * fraction); }, executor);
   if (!report(1.))
   {
     return {};
   }
+  CreaseGraph graph(std::move(edges), mesh, planes.rings());
+  graph.prune();
   return LineBuilder(graph, mesh, cloud).run();
 }
 }

@@ -47,7 +47,7 @@ struct FeatureLines
 /// it. Edges that are less sharp, or not confirmed, belong to a line if they close a gap of at most ten edges in
 /// it. What ends in the open after a few edges is no line, nor is a boundary. Lines run along edges of the
 /// mesh, of which no vertex may be erased, but their points lie where the planes of both sides meet, at most
-/// an edge away from their vertex. Takes about 2 microseconds a point. Nothing if `progress` ends it.
+/// an edge away from their vertex. Nothing if `progress` ends it.
 std::optional<FeatureLines> findFeatureLines(const Mesh& mesh, const PointCloud& cloud,
   double leastAngle, const Progress& progress, const Executor& executor = Executor::sequential());
 }

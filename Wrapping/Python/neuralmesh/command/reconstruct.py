@@ -64,8 +64,8 @@ def run(arguments: Sequence[str]) -> int:
         # A run that was ended early has explained nothing.
         if outcome.explained is not None and len(outcome.explained.points) > 0:
             files.write_mesh(outcome.explained, options.explain)
-        if outcome.feature_lines is not None and outcome.feature_lines.lines:
-            files.write_mesh(outcome.feature_lines, options.feature_lines)
+        if outcome.feature_lines is not None:
+            _write_lines(outcome.feature_lines, options.feature_lines)
         watch.append(time.monotonic())
     reason = mesh.GetStopReason()
     if reason not in ("cancelled", "time limit"):
@@ -91,6 +91,16 @@ def _names(options: argparse.Namespace) -> tuple[list[str], str]:
             "of a mesh"
         )
     return inputs, output
+
+
+def _write_lines(lines: Any, path: str) -> None:
+    if lines.lines:
+        files.write_mesh(lines, path)
+    else:
+        # On stderr, whatever else is said: a file of that name may be of another run.
+        print(
+            f"neuralmesh: there are no feature lines, so {path} is not written", file=sys.stderr
+        )
 
 
 def _filter_of(options: argparse.Namespace) -> Any:

@@ -58,9 +58,8 @@ def print_reasons(fields: dict[str, Any]) -> None:
 
 
 def print_lines(lines: Mesh) -> None:
-    """How many feature lines there are, and how long they are."""
+    """How many feature lines there are, and how long they are, if there are some."""
     if not lines.lines:
-        print("lines      none, so that no file is written")
         return
     corners = 0 if lines.corners is None else len(lines.corners)
     print(
