@@ -65,6 +65,7 @@ struct ReconstructOptions
   int Topology = DefaultTopology;
   int Boundaries = 0;
   double CloseHolesBelow = 0.0;
+  int Fidelity = 0;
   double KeepPieces = 0.0;
   int Members = 0; ///< of an ensemble; 0 for none
   std::string Jump;
@@ -153,6 +154,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
   }
   filter->SetBoundaries(options.Boundaries);
   filter->SetCloseHolesBelow(options.CloseHolesBelow);
+  filter->SetFidelity(options.Fidelity);
   filter->SetKeepPieces(options.KeepPieces);
   filter->SetComputeFeatureStrength(options.Features);
   filter->SetPreset(options.Preset);
@@ -391,6 +393,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   options->Variant = defaults->GetVariant();
   options->Order = defaults->GetOrder();
   options->Boundaries = defaults->GetBoundaries();
+  options->Fidelity = defaults->GetFidelity();
   options->Preset = defaults->GetPreset();
   options->Automatic = defaults->GetAutomatic();
   options->Features = defaults->GetComputeFeatureStrength();
@@ -415,6 +418,10 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   const std::vector<PropertyWord> boundaries{ { "keep", vtkNeuralMesh::KEEP,
                                                 "the mesh ends where the data ends" },
     { "close", vtkNeuralMesh::CLOSE, "it is watertight" } };
+  const std::vector<PropertyWord> fidelities{ { "draft", vtkNeuralMesh::DRAFT_FIDELITY,
+                                                "the first rounds of the fit alone" },
+    { "default", vtkNeuralMesh::DEFAULT_FIDELITY, "creases, tips and noise, too" },
+    { "high", vtkNeuralMesh::HIGH_FIDELITY, "until hardly anything is gained" } };
 
   CLI::App* command =
     application.add_subcommand("reconstruct", "Make a triangle mesh from a point cloud");
@@ -461,6 +468,8 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   AddShiftOption(command, options->Shift);
   AddChoice(command, "--boundaries", options->Boundaries, boundaries,
     "Gaps in the scan; " + Described(boundaries, options->Boundaries));
+  AddChoice(command, "--fidelity", options->Fidelity, fidelities,
+    "How much is done to come close to the points; " + Described(fidelities, options->Fidelity));
   AddNumber(command, "--close-holes-below", options->CloseHolesBelow, holes,
     "Fill holes whose outline, the sum of its edges, is shorter than LENGTH, in units of INPUT; " +
       Described(holes),

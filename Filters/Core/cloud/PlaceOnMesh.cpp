@@ -85,6 +85,20 @@ private:
   float c_ = 0.f;
   unsigned slot_ = 0;
 };
+
+/// Of a triangle beyond a rim, in distances to this side of it: what is closer is no farther beyond, unless the
+/// surface folds by more than 120 degrees.
+constexpr float Reach = 2.f;
+
+/// A triangle beyond those of the vertex can be closer only where the place lies near their rim, against the
+/// distance: behind an obtuse triangle or a crease.
+bool mayBeBeyond(const PlaceOnMesh& place, const Mesh& mesh)
+{
+  const Vector4 rim = mesh.position(place.triangle[2]) - mesh.position(place.triangle[1]);
+  const float height = squaredNorm(normalAt(place, mesh.positions()));
+  const float reach = Reach * Reach * place.squaredDistance;
+  return reach * squaredNorm(rim) >= place.weights[0] * place.weights[0] * height;
+}
 }
 
 PlaceOnMesh closestPlaceAt(Vector4 point, const Mesh& mesh, VertexIndex v)
@@ -108,9 +122,24 @@ PlaceOnMesh closestPlaceAt(Vector4 point, const Mesh& mesh, VertexIndex v)
   return place;
 }
 
+PlaceOnMesh closestPlaceAround(Vector4 point, const Mesh& mesh, VertexIndex v)
+{
+  const PlaceOnMesh first = closestPlaceAt(point, mesh, v);
+  PlaceOnMesh best = first;
+  for (std::size_t corner = 1; corner < 3 && mayBeBeyond(first, mesh); ++corner)
+  {
+    const PlaceOnMesh other = closestPlaceAt(point, mesh, first.triangle[corner]);
+    if (other.squaredDistance < best.squaredDistance)
+    {
+      best = other;
+    }
+  }
+  return best;
+}
+
 PlaceOnMesh closestPlace(Vector4 point, const Mesh& mesh, const VertexGrid& grid)
 {
-  return closestPlaceAt(point, mesh, grid.closest(point, mesh.positions()));
+  return closestPlaceAround(point, mesh, grid.closest(point, mesh.positions()));
 }
 
 PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near)
@@ -129,7 +158,7 @@ PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near)
     }
     if (closest == near)
     {
-      return closestPlaceAt(point, mesh, near);
+      return closestPlaceAround(point, mesh, near);
     }
   }
 }

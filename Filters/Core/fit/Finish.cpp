@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/Finish.h"
 
+#include "fit/FidelityRounds.h"
 #include "mesh/BoundaryFilling.h"
 #include "mesh/CrossingRemoval.h"
 #include "mesh/EdgeFlips.h"
@@ -20,6 +21,8 @@ namespace
 /// Defects, at most, that are taken away if nothing else helps: so many, or that part of the triangles.
 constexpr std::size_t MostTakenAway = 200;
 constexpr double MostPartTakenAway = 0.02;
+/// Of the time, if more rounds come after them.
+constexpr double PartOfFirstRounds = 0.4;
 /// Of triangles, see removeSlivers().
 constexpr float LeastQuality = 0.1f;
 /// To take slivers away; each leaves more of them.
@@ -86,11 +89,16 @@ bool Finish::run(const Progress& progress)
     return false;
   }
   const Progress untilLater = partOf(progress, 1., 1.);
-  for (int rounds = plan_.rounds - 1; rounds >= 0 && isWorseThan(before, guard); --rounds)
+  // Those of the fidelity are taken back first, all together.
+  const bool hadMore = plan_.rounds > 0 && report_.fidelityRounds > 0;
+  const int most = plan_.rounds + report_.fidelityRounds;
+  for (int rounds = plan_.rounds - (hadMore ? 0 : 1); rounds >= 0 && isWorseThan(before, guard);
+       --rounds)
   {
     mesh_ = before;
     report_ = FinishReport{};
-    report_.roundsTakenBack = plan_.rounds - rounds;
+    report_.roundsTakenBack = most - rounds;
+    plan_.fidelity = Fidelity::Draft;
     if (!runRounds(rounds, guard, untilLater))
     {
       return false;
@@ -118,8 +126,11 @@ bool Finish::isWorseThan(const Mesh& before, FitGuard& guard) const
 }
 
 /// So many rounds of the fit, and what goes with them.
-bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
+bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
 {
+  const bool hasMore = rounds > 0 && plan_.fidelity != Fidelity::Draft;
+  const double endOfFirst = hasMore ? PartOfFirstRounds : 1.;
+  const Progress progress = partOf(report, 0., endOfFirst);
   const auto samples = std::size_t(plan_.samplesPerVertex * double(plan_.vertexCount));
   std::optional<SurfaceFit> surfaceFit;
   const auto beginAnew = [&] { surfaceFit.emplace(cloud_, mesh_, samples, executor_); };
@@ -171,7 +182,11 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
       flipEdges(mesh_);
     }
   }
-  if (!repair(*surfaceFit, guard, partOf(progress, 1., 1.)))
+  if (hasMore && !improve(*surfaceFit, partOf(report, endOfFirst, 1.)))
+  {
+    return false;
+  }
+  if (!repair(*surfaceFit, guard, partOf(report, 1., 1.)))
   {
     return false;
   }
@@ -328,6 +343,23 @@ bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& prog
   report_.smoothness = surfaceFit.smoothness();
   report_.outlierShare = surfaceFit.outlierShare();
   report_.heldVertices += surfaceFit.heldCount();
+  return true;
+}
+
+/// The rounds that come after the first ones.
+bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
+{
+  report_.fidelityRounds = FidelityRounds::count(plan_.fidelity, report_.smoothness);
+  FidelityRounds rounds(mesh_, surfaceFit, plan_.vertexCount);
+  if (!rounds.run(plan_.fidelity, report_.smoothness, plan_.smoothness > 0., progress))
+  {
+    return false;
+  }
+  report_.noise = surfaceFit.noise();
+  report_.smoothness = rounds.lambda();
+  report_.outlierShare = surfaceFit.outlierShare();
+  report_.heldVertices += rounds.heldVertices();
+  report_.shareBetweenLayers = surfaceFit.shareBetweenLayers();
   return true;
 }
 

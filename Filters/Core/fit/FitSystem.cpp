@@ -95,9 +95,9 @@ void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vecto
     [&](std::size_t begin, std::size_t end)
     {
       applyUmbrella<float>(mesh_, x, laplacian, begin, end);
-      for (auto v = VertexIndex(begin); v < end && onBoundary < 1.f; ++v)
+      for (auto v = VertexIndex(begin); v < end && (onBoundary < 1.f || !parts_.empty()); ++v)
       {
-        laplacian[v] = mesh_.isBoundary(v) ? onBoundary * laplacian[v] : laplacian[v];
+        laplacian[v] = smoothnessPart(v, onBoundary) * laplacian[v];
       }
     });
   const auto applyRow = [&](VertexIndex v)
@@ -136,7 +136,7 @@ std::vector<FitSystem::Block> FitSystem::inverseDiagonal(double lambda) const
 {
   std::vector<Block> result = diagonal_;
   const float onBoundary = boundaryPart(lambda);
-  const auto part = [&](VertexIndex v) { return mesh_.isBoundary(v) ? onBoundary : 1.f; };
+  const auto part = [&](VertexIndex v) { return smoothnessPart(v, onBoundary); };
   const auto invert = [&](VertexIndex v)
   {
     float squares = part(v);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -14,6 +15,13 @@ namespace
 {
 /// What a distance along the surface counts, against one across it.
 constexpr double Slip = 0.01;
+constexpr double SettledSlip = 0.001;
+/// What it counts, then, that a vertex moves, against a sample.
+constexpr float AnchorWeight = 0.01f;
+/// ... and of a vertex that is to stay.
+constexpr float WeightOfKept = 1e4f;
+/// Around a boundary that is kept.
+constexpr int KeptRings = 2;
 /// In the first round samples are no outliers up to so many edges: the mesh does not fit yet.
 constexpr float FirstOutlierEdges = 1.f;
 constexpr float LaterOutlierEdges = 0.5f;
@@ -114,7 +122,6 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   medianDistance_ = std::sqrt(medianOf(distances, executor_));
   outlierDistance_ = neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(), edges);
   chooseUsed(edges);
-  fillSystem();
   return true;
 }
 
@@ -165,10 +172,43 @@ void SurfaceFit::chooseUsed(float edges)
     });
 }
 
+void SurfaceFit::keepBoundaries()
+{
+  if (!mesh_.isOpen())
+  {
+    return;
+  }
+  isKept_.assign(mesh_.indexEnd(), 0);
+  for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
+  {
+    isKept_[v] = mesh_.isBoundary(v) ? 1 : 0;
+  }
+  for (int ring = 0; ring < KeptRings; ++ring)
+  {
+    const std::vector<std::uint8_t> before = isKept_;
+    for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
+    {
+      for (const VertexIndex neighbor : mesh_.ring(v))
+      {
+        isKept_[v] = isKept_[v] | before[neighbor];
+      }
+    }
+  }
+}
+
 void SurfaceFit::fillSystem()
 {
   // Anew, as edges may have been flipped.
-  system_.emplace(mesh_, Slip, executor_);
+  system_.emplace(mesh_, isSettled_ ? SettledSlip : Slip, executor_);
+  system_->setSmoothnessParts(smoothnessParts_);
+  for (VertexIndex v = 0; v < mesh_.indexEnd() && (isSettled_ || !isKept_.empty()); ++v)
+  {
+    const bool isKept = !isKept_.empty() && isKept_[v] != 0;
+    system_->addAnchor(v, mesh_.position(v),
+      isKept         ? WeightOfKept
+        : isSettled_ ? AnchorWeight
+                     : 0.f);
+  }
   forEachRows([this](const FitSystem::Rows& rows) { fillRows(rows); });
   usedCount_ = std::size_t(executor_.sum(
     places_.size(), SamplesPerRange, [this](std::size_t i) { return isUsed(i) ? 1. : 0.; }));
@@ -223,7 +263,7 @@ void SurfaceFit::fillRows(const FitSystem::Rows& rows)
       }
       else
       {
-        system_->add(place, samples_[i], normal, weight(i), rows);
+        system_->add(place, shifted(i), normal, weight(i), rows);
       }
     }
   }
@@ -379,6 +419,11 @@ std::size_t SurfaceFit::hold(std::span<const Vector4> before, const Distance& sq
 
 bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
 {
+  fillSystem();
+  if (!spacing_)
+  {
+    spacing_.emplace(mesh_, places_);
+  }
   smoothness_ = lambda;
   const double choice = lambda > 0. ? 0. : PartOfChoice;
   if (lambda <= 0. && !chooseSmoothness(partOf(progress, 0., choice)))
@@ -399,6 +444,72 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
   heldCount_ =
     hold(before, [this](std::size_t i) { return isUsed(i) ? places_[i].squaredDistance : -1.f; });
   return true;
+}
+
+void SurfaceFit::follow(const ChangedVertices& changed)
+{
+  if (!changed.any)
+  {
+    return;
+  }
+  std::vector<VertexIndex> newOf(mesh_.indexEnd());
+  for (VertexIndex v = 0; v < newOf.size(); ++v)
+  {
+    newOf[v] = changed.alive(mesh_, v);
+  }
+  const std::vector<VertexIndex> oldOf = mesh_.dropErased();
+  std::vector<VertexIndex> place(newOf.size());
+  std::vector<VertexIndex> opposite(oldOf.size());
+  const std::vector<std::uint8_t> wasKept = isKept_;
+  isKept_.resize(isKept_.empty() ? 0 : oldOf.size());
+  for (VertexIndex v = 0; v < oldOf.size(); ++v)
+  {
+    place[oldOf[v]] = v;
+  }
+  for (VertexIndex& v : newOf)
+  {
+    v = place[v];
+  }
+  for (VertexIndex v = 0; v < oldOf.size(); ++v)
+  {
+    VertexIndex old = oldOf[v];
+    while (old >= opposite_.size())
+    {
+      old = changed.heir[old];
+    }
+    opposite[v] = opposite_[old] == NoVertex ? NoVertex : newOf[opposite_[old]];
+  }
+  opposite_ = std::move(opposite);
+  executor_.forEachRange(places_.size(), SamplesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        Triangle& triangle = places_[i].triangle;
+        const bool isChanged = std::any_of(triangle.begin(), triangle.end(),
+          [&](VertexIndex v) { return changed.isTouched[v] != 0; });
+        std::transform(triangle.begin(), triangle.end(), triangle.begin(),
+          [&](VertexIndex v) { return newOf[v]; });
+        if (isChanged)
+        {
+          places_[i] = closestPlaceFrom(samples_[i], mesh_, triangle[0]);
+        }
+      }
+    });
+  for (VertexIndex v = 0; v < oldOf.size() && !isKept_.empty(); ++v)
+  {
+    const bool isNew = oldOf[v] >= wasKept.size();
+    isKept_[v] = isNew ? 0 : wasKept[oldOf[v]];
+  }
+  spacing_.reset();
+  smoothnessParts_.clear();
+  shifts_.clear();
+  localParts_.clear();
+}
+
+double SurfaceFit::variance() const
+{
+  return double(medianDistance_) * double(medianDistance_) / MedianOfSquares;
 }
 
 std::size_t SurfaceFit::holdAgainst(const Mesh& before)

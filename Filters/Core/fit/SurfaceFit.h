@@ -5,9 +5,11 @@
 #include "base/Progress.h"
 #include "cloud/PlaceOnMesh.h"
 #include "cloud/PointCloud.h"
+#include "fit/ChangedVertices.h"
 #include "fit/FitSystem.h"
 #include "fit/HeldOutPoints.h"
 #include "fit/LocalSpacing.h"
+#include "fit/TriangleSamples.h"
 #include "mesh/Mesh.h"
 
 #include <cstddef>
@@ -50,6 +52,23 @@ public:
   /// around them would be lost: farther from the mesh than some distances between samples, though
   /// they were closer. Returns false, and moves none, if it was ended before.
   bool moveVertices(double lambda, const Progress& progress);
+  /// Follows a change of the mesh since findPlaces(): indices of erased vertices are given up, and samples on
+  /// what has changed get new places near by.
+  void follow(const ChangedVertices& changed);
+  /// Vertices at creases, where the surface bends more sharply than usual by some `deviations`, are held less
+  /// smooth from the next moveVertices() on, but for those with few samples. With 0 all are held alike.
+  void relaxCreases(double deviations);
+  /// From the next moveVertices() on, samples count as moved against what noise of this variance does where the
+  /// surface bends: more of it lies on the outer side there. The bends are those of the mesh as it is.
+  void shiftAgainstNoise(double variance);
+  /// Chooses lambda by the risk of the surface that it gives, with places as they are, and how much of it
+  /// counts at each vertex; goes down from `first`. Returns false if it was ended before.
+  bool chooseSmoothnessByRisk(double first, const Progress& progress);
+  /// From now on the surface slides less below its samples, and vertices keep to where they are where nothing
+  /// pulls them: for rounds that come after the places have settled.
+  void settle() { isSettled_ = true; }
+  /// From now on the boundaries, and what is next to them, stay where they are.
+  void keepBoundaries();
   /// The lambda of the last moveVertices().
   double smoothness() const { return smoothness_; }
 
@@ -75,13 +94,18 @@ public:
   double shareBetweenLayers() const;
   /// Of the samples to the mesh.
   float medianDistance() const { return medianDistance_; }
+  /// Of the samples about the surface, by their median distance.
+  double variance() const;
   /// Of the samples, at the last findPlaces().
   std::span<const PlaceOnMesh> places() const { return places_; }
+  PlacedSamples placedSamples() const { return { samples_, places_, isUsed_, weights_ }; }
 
 private:
   // Parts for the executor.
   static constexpr std::size_t SamplesPerRange = 1024;
   static constexpr std::size_t VerticesPerRange = 4096;
+  /// Median of the square of a Gaussian variable, against its variance.
+  static constexpr double MedianOfSquares = 0.455;
 
   bool isUsed(std::size_t sample) const { return isUsed_[sample] != 0; }
   float weight(std::size_t sample) const { return weights_.empty() ? 1.f : weights_[sample]; }
@@ -102,6 +126,14 @@ private:
   void pullBoundariesIn();
   // In SurfaceFitSmoothness.cpp
   bool chooseSmoothness(const Progress& progress);
+  std::vector<float> squaredBends(std::span<const Vector4> positions) const;
+  std::vector<float> supports() const;
+  /// A sample, moved against what noise does.
+  Vector4 shifted(std::size_t sample) const
+  {
+    return shifts_.empty() ? samples_[sample]
+                           : samples_[sample] + pointAt(places_[sample], shifts_);
+  }
   double meanSquaredDistance() const;
   double residualVariance(std::span<const Vector4> positions, double lambda) const;
   double roughness(std::span<const Vector4> positions) const;
@@ -118,6 +150,12 @@ private:
   std::vector<VertexIndex> opposite_; ///< of each vertex, see OppositeLayer.h
   bool hasPlaces_ = false;
   bool reachesTheEnd_ = false;
+  bool isSettled_ = false;
+  std::vector<std::uint8_t>
+    isKept_;                    ///< of each vertex, whether it stays where it is; empty: none does
+  std::vector<Vector4> shifts_; ///< of samples, at each vertex; empty: none
+  std::vector<float> localParts_;       ///< by the risk, likewise
+  std::vector<float> smoothnessParts_;  ///< of lambda, for each vertex; empty: all 1
   std::optional<LocalSpacing> spacing_; ///< at the last findPlaces()
   std::size_t usedCount_ = 0;
   std::size_t heldCount_ = 0;

@@ -99,6 +99,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Progress& progress, const Executor& executor)
 {
   FinishPlan plan{ .rounds = parameters.fitRounds,
+    .fidelity = parameters.fidelity,
     .smoothness = parameters.fitSmoothness,
     .samplesPerVertex = parameters.fitSamples,
     .gaps = gaps,
