@@ -86,12 +86,15 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   {
     return false;
   }
-  fit_.follow(snapToCreases(mesh_, fit_.placedSamples(), fit_.variance()));
-  const std::size_t missing = vertexCount_ - mesh_.vertexCount();
-  if (distributes || missing > 0)
+  if (!keepsPlaces_)
   {
-    fit_.follow(redistribute(
-      mesh_, fit_.placedSamples(), fit_.variance(), distributes ? MostDistributed : 0., missing));
+    fit_.follow(snapToCreases(mesh_, fit_.placedSamples(), fit_.variance()));
+  }
+  const std::size_t missing = vertexCount_ - std::min(vertexCount_, mesh_.vertexCount());
+  const double most = distributes && !keepsPlaces_ ? MostDistributed : 0.;
+  if (most > 0. || missing > 0)
+  {
+    fit_.follow(redistribute(mesh_, fit_.placedSamples(), fit_.variance(), most, missing));
   }
   fit_.follow(flipToSamples(mesh_, fit_.placedSamples(), fit_.variance()));
   fit_.relaxCreases(DeviationsOfCreaseIfClean);

@@ -22,11 +22,13 @@ namespace neuralmesh
 class FidelityRounds
 {
 public:
-  /// `vertexCount` is that of the mesh in the end, which may be missing some now.
-  FidelityRounds(Mesh& mesh, SurfaceFit& fit, std::size_t vertexCount)
+  /// `vertexCount` is that of the mesh in the end, which may be missing some now. With `keepsPlaces` vertices
+  /// do not go to creases, nor to where they are needed more.
+  FidelityRounds(Mesh& mesh, SurfaceFit& fit, std::size_t vertexCount, bool keepsPlaces)
     : mesh_(mesh)
     , fit_(fit)
     , vertexCount_(vertexCount)
+    , keepsPlaces_(keepsPlaces)
   {
   }
 
@@ -48,6 +50,7 @@ private:
   Mesh& mesh_;
   SurfaceFit& fit_;
   std::size_t vertexCount_;
+  bool keepsPlaces_;
   double lambda_ = 0.;
   std::size_t heldVertices_ = 0;
 };

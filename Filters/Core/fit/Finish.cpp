@@ -23,6 +23,8 @@ constexpr std::size_t MostTakenAway = 200;
 constexpr double MostPartTakenAway = 0.02;
 /// Of the time, if more rounds come after them.
 constexpr double PartOfFirstRounds = 0.4;
+/// For them.
+constexpr double LeastSamplesPerVertex = 1.5;
 /// Of triangles, see removeSlivers().
 constexpr float LeastQuality = 0.1f;
 /// To take slivers away; each leaves more of them.
@@ -128,10 +130,13 @@ bool Finish::isWorseThan(const Mesh& before, FitGuard& guard) const
 /// So many rounds of the fit, and what goes with them.
 bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
 {
-  const bool hasMore = rounds > 0 && plan_.fidelity != Fidelity::Draft;
+  const auto samples = std::size_t(plan_.samplesPerVertex * double(plan_.vertexCount));
+  // With fewer samples, more rounds would follow single ones.
+  const bool areEnough = double(std::min(samples, cloud_.points().size())) >
+    LeastSamplesPerVertex * double(plan_.vertexCount);
+  const bool hasMore = rounds > 0 && areEnough && plan_.fidelity != Fidelity::Draft;
   const double endOfFirst = hasMore ? PartOfFirstRounds : 1.;
   const Progress progress = partOf(report, 0., endOfFirst);
-  const auto samples = std::size_t(plan_.samplesPerVertex * double(plan_.vertexCount));
   std::optional<SurfaceFit> surfaceFit;
   const auto beginAnew = [&] { surfaceFit.emplace(cloud_, mesh_, samples, executor_); };
   const auto refineAll = [&](double at)
@@ -350,7 +355,7 @@ bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& prog
 bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
 {
   report_.fidelityRounds = FidelityRounds::count(plan_.fidelity, report_.smoothness);
-  FidelityRounds rounds(mesh_, surfaceFit, plan_.vertexCount);
+  FidelityRounds rounds(mesh_, surfaceFit, plan_.vertexCount, plan_.keepsPlaces);
   if (!rounds.run(plan_.fidelity, report_.smoothness, plan_.smoothness > 0., progress))
   {
     return false;

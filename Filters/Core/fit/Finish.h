@@ -39,9 +39,10 @@ struct FinishPlan
 {
   int rounds = 2;                        ///< of the least-squares fit
   Fidelity fidelity = Fidelity::Default; ///< tells how many come after them, and of which kind
-  double smoothness = 0.;                ///< lambda of the fit; 0 = by the noise and the shape
-  double samplesPerVertex = 10.;         ///< in the fit
-  std::optional<GapPlan> gaps;           ///< nothing: none is opened or closed
+  bool keepsPlaces = false; ///< vertices do not go elsewhere: what is known of them is of there
+  double smoothness = 0.;   ///< lambda of the fit; 0 = by the noise and the shape
+  double samplesPerVertex = 10.; ///< in the fit
+  std::optional<GapPlan> gaps;   ///< nothing: none is opened or closed
   double closedOutline =
     0.; ///< holes with shorter ones are filled, in units of the cloud; 0 = none
   std::size_t vertexCount = 0; ///< of the finished mesh

@@ -100,6 +100,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
 {
   FinishPlan plan{ .rounds = parameters.fitRounds,
     .fidelity = parameters.fidelity,
+    .keepsPlaces = parameters.computeFeatureStrength,
     .smoothness = parameters.fitSmoothness,
     .samplesPerVertex = parameters.fitSamples,
     .gaps = gaps,
@@ -120,6 +121,8 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
     return finish.report();
   }
   simplifyByQuadrics(learnt.mesh, vertexCount);
+  // It lies close already, and is often left as it is.
+  plan.fidelity = Fidelity::Draft;
   plan.gaps.reset();
   plan.closedOutline = 0.;
   plan.vertexCount = learnt.mesh.vertexCount();
@@ -128,7 +131,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   {
     return {};
   }
-  // What is simplified lies close already, and is often left as it is: the fit is that of before.
+  // The fit is that of before.
   FinishReport report = finish.report();
   report.repaired = finishSimplified.report().repaired;
   report.left = finishSimplified.report().left;
