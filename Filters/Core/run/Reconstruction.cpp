@@ -122,7 +122,7 @@ Reconstruction learnAndFinish(std::uint64_t leastLearnt, const PointCloud& input
     explainPoints(
       input, cleaned ? &*cleaned : nullptr, requested.keepPieces, explainsAll, result, executor);
   }
-  result.warnings = warningsOf(result, input);
+  result.warnings = warningsOf(result, input, requested);
   result.times.leave();
   return result;
 }
