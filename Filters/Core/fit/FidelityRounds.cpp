@@ -114,7 +114,9 @@ bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress
   {
     return false;
   }
-  fit_.shiftAgainstNoise(fit_.noise() * fit_.noise());
+  const double variance = fit_.noise() * fit_.noise();
+  fit_.shiftAgainstNoise(variance);
+  fit_.turnToNormals(variance);
   fit_.relaxCreases(DeviationsOfCreaseIfNoisy);
   if (!isFirst || isFixed)
   {

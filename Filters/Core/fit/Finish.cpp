@@ -73,12 +73,13 @@ VertexIndex nearestToCollapseInto(const Mesh& mesh, VertexIndex v)
 }
 }
 
-Finish::Finish(
-  const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan, const Executor& executor)
+Finish::Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
+  const Executor& executor, PointNormals normalOf)
   : cloud_(cloud)
   , mesh_(mesh)
   , plan_(plan)
   , executor_(executor)
+  , normalOf_(std::move(normalOf))
 {
 }
 
@@ -138,7 +139,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   const double endOfFirst = hasMore ? PartOfFirstRounds : 1.;
   const Progress progress = partOf(report, 0., endOfFirst);
   std::optional<SurfaceFit> surfaceFit;
-  const auto beginAnew = [&] { surfaceFit.emplace(cloud_, mesh_, samples, executor_); };
+  const auto beginAnew = [&] { surfaceFit.emplace(cloud_, mesh_, samples, executor_, normalOf_); };
   const auto refineAll = [&](double at)
   {
     const bool isDone = refine(mesh_, plan_.vertexCount, partOf(progress, at, at));

@@ -54,8 +54,9 @@ struct FinishPlan
 class Finish
 {
 public:
+  /// `normalOf` gives the normal that came with a point of the cloud, if there are some.
   Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
-    const Executor& executor = Executor::sequential());
+    const Executor& executor = Executor::sequential(), PointNormals normalOf = {});
 
   /// Returns false if it was ended before its end; then the mesh is valid all the same.
   bool run(const Progress& progress);
@@ -81,6 +82,7 @@ private:
   Mesh& mesh_;
   FinishPlan plan_;
   const Executor& executor_;
+  PointNormals normalOf_;
   FinishReport report_;
 };
 }

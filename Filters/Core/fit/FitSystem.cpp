@@ -68,6 +68,27 @@ void FitSystem::add(
   }
 }
 
+void FitSystem::addNormal(
+  const PlaceOnMesh& place, Vector4 unitNormal, float weight, const Rows& rows)
+{
+  const Block metric{ weight * (unitNormal * unitNormal),
+    weight * (unitNormal * rotated(unitNormal)) };
+  for (unsigned i = 0; i < 3; ++i)
+  {
+    const VertexIndex v = place.triangle[i];
+    if (!rows.has(v))
+    {
+      continue;
+    }
+    diagonal_[v] += 2.f * metric;
+    const Ring& ring = mesh_.ring(v);
+    for (const unsigned j : { (i + 1) % 3, (i + 2) % 3 })
+    {
+      others_[rowBegin_[v] + ring.find(place.triangle[j])] += -1.f * metric;
+    }
+  }
+}
+
 void FitSystem::applyLaplacian(std::span<const Vector4> x, std::span<Vector4> result) const
 {
   executor_.forEachRange(x.size(), RowsPerRange,

@@ -45,6 +45,8 @@ public:
   void add(
     const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight, const Rows& rows);
 
+  /// Pulls the edges of a triangle, on which a place is, into a plane with this normal, of length 1 or 0.
+  void addNormal(const PlaceOnMesh& place, Vector4 unitNormal, float weight, const Rows& rows);
   /// Pulls a vertex to a position.
   void addAnchor(VertexIndex v, Vector4 position, float weight)
   {

@@ -33,18 +33,6 @@ constexpr std::size_t SamplesPerAbortCheck = 65536;
 /// Of the residual of the equations, against the largest at the start of a round.
 constexpr double Tolerance = 1e-3;
 
-// Where samples would be lost
-/// Beyond so many median distances, and distances between samples around it, a sample is lost. Points
-/// whose own neighbours are three times their usual distance away count as missed; samples are told
-/// earlier.
-constexpr float LostMedians = 10.f;
-constexpr float LostSpacings = 2.5f;
-/// A vertex stays if more than this part of the samples around it would be lost, and, where samples are
-/// not sparse, more than so many: single ones are outliers to which the mesh has been drawn.
-constexpr float LeastLostPart = 0.05f;
-constexpr float LeastLost = 2.f;
-constexpr int MostHolds = 4;
-
 // Where the mesh lies between layers
 /// So many samples tell it; by their mean distance over the root mean square, which is 0.80 with noise, 0.87
 /// for what is evenly spread, and 0.95 for layers six deviations of the noise apart; and by how many are at
@@ -67,8 +55,8 @@ constexpr double RetreatOfEmpty = 0.5;
 constexpr double PartOfChoice = 0.6;
 }
 
-SurfaceFit::SurfaceFit(
-  const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount, const Executor& executor)
+SurfaceFit::SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount,
+  const Executor& executor, const PointNormals& normalOf)
   : cloud_(cloud)
   , mesh_(mesh)
   , executor_(executor)
@@ -77,17 +65,24 @@ SurfaceFit::SurfaceFit(
   const std::size_t fitted = all - all / HeldOutStride;
   const std::size_t count = std::min(fitted, sampleCount);
   samples_.reserve(count);
+  std::vector<Vector4> normals;
+  normals.reserve(normalOf ? count : 0);
   for (std::size_t i = 0; i < count; ++i)
   {
     const std::size_t chosen = i * fitted / count;
     // One is passed over behind each group of those that are fitted.
     const std::size_t point = chosen + chosen / (HeldOutStride - 1);
     samples_.push_back(cloud.points()[point]);
+    if (normalOf)
+    {
+      normals.push_back(normalOf(point));
+    }
     if (!cloud.weights().empty())
     {
       weights_.push_back(cloud.weights()[point]);
     }
   }
+  normals_ = GivenNormals(std::move(normals));
   places_.resize(count);
   isUsed_.resize(count);
 }
@@ -264,6 +259,10 @@ void SurfaceFit::fillRows(const FitSystem::Rows& rows)
       else
       {
         system_->add(place, shifted(i), normal, weight(i), rows);
+        if (normalWeight_ > 0.)
+        {
+          system_->addNormal(place, normals_.at(i), float(normalWeight_) * weight(i), rows);
+        }
       }
     }
   }
@@ -336,87 +335,6 @@ void SurfaceFit::pullBoundariesIn()
   }
 }
 
-/// Whether the mesh was near to a sample, and is not now.
-bool SurfaceFit::isLost(std::size_t sample, float squaredBefore) const
-{
-  const PlaceOnMesh& place = places_[sample];
-  const float toPlace = squaredNorm(samples_[sample] - pointAt(place, mesh_.positions()));
-  const float usual = LostMedians * medianDistance_;
-  // Most are still near to the same place: only the others are looked for.
-  if (squaredBefore < 0.f || toPlace <= usual * usual)
-  {
-    return false;
-  }
-  const float limit = std::max(usual, LostSpacings * spacing_->samplesAt(place));
-  const auto isBeyond = [limit](float squared) { return squared > limit * limit; };
-  return !isBeyond(squaredBefore) && isBeyond(toPlace) &&
-    isBeyond(closestPlaceFrom(samples_[sample], mesh_, place.triangle[0]).squaredDistance);
-}
-
-/// The vertices around which samples are lost. `squaredBefore(i)` is the distance of sample i if that
-/// was used, else less than 0.
-template <typename Distance>
-std::vector<std::uint8_t> SurfaceFit::lostPlaces(const Distance& squaredBefore) const
-{
-  std::vector<std::uint8_t> lostSamples(samples_.size());
-  executor_.forEachRange(samples_.size(), SamplesPerRange,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        lostSamples[i] = isLost(i, squaredBefore(i)) ? 1 : 0;
-      }
-    });
-  std::vector<std::uint8_t> result(mesh_.indexEnd());
-  if (std::find(lostSamples.begin(), lostSamples.end(), 1) == lostSamples.end())
-  {
-    return result;
-  }
-  std::vector<float> all(mesh_.indexEnd()), lost(mesh_.indexEnd());
-  for (std::size_t i = 0; i < samples_.size(); ++i)
-  {
-    for (const VertexIndex v : places_[i].triangle)
-    {
-      all[v] += squaredBefore(i) >= 0.f ? 1.f : 0.f;
-      lost[v] += float(lostSamples[i]);
-    }
-  }
-  const float sparse = SparseSpacings * spacing_->usual();
-  for (VertexIndex v = 0; v < result.size(); ++v)
-  {
-    const float least = spacing_->samplesAt(v) > sparse
-      ? LeastLostPart * all[v]
-      : std::max(LeastLost, LeastLostPart * all[v]);
-    result[v] = lost[v] > least ? 1 : 0;
-  }
-  return result;
-}
-
-/// Vertices around which samples are lost go back.
-template <typename Distance>
-std::size_t SurfaceFit::hold(std::span<const Vector4> before, const Distance& squaredBefore)
-{
-  std::size_t held = 0;
-  for (int i = 0; i < MostHolds; ++i)
-  {
-    const std::vector<std::uint8_t> isLostAt = lostPlaces(squaredBefore);
-    const std::size_t heldBefore = held;
-    for (VertexIndex v = 0; v < before.size(); ++v)
-    {
-      if (isLostAt[v] != 0 && squaredNorm(mesh_.position(v) - before[v]) > 0.f)
-      {
-        mesh_.setPosition(v, before[v]);
-        ++held;
-      }
-    }
-    if (held == heldBefore)
-    {
-      break;
-    }
-  }
-  return held;
-}
-
 bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
 {
   fillSystem();
@@ -441,8 +359,7 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
   {
     mesh_.setPosition(v, positions[v]);
   }
-  heldCount_ =
-    hold(before, [this](std::size_t i) { return isUsed(i) ? places_[i].squaredDistance : -1.f; });
+  heldCount_ = holdLost(before);
   return true;
 }
 
@@ -510,26 +427,6 @@ void SurfaceFit::follow(const ChangedVertices& changed)
 double SurfaceFit::variance() const
 {
   return double(medianDistance_) * double(medianDistance_) / MedianOfSquares;
-}
-
-std::size_t SurfaceFit::holdAgainst(const Mesh& before)
-{
-  std::vector<float> squaredBefore(samples_.size(), -1.f);
-  const auto hasMoved = [&](VertexIndex v)
-  { return squaredNorm(mesh_.position(v) - before.position(v)) > 0.f; };
-  executor_.forEachRange(samples_.size(), SamplesPerRange,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const Triangle& triangle = places_[i].triangle;
-        if (isUsed(i) && std::any_of(triangle.begin(), triangle.end(), hasMoved))
-        {
-          squaredBefore[i] = closestPlaceFrom(samples_[i], before, triangle[0]).squaredDistance;
-        }
-      }
-    });
-  return hold(before.positions(), [&](std::size_t i) { return squaredBefore[i]; });
 }
 
 double SurfaceFit::distanceEvenness() const

@@ -7,6 +7,7 @@
 #include "cloud/PointCloud.h"
 #include "fit/ChangedVertices.h"
 #include "fit/FitSystem.h"
+#include "fit/GivenNormals.h"
 #include "fit/HeldOutPoints.h"
 #include "fit/LocalSpacing.h"
 #include "fit/TriangleSamples.h"
@@ -37,9 +38,10 @@ public:
   static constexpr double CleanSmoothness = 0.2;
 
   /// Takes so many points of the cloud, evenly picked but for those held out, as samples. No vertex
-  /// may be erased. Cloud, mesh and executor must outlive the fit.
+  /// may be erased. `normalOf` gives the normal that came with a point of the cloud, if there are some. Cloud,
+  /// mesh and executor must outlive the fit.
   SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount,
-    const Executor& executor = Executor::sequential());
+    const Executor& executor = Executor::sequential(), const PointNormals& normalOf = {});
 
   /// From now on a round brings boundaries all the way to the end of the samples, not half of it. Not before
   /// holes are filled in which there are samples: their sides would run into each other.
@@ -61,6 +63,9 @@ public:
   /// From the next moveVertices() on, samples count as moved against what noise of this variance does where the
   /// surface bends: more of it lies on the outer side there. The bends are those of the mesh as it is.
   void shiftAgainstNoise(double variance);
+  /// From the next moveVertices() on the surface turns to the normals that came with the samples, as far as they
+  /// are to be trusted, for samples whose distances have this variance.
+  void turnToNormals(double variance);
   /// Chooses lambda by the risk of the surface that it gives, with places as they are, and how much of it
   /// counts at each vertex; goes down from `first`. Returns false if it was ended before.
   bool chooseSmoothnessByRisk(double first, const Progress& progress);
@@ -112,11 +117,6 @@ private:
   void findPlace(std::size_t sample, const VertexGrid& grid);
   /// Tells outliers by how far samples are from each other around their places.
   void chooseUsed(float edges);
-  bool isLost(std::size_t sample, float squaredBefore) const;
-  template <typename Distance>
-  std::vector<std::uint8_t> lostPlaces(const Distance& squaredBefore) const;
-  template <typename Distance>
-  std::size_t hold(std::span<const Vector4> before, const Distance& squaredBefore);
   void fillSystem();
   template <typename Body>
   void forEachRows(const Body& body) const;
@@ -124,6 +124,13 @@ private:
   Vector4 beyondBoundary(
     const Vector4& sample, const PlaceOnMesh& place, const Vector4& normal) const;
   void pullBoundariesIn();
+  // In SurfaceFitHold.cpp
+  bool isLost(std::size_t sample, float squaredBefore) const;
+  template <typename Distance>
+  std::vector<std::uint8_t> lostPlaces(const Distance& squaredBefore) const;
+  template <typename Distance>
+  std::size_t hold(std::span<const Vector4> before, const Distance& squaredBefore);
+  std::size_t holdLost(std::span<const Vector4> before);
   // In SurfaceFitSmoothness.cpp
   bool chooseSmoothness(const Progress& progress);
   std::vector<float> squaredBends(std::span<const Vector4> positions) const;
@@ -143,6 +150,8 @@ private:
   const Executor& executor_;
   std::optional<FitSystem> system_;
   std::vector<Vector4> samples_;
+  GivenNormals normals_;
+  double normalWeight_ = 0.;
   std::vector<float> weights_; ///< of the samples; empty if all weigh alike
   std::vector<PlaceOnMesh> places_;
   /// Of the samples, those that are no outliers, and have not switched to the other side of a thin part.

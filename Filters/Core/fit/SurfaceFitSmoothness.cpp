@@ -212,6 +212,11 @@ bool SurfaceFit::chooseSmoothnessByRisk(double first, const Progress& progress)
   return true;
 }
 
+void SurfaceFit::turnToNormals(double variance)
+{
+  normalWeight_ = normals_.any() ? normals_.weight(mesh_, placedSamples(), variance) : 0.;
+}
+
 /// Where the surface has the mean curvature H, the expectation of isotropic noise of the variance s^2 lies
 /// s^2 H on its outer side; L x across the surface is e^2 H / 2 for edges of the length e.
 void SurfaceFit::shiftAgainstNoise(double variance)

@@ -104,7 +104,7 @@ Reconstruction learnAndFinish(std::uint64_t leastLearnt, const PointCloud& input
           parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
         return finishing(fraction) && !isTimeOver;
       },
-      executor);
+      executor, hints);
     if (!result.finish)
     {
       result.stopReason = isCancelled ? StopReason::Cancelled : StopReason::TimeLimit;

@@ -37,6 +37,13 @@ std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& l
   }
   return result;
 }
+
+/// Of length 1; 0 if it tells nothing.
+Vector4 directionOf(const Eigen::Vector3d& vector)
+{
+  const double length = vector.stableNorm();
+  return length > 0. && vector.allFinite() ? Vector4(Eigen::Vector3d(vector / length)) : Vector4();
+}
 }
 
 Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Progress& progress,
@@ -96,7 +103,7 @@ StopReason learn(Learner& learner, StoppingRules& rules, const Parameters& param
 
 std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Parameters& parameters, const std::optional<GapPlan>& gaps, std::size_t vertexCount,
-  const Progress& progress, const Executor& executor)
+  const Progress& progress, const Executor& executor, const OrientationHints& hints)
 {
   FinishPlan plan{ .rounds = parameters.fitRounds,
     .fidelity = parameters.fidelity,
@@ -111,7 +118,10 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const double endOfFirst = isSimplified ? 0.5 : 1.;
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
   const PointCloud& fitted = once ? *once : cloud;
-  Finish finish(fitted, learnt.mesh, plan, executor);
+  const PointNormals normalOf = hints.normalOf && !fitted.origins().empty()
+    ? [&](std::size_t point) { return directionOf(hints.normalOf(fitted.origins()[point])); }
+    : PointNormals();
+  Finish finish(fitted, learnt.mesh, plan, executor, normalOf);
   if (!finish.run(partOf(progress, 0., endOfFirst)))
   {
     return {};
@@ -126,7 +136,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   plan.gaps.reset();
   plan.closedOutline = 0.;
   plan.vertexCount = learnt.mesh.vertexCount();
-  Finish finishSimplified(fitted, learnt.mesh, plan, executor);
+  Finish finishSimplified(fitted, learnt.mesh, plan, executor, normalOf);
   if (!finishSimplified.run(partOf(progress, endOfFirst, 1.)))
   {
     return {};
