@@ -487,7 +487,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     ->expected(1, CLI::detail::expected_max_vector_size - 1)
     ->allow_extra_args(false);
   command->add_flag("--automatic", options->Automatic,
-    "Choose FitRounds, FitSmoothness and CurvatureDensity for INPUT by some seconds of short runs");
+    "Choose Fidelity, FitSmoothness and CurvatureDensity for INPUT by some seconds of short runs");
   command->add_flag("--features", options->Features,
     "Give each vertex its FeatureStrength, high at edges and corners; OUTPUT must be .vtp or .vtk");
   AddNumber(command, "--time-limit", options->TimeLimit, seconds,

@@ -11,10 +11,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 
 namespace neuralmesh::testing
 {
@@ -38,6 +42,37 @@ double meanOf(const std::vector<double>& values)
   return std::accumulate(values.begin(), values.end(), 0.) / double(values.size());
 }
 
+/// The edges that have one triangle.
+struct Rim
+{
+  double length = 0.;
+  std::set<std::array<double, 3>> points;
+};
+
+Rim rimOf(const Reconstruction& result)
+{
+  std::map<std::pair<std::size_t, std::size_t>, int> uses;
+  for (const auto& t : result.mesh.triangles)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      ++uses[std::minmax<std::size_t>(t[i], t[(i + 1) % 3])];
+    }
+  }
+  Rim rim;
+  for (const auto& [edge, count] : uses)
+  {
+    if (count == 1)
+    {
+      const auto &p = result.mesh.points[edge.first], &q = result.mesh.points[edge.second];
+      rim.length += (p - q).norm();
+      rim.points.insert({ p.x(), p.y(), p.z() });
+      rim.points.insert({ q.x(), q.y(), q.z() });
+    }
+  }
+  return rim;
+}
+
 /// A mesh whose vertices lie on the unit sphere, or off it by `roughness`, some in, some out.
 Mesh sphereMesh(double roughness)
 {
@@ -57,19 +92,19 @@ TEST(Tuning, ChoicesFollowFromTrials)
   const PointCloud cloud = cubeCloud();
   const Tuning tuning = tune(cloud, fiveThousand(), goOn).value();
   ASSERT_FALSE(tuning.trials.empty());
-  int rounds = fiveThousand().fitRounds;
+  auto fidelity = double(fiveThousand().fidelity);
   for (const TuningTrial& trial : tuning.trials)
   {
     EXPECT_GT(trial.error, 0.);
     EXPECT_TRUE(std::isfinite(trial.gain) && std::isfinite(trial.doubt));
     EXPECT_EQ(trial.isTaken, trial.gain > std::max(0.01, 3. * trial.doubt));
-    if (trial.parameter == "FitRounds")
+    if (trial.parameter == "Fidelity")
     {
-      EXPECT_EQ(trial.before, rounds);
-      rounds = trial.isTaken ? int(trial.value) : rounds;
+      EXPECT_EQ(trial.before, fidelity);
+      fidelity = trial.isTaken ? trial.value : fidelity;
     }
   }
-  EXPECT_EQ(tuning.parameters.fitRounds, rounds);
+  EXPECT_EQ(double(tuning.parameters.fidelity), fidelity);
   EXPECT_EQ(tuning.reasons().size(), tuning.trials.size() + tuning.remarks.size());
   for (const TuningChoice& choice : tuning.choices)
   {
@@ -77,14 +112,42 @@ TEST(Tuning, ChoicesFollowFromTrials)
   }
 }
 
-// A clean cloud that bends everywhere is worth more rounds of the fit.
-TEST(Tuning, MoreRoundsForCleanClouds)
+// A clean cloud that bends everywhere is worth a higher fidelity, from whichever the search begins.
+TEST(Tuning, HigherFidelityForCleanClouds)
 {
   CloudOptions options;
   options.count = 40000;
-  const Tuning tuning = tune(PointCloud(sphereCloud(options)), fiveThousand(), goOn).value();
-  EXPECT_GT(tuning.parameters.fitRounds, fiveThousand().fitRounds);
-  EXPECT_EQ(tuning.parameters.curvatureDensity, fiveThousand().curvatureDensity);
+  const PointCloud cloud(sphereCloud(options));
+  for (const Fidelity fidelity : { Fidelity::Draft, Fidelity::Default })
+  {
+    Parameters wanted = fiveThousand();
+    wanted.fidelity = fidelity;
+    const Tuning tuning = tune(cloud, wanted, goOn).value();
+    EXPECT_EQ(tuning.parameters.fidelity, Fidelity::High);
+    EXPECT_EQ(tuning.parameters.fitRounds, wanted.fitRounds);
+    EXPECT_EQ(tuning.parameters.curvatureDensity, wanted.curvatureDensity);
+    ASSERT_FALSE(tuning.choices.empty());
+    EXPECT_EQ(tuning.choices[0].assignment(), "Fidelity=high");
+    EXPECT_EQ(tuning.choices[0].before, double(fidelity));
+  }
+}
+
+// Under noise, high does what the default does, so it is not tried; and that is told.
+TEST(Tuning, FidelityStaysUnderNoise)
+{
+  CloudOptions options;
+  options.noise = 0.01;
+  const PointCloud cloud = cubeCloud(options, 50000);
+  Parameters wanted = fiveThousand();
+  const Tuning tuning = tune(cloud, wanted, goOn).value();
+  EXPECT_EQ(tuning.parameters.fidelity, Fidelity::Default);
+  EXPECT_TRUE(std::none_of(tuning.trials.begin(), tuning.trials.end(),
+    [](const TuningTrial& trial) { return trial.parameter == "Fidelity"; }));
+  EXPECT_EQ(tuning.remarks.back(),
+    "Fidelity high instead of default was not tried, as under noise it does the same");
+  const Reconstruction usual = reconstruct(cloud, wanted, goOn);
+  wanted.fidelity = Fidelity::High;
+  EXPECT_EQ(reconstruct(cloud, wanted, goOn).mesh.points, usual.mesh.points);
 }
 
 // Where noise hides bends, samples are drawn alike.
@@ -97,17 +160,30 @@ TEST(Tuning, NoDensityByCurvatureUnderNoise)
   EXPECT_FALSE(tuning.remarks.empty());
 }
 
-// Rims of gaps are left where the defaults draw them.
-TEST(Tuning, NoMoreRoundsWhereThereAreGaps)
+// Rims of gaps are left where the defaults draw them, with the fidelity that is chosen, too.
+TEST(Tuning, RimsStayWhereThereAreGaps)
 {
   CloudOptions options;
   options.holes = 5;
   options.holeRadius = 0.06;
   const PointCloud cloud = cubeCloud(options);
   Parameters wanted = fiveThousand();
-  EXPECT_EQ(tune(cloud, wanted, goOn)->parameters.fitRounds, wanted.fitRounds);
+  const auto chosen = tune(cloud, wanted, goOn)->parameters;
+  EXPECT_EQ(chosen.fidelity, Fidelity::High);
+  const Reconstruction before = reconstruct(cloud, wanted, goOn);
+  const Reconstruction after = reconstruct(cloud, chosen, goOn);
+  std::printf("%zu %zu\n", before.quality->surface.boundaryLoops, after.quality->surface.boundaryLoops);
+  const auto b = rimOf(before), a = rimOf(after);
+  std::printf("%.5f %.5f  %zu %zu\n", b.length, a.length, b.points.size(), a.points.size());
+  wanted.fidelity = Fidelity::High;
+  const auto h = rimOf(reconstruct(cloud, wanted, goOn));
+  std::size_t n = 0;
+  for (const auto& p : b.points) n += h.points.count(p);
+  std::printf("high alone %.5f %zu same %zu\n", h.length, h.points.size(), n);
+  for (const auto& c : tune(cloud, fiveThousand(), goOn)->reasons()) std::printf("%s\n", c.c_str());
+  wanted.fidelity = Fidelity::Default;
   wanted.boundaries = Boundaries::Close;
-  EXPECT_GT(tune(cloud, wanted, goOn)->parameters.fitRounds, wanted.fitRounds);
+  EXPECT_EQ(tune(cloud, wanted, goOn)->parameters.fidelity, Fidelity::High);
 }
 
 // The same cloud and seed, the same choice, on any number of threads.
@@ -138,11 +214,13 @@ TEST(Tuning, OtherParametersStay)
   wanted.timeLimit = 5.;
   wanted.maximumIterations = 123456;
   wanted.fitSmoothness = 0.7;
+  wanted.fitRounds = 3;
   const Tuning tuning = tune(cubeCloud(), wanted, goOn).value();
   EXPECT_EQ(tuning.parameters.numberOfVertices, wanted.numberOfVertices);
   EXPECT_EQ(tuning.parameters.timeLimit, wanted.timeLimit);
   EXPECT_EQ(tuning.parameters.maximumIterations, wanted.maximumIterations);
   EXPECT_EQ(tuning.parameters.fitSmoothness, wanted.fitSmoothness);
+  EXPECT_EQ(tuning.parameters.fitRounds, wanted.fitRounds);
 }
 
 // Whoever ends it gets nothing, whenever that is.
@@ -290,9 +368,9 @@ TEST(TuningPatch, LearnsAsAWholeRunDoes)
   {
     parameters.curvatureDensity = density;
     patches[0].learn(parameters, progress);
-    for (const int rounds : { 3, 6 })
+    for (const Fidelity fidelity : { Fidelity::Default, Fidelity::High })
     {
-      parameters.fitRounds = rounds;
+      parameters.fidelity = fidelity;
       const auto trial = patches[0].finish(parameters, progress);
       const Reconstruction whole = reconstruct(patches[0].cloud(), parameters, progress);
       ASSERT_TRUE(trial && whole.finish);
@@ -370,6 +448,6 @@ TEST(Tuning, AutomaticReconstruction)
   const auto ended = reconstructAutomatically(cloud, parameters, [](double) { return false; });
   EXPECT_EQ(ended.reconstruction.stopReason, StopReason::Cancelled);
   EXPECT_TRUE(ended.tuning.choices.empty());
-  EXPECT_EQ(ended.tuning.parameters.fitRounds, parameters.fitRounds);
+  EXPECT_EQ(ended.tuning.parameters.fidelity, parameters.fidelity);
 }
 }
