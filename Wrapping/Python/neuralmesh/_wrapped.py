@@ -86,18 +86,22 @@ def learnt_mesh(stream: NeuralMeshStream, progress: Progress | None, given: obje
 
 def compare(
     comparison: NeuralMeshComparison, reference: vtkPolyData, result: vtkPolyData
-) -> dict[str, list[Any]]:
-    """Columns of a row for each direction; of none where both surfaces are empty."""
+) -> tuple[dict[str, list[Any]], dict[str, float]]:
+    """Columns of a row for each direction, and what is told of both ways; nothing where both surfaces are
+    empty.
+    """
     comparison.SetReferenceData(reference)
     comparison.SetInputData(result)
     execute(comparison)
     table = comparison.GetTableOutput()
     columns = [table.GetColumn(i) for i in range(table.GetNumberOfColumns())]
+    fields = table.GetFieldData()
+    both_ways = [fields.GetArray(i) for i in range(fields.GetNumberOfArrays())]
     return {
         column.GetName(): [column.GetValue(row) for row in range(table.GetNumberOfRows())]
         for column in columns
         if column.GetName() != "Direction"
-    }
+    }, {array.GetName(): array.GetValue(0) for array in both_ways}
 
 
 def report(mesh: vtkPolyData) -> dict[str, Any]:

@@ -20,6 +20,13 @@ from .reconstruction import explained_points
 
 DIRECTIONS = ("reference to result", "result to reference")
 _LENGTHS = ("Mean", "RMS", "Percentile99", "Maximum")
+_EDGE_LENGTHS = ("EdgeMean", "EdgeToSurface")
+# Of both ways, as the filter has them in the field data of its table.
+_BOTH_WAYS = (
+    "Chamfer", "ChamferPercent", "ChamferSquared", "Hausdorff", "HausdorffPercent", "NormalAngle",
+    "NormalConsistency", "Precision0_1", "Recall0_1", "FScore0_1", "Precision0_5", "Recall0_5", "FScore0_5",
+    "EdgeChamfer", "EdgeChamferPercent",
+)  # fmt: skip
 
 
 class Measure:
@@ -42,6 +49,7 @@ class Comparison:
     """What compares two surfaces."""
 
     table: dict[str, list[float]]  # columns, of a row for each direction
+    both_ways: dict[str, float]
     reference_distances: np.ndarray
     result_distances: np.ndarray
     diagonal: float  # of the reference
@@ -74,9 +82,20 @@ class NeuralMeshComparison(Measure):
         table = {name: [row[name] for row in rows] for name in _LENGTHS}
         for name in _LENGTHS:
             table[name + "Percent"] = [100.0 / diagonal * row[name] for row in rows]
-        table["NormalAngle"] = [row["NormalAngle"] for row in rows]
+        for name in ("NormalAngle", "NormalConsistency", *_EDGE_LENGTHS):
+            table[name] = [row[name] for row in rows]
+        for name in _EDGE_LENGTHS:
+            table[name + "Percent"] = [100.0 / diagonal * row[name] for row in rows]
+        table["EdgeLength"] = [row["EdgeLength"] for row in rows]
+        both = figures["both ways"]
+        for name in ("Chamfer", "Hausdorff", "EdgeChamfer"):
+            both[name + "Percent"] = 100.0 / diagonal * both[name]
         return Comparison(
-            table, figures["reference distances"], figures["result distances"], diagonal
+            table,
+            {name: both[name] for name in _BOTH_WAYS},
+            figures["reference distances"],
+            figures["result distances"],
+            diagonal,
         )
 
 
