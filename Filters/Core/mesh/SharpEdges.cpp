@@ -18,6 +18,8 @@ struct TurnSide
   std::uint32_t low;
   std::uint32_t high;
   std::uint32_t apex;
+
+  bool operator==(const TurnSide&) const = default;
 };
 
 bool comesBefore(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
@@ -54,7 +56,8 @@ std::vector<std::uint32_t> firstAtPlace(const std::vector<Eigen::Vector3d>& poin
   return first;
 }
 
-/// All sides, those of an edge one behind the other: in buckets by the lower end, then sorted.
+/// The sides of all triangles, those of an edge one behind the other: in buckets by the lower end, then sorted.
+/// A triangle that is there twice has them once.
 std::vector<TurnSide> sidesByEdge(const TriangleMesh& mesh)
 {
   const std::vector<std::uint32_t> place = firstAtPlace(mesh.points);
@@ -83,6 +86,7 @@ std::vector<TurnSide> sidesByEdge(const TriangleMesh& mesh)
       { return a.high != b.high ? a.high < b.high : a.apex < b.apex; });
     begin = end;
   }
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
   return sides;
 }
 
