@@ -274,10 +274,10 @@ void vtkNeuralMeshComparison::FillFieldData(vtkTable* table) const
   const BothWaysFigures& both = this->BothWays;
   const Score &tenth = both.Scores[TENTH_PERCENT], &half = both.Scores[HALF_PERCENT];
   const double percent = 100.0 / this->ReferenceDiagonal;
-  const std::pair<const char*, double> figures[] = { { "Chamfer", both.Chamfer },
+  const std::pair<const char*, double> figures[] = { { "Hausdorff", both.Hausdorff },
+    { "HausdorffPercent", percent * both.Hausdorff }, { "NormalAngle", both.NormalAngle },
+    { "NormalConsistency", both.NormalConsistency }, { "Chamfer", both.Chamfer },
     { "ChamferPercent", percent * both.Chamfer }, { "ChamferSquared", both.ChamferSquared },
-    { "Hausdorff", both.Hausdorff }, { "HausdorffPercent", percent * both.Hausdorff },
-    { "NormalAngle", both.NormalAngle }, { "NormalConsistency", both.NormalConsistency },
     { "Precision0_1", tenth.Precision }, { "Recall0_1", tenth.Recall },
     { "FScore0_1", tenth.FScore }, { "Precision0_5", half.Precision }, { "Recall0_5", half.Recall },
     { "FScore0_5", half.FScore }, { "EdgeChamfer", both.EdgeChamfer },

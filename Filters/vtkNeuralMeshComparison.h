@@ -33,9 +33,9 @@
  * - `EdgeMean`, `EdgeToSurface`, `EdgeLength` in units of the input, and `EdgeMeanPercent`,
  *   `EdgeToSurfacePercent`: of the sharp edges.
  *
- * What is told of both directions together is field data of that table, a double each: `Chamfer`,
- * `ChamferPercent`, `ChamferSquared`, `Hausdorff`, `HausdorffPercent`, `NormalAngle`,
- * `NormalConsistency`, `Precision0_1`, `Recall0_1`, `FScore0_1` at 0.1 % of the diagonal,
+ * What is told of both directions together is field data of that table, a double each: `Hausdorff`,
+ * `HausdorffPercent`, `NormalAngle`, `NormalConsistency`, `Chamfer`, `ChamferPercent`,
+ * `ChamferSquared`, `Precision0_1`, `Recall0_1`, `FScore0_1` at 0.1 % of the diagonal,
  * `Precision0_5`, `Recall0_5`, `FScore0_5` at 0.5 %, `EdgeChamfer`, `EdgeChamferPercent`.
  *
  * The same inputs and seed give the same figures, on any number of threads. Of triangles that are

@@ -9,6 +9,7 @@ from typing import Any
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
+from ._both_ways import BOTH_WAYS
 from ._execution import Progress, check_parameters, execute, observed_call
 from ._kinds import as_given
 from ._parameters import snake_case
@@ -96,12 +97,15 @@ def compare(
     table = comparison.GetTableOutput()
     columns = [table.GetColumn(i) for i in range(table.GetNumberOfColumns())]
     fields = table.GetFieldData()
-    both_ways = [fields.GetArray(i) for i in range(fields.GetNumberOfArrays())]
+    both_ways = {}
+    # VTK passes the field data of the first input along.
+    if columns:
+        both_ways = {name: fields.GetArray(name).GetValue(0) for name in BOTH_WAYS}
     return {
         column.GetName(): [column.GetValue(row) for row in range(table.GetNumberOfRows())]
         for column in columns
         if column.GetName() != "Direction"
-    }, {array.GetName(): array.GetValue(0) for array in both_ways}
+    }, both_ways
 
 
 def report(mesh: vtkPolyData) -> dict[str, Any]:

@@ -7,6 +7,7 @@ import json
 import math
 from typing import Any, Sequence
 
+from .._parameters import snake_case
 from ..engine.measures import Comparison, NeuralMeshComparison
 from .names import MESHES, read_mesh
 from .parsing import Parser, number_from
@@ -21,14 +22,6 @@ _FIGURES = {
     "edge_mean": "EdgeMean", "edge_to_surface": "EdgeToSurface",
     "edge_mean_percent": "EdgeMeanPercent", "edge_to_surface_percent": "EdgeToSurfacePercent",
     "edge_length": "EdgeLength",
-}  # fmt: skip
-_BOTH_WAYS = {
-    "hausdorff": "Hausdorff", "hausdorff_percent": "HausdorffPercent", "normal_angle": "NormalAngle",
-    "normal_consistency": "NormalConsistency", "chamfer": "Chamfer", "chamfer_percent": "ChamferPercent",
-    "chamfer_squared": "ChamferSquared", "precision_0_1": "Precision0_1", "recall_0_1": "Recall0_1",
-    "f_score_0_1": "FScore0_1", "precision_0_5": "Precision0_5", "recall_0_5": "Recall0_5",
-    "f_score_0_5": "FScore0_5", "edge_chamfer": "EdgeChamfer",
-    "edge_chamfer_percent": "EdgeChamferPercent",
 }  # fmt: skip
 _LENGTHS = ("Mean", "RMS", "Percentile99", "Maximum")
 _FOOTER = (
@@ -85,7 +78,7 @@ def _print_json(options: Any, found: Comparison) -> None:
         "reference_diagonal": found.diagonal,
         "reference_to_result": rows[0],
         "result_to_reference": rows[1],
-        **{name: _or_null(found.both_ways[field]) for name, field in _BOTH_WAYS.items()},
+        **{snake_case(name): _or_null(figure) for name, figure in found.both_ways.items()},
     }
     print(json.dumps(report, separators=(",", ":"), ensure_ascii=False))
 

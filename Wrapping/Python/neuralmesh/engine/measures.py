@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from .. import _engine
+from .._both_ways import BOTH_WAYS
 from .._property import Property, new_values, with_properties
 from .._types import Progress
 from .algorithm import of_name
@@ -21,12 +22,6 @@ from .reconstruction import explained_points
 DIRECTIONS = ("reference to result", "result to reference")
 _LENGTHS = ("Mean", "RMS", "Percentile99", "Maximum")
 _EDGE_LENGTHS = ("EdgeMean", "EdgeToSurface")
-# Of both ways, as the filter has them in the field data of its table.
-_BOTH_WAYS = (
-    "Chamfer", "ChamferPercent", "ChamferSquared", "Hausdorff", "HausdorffPercent", "NormalAngle",
-    "NormalConsistency", "Precision0_1", "Recall0_1", "FScore0_1", "Precision0_5", "Recall0_5", "FScore0_5",
-    "EdgeChamfer", "EdgeChamferPercent",
-)  # fmt: skip
 
 
 class Measure:
@@ -92,7 +87,7 @@ class NeuralMeshComparison(Measure):
             both[name + "Percent"] = 100.0 / diagonal * both[name]
         return Comparison(
             table,
-            {name: both[name] for name in _BOTH_WAYS},
+            {name: both[name] for name in BOTH_WAYS},
             figures["reference distances"],
             figures["result distances"],
             diagonal,
