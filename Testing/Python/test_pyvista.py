@@ -235,7 +235,8 @@ class Kinds(unittest.TestCase):
     def test_measures(self):
         reference, result = pyvista.Sphere(radius=1), pyvista.Sphere(radius=1.1)
         figures = result.neuralmesh.compare(reference, 5000)
-        self.assertEqual(figures, neuralmesh.compare(reference, result, samples=5000))
+        # By their texts: what is no number is equal to nothing.
+        self.assertEqual(str(figures), str(neuralmesh.compare(reference, result, samples=5000)))
         self.assertEqual(set(figures), FIGURES)
         self.assertAlmostEqual(figures["reference_to_result"]["mean"], 0.1, places=2)
         told = pyvista.Cube().clean().neuralmesh.info()

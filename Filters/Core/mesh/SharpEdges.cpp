@@ -56,8 +56,8 @@ std::vector<std::uint32_t> firstAtPlace(const std::vector<Eigen::Vector3d>& poin
   return first;
 }
 
-/// The sides of all triangles, those of an edge one behind the other: in buckets by the lower end, then sorted.
-/// A triangle that is there twice has them once.
+/// The sides of all triangles, those of an edge one behind the other: in buckets by the lower end, then
+/// sorted. A triangle that is there twice has them once.
 std::vector<TurnSide> sidesByEdge(const TriangleMesh& mesh)
 {
   const std::vector<std::uint32_t> place = firstAtPlace(mesh.points);

@@ -40,7 +40,8 @@ struct DistanceFigures
   double edgeToSurface = Unknown;
 };
 
-/// How many of the samples are near the other surface. (Knapitsch, Park, Zhou, Koltun 2017: Tanks and Temples)
+/// How many of the samples are near the other surface. (Knapitsch, Park, Zhou, Koltun 2017: Tanks and
+/// Temples)
 struct DistanceScore
 {
   double precision = DistanceFigures::Unknown; ///< of the result, 0 to 1, nearer than the distance
@@ -62,8 +63,8 @@ struct BothWaysFigures
   DistanceScore atTenthPercent;
   DistanceScore atHalfPercent;
   /// Half of the sum of both means of the edges; unknown if one of the surfaces has none. After the edge
-  /// Chamfer distance of Chen, Tagliasacchi, Zhang 2020 (BSP-Net) and Chen, Zhang 2021 (Neural Marching Cubes),
-  /// who find points near edges by the normals of their neighbours; here they lie on the edges.
+  /// Chamfer distance of Chen, Tagliasacchi, Zhang 2020 (BSP-Net) and Chen, Zhang 2021 (Neural Marching
+  /// Cubes), who find points near edges by the normals of their neighbours; here they lie on the edges.
   double edgeChamfer = DistanceFigures::Unknown;
 };
 
