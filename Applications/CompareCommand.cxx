@@ -13,10 +13,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 namespace
 {
@@ -31,19 +31,6 @@ struct CompareOptions
   bool JSON = false;
 };
 
-double HausdorffDistance(Comparison* comparison)
-{
-  return std::max(comparison->GetMaximum(Comparison::REFERENCE_TO_RESULT),
-    comparison->GetMaximum(Comparison::RESULT_TO_REFERENCE));
-}
-
-double NormalAngle(Comparison* comparison)
-{
-  return (comparison->GetNormalAngle(Comparison::REFERENCE_TO_RESULT) +
-           comparison->GetNormalAngle(Comparison::RESULT_TO_REFERENCE)) /
-    2.0;
-}
-
 nlohmann::ordered_json DirectionAsJSON(Comparison* comparison, int direction)
 {
   const double percent = 100.0 / comparison->GetReferenceDiagonal();
@@ -54,20 +41,38 @@ nlohmann::ordered_json DirectionAsJSON(Comparison* comparison, int direction)
     { "rms_percent", percent * comparison->GetRMS(direction) },
     { "percentile_99_percent", percent * comparison->GetPercentile99(direction) },
     { "maximum_percent", percent * comparison->GetMaximum(direction) },
-    { "normal_angle", comparison->GetNormalAngle(direction) } };
+    { "normal_angle", comparison->GetNormalAngle(direction) },
+    { "normal_consistency", comparison->GetNormalConsistency(direction) },
+    { "edge_mean", comparison->GetEdgeMean(direction) },
+    { "edge_to_surface", comparison->GetEdgeToSurface(direction) },
+    { "edge_mean_percent", percent * comparison->GetEdgeMean(direction) },
+    { "edge_to_surface_percent", percent * comparison->GetEdgeToSurface(direction) },
+    { "edge_length", comparison->GetEdgeLength(direction) } };
 }
 
+/// What is no number becomes null.
 void PrintJSON(Comparison* comparison, const CompareOptions& options)
 {
+  const double percent = 100.0 / comparison->GetReferenceDiagonal();
+  constexpr int tenth = Comparison::TENTH_PERCENT, half = Comparison::HALF_PERCENT;
   const nlohmann::ordered_json object{ { "reference", options.Reference },
     { "result", options.Result }, { "samples", comparison->GetNumberOfSamples() },
     { "seed", comparison->GetSeed() }, { "reference_diagonal", comparison->GetReferenceDiagonal() },
     { "reference_to_result", DirectionAsJSON(comparison, Comparison::REFERENCE_TO_RESULT) },
     { "result_to_reference", DirectionAsJSON(comparison, Comparison::RESULT_TO_REFERENCE) },
-    { "hausdorff", HausdorffDistance(comparison) },
-    { "hausdorff_percent",
-      100.0 * HausdorffDistance(comparison) / comparison->GetReferenceDiagonal() },
-    { "normal_angle", NormalAngle(comparison) } };
+    { "hausdorff", comparison->GetHausdorffDistance() },
+    { "hausdorff_percent", percent * comparison->GetHausdorffDistance() },
+    { "normal_angle", comparison->GetNormalAngle() },
+    { "normal_consistency", comparison->GetNormalConsistency() },
+    { "chamfer", comparison->GetChamferDistance() },
+    { "chamfer_percent", percent * comparison->GetChamferDistance() },
+    { "chamfer_squared", comparison->GetSquaredChamferDistance() },
+    { "precision_0_1", comparison->GetPrecision(tenth) },
+    { "recall_0_1", comparison->GetRecall(tenth) }, { "f_score_0_1", comparison->GetFScore(tenth) },
+    { "precision_0_5", comparison->GetPrecision(half) },
+    { "recall_0_5", comparison->GetRecall(half) }, { "f_score_0_5", comparison->GetFScore(half) },
+    { "edge_chamfer", comparison->GetEdgeChamferDistance() },
+    { "edge_chamfer_percent", percent * comparison->GetEdgeChamferDistance() } };
   constexpr auto anyBytes = nlohmann::ordered_json::error_handler_t::replace;
   std::cout << object.dump(-1, ' ', false, anyBytes) << std::endl;
 }
@@ -90,6 +95,51 @@ void PrintRow(const char* title, Comparison* comparison, int direction)
   std::printf("\n");
 }
 
+void PrintEdgeRow(const char* title, Comparison* comparison, int direction)
+{
+  const double percent = 100.0 / comparison->GetReferenceDiagonal();
+  const double toEdges = comparison->GetEdgeMean(direction);
+  const double toSurface = comparison->GetEdgeToSurface(direction);
+  std::printf("%-22s  %11.5g  %11.5g  %11.5g\n", title, comparison->GetEdgeLength(direction),
+    toEdges, toSurface);
+  std::printf("%-22s  %11s  %9.4f %%  %9.4f %%\n", "", "", percent * toEdges, percent * toSurface);
+}
+
+void PrintEdges(Comparison* comparison)
+{
+  if (comparison->GetEdgeLength(Comparison::REFERENCE_TO_RESULT) == 0.0 &&
+    comparison->GetEdgeLength(Comparison::RESULT_TO_REFERENCE) == 0.0)
+  {
+    std::printf("\n%-22s  %11s\n", "sharp edges", "none");
+    return;
+  }
+  std::printf("\n%-22s  %11s  %11s  %11s\n", "sharp edges", "length", "to edges", "to surface");
+  PrintEdgeRow("reference to result", comparison, Comparison::REFERENCE_TO_RESULT);
+  PrintEdgeRow("result to reference", comparison, Comparison::RESULT_TO_REFERENCE);
+}
+
+void PrintBothWays(Comparison* comparison)
+{
+  const double percent = 100.0 / comparison->GetReferenceDiagonal();
+  std::printf("\n");
+  for (const auto& [threshold, name] :
+    { std::pair(Comparison::TENTH_PERCENT, "0.1"), std::pair(Comparison::HALF_PERCENT, "0.5") })
+  {
+    std::printf("F-score at %s %%: %.4f (precision %.4f, recall %.4f)\n", name,
+      comparison->GetFScore(threshold), comparison->GetPrecision(threshold),
+      comparison->GetRecall(threshold));
+  }
+  const double chamfer = comparison->GetChamferDistance();
+  const double ofEdges = comparison->GetEdgeChamferDistance();
+  std::printf("Chamfer distance %.5g (%.4f %%), squared %.5g, of sharp edges %.5g (%.4f %%)\n",
+    chamfer, percent * chamfer, comparison->GetSquaredChamferDistance(), ofEdges,
+    percent * ofEdges);
+  std::printf("Normal consistency %.4f\n", comparison->GetNormalConsistency());
+  const double hausdorff = comparison->GetHausdorffDistance();
+  std::printf("Hausdorff distance %.5g (%.4f %%), mean angle of the normals %.2f deg\n", hausdorff,
+    percent * hausdorff, comparison->GetNormalAngle());
+}
+
 void PrintTable(Comparison* comparison, const CompareOptions& options)
 {
   std::printf("reference  %s\nresult     %s\n", options.Reference.c_str(), options.Result.c_str());
@@ -98,9 +148,8 @@ void PrintTable(Comparison* comparison, const CompareOptions& options)
     "normals");
   PrintRow("reference to result", comparison, Comparison::REFERENCE_TO_RESULT);
   PrintRow("result to reference", comparison, Comparison::RESULT_TO_REFERENCE);
-  const double hausdorff = HausdorffDistance(comparison);
-  std::printf("\nHausdorff distance %.5g (%.4f %%), mean angle of the normals %.2f deg\n",
-    hausdorff, 100.0 * hausdorff / comparison->GetReferenceDiagonal(), NormalAngle(comparison));
+  PrintEdges(comparison);
+  PrintBothWays(comparison);
 }
 
 int Compare(const CompareOptions& options)
@@ -163,6 +212,23 @@ std::function<int()> AddCompareCommand(CLI::App& application)
     "maximum, in units of the files and in percent of the diagonal of the reference's bounding\n"
     "box; and the mean angle, 0 to 90 degrees, between the normals at a point and at its nearest\n"
     "point. Nothing is aligned.\n"
+    "\n"
+    "Sharp edges are those where a surface turns by more than 30 degrees. Printed are their "
+    "length,\n"
+    "and the mean distance of points on them from the sharp edges of the other surface, and from\n"
+    "that surface as a whole; nan where there are none.\n"
+    "\n"
+    "Of both directions together:\n"
+    "  F-score             precision P and recall R are the parts of the result and of the\n"
+    "                      reference that are nearer to the other surface than 0.1 or 0.5 % of "
+    "the\n"
+    "                      diagonal, the F-score is 2 P R / (P + R) (Knapitsch et al. 2017)\n"
+    "  Chamfer distance    half of the sum of both means (Mescheder et al. 2019); squared: the "
+    "sum\n"
+    "                      of both mean squares (Fan et al. 2017); of edges: half of the sum of\n"
+    "                      both means between edges (after Chen and Zhang 2021)\n"
+    "  normal consistency  the mean of |n . n'| of the normals, 0 to 1 (Mescheder et al. 2019)\n"
+    "  Hausdorff distance  the larger maximum\n"
     "\nExit status: 0 done, 1 failed (the message is on stderr), 2 wrong use.");
   return [options] { return Compare(*options); };
 }

@@ -8,6 +8,7 @@
 #include "vtkTriangleMeshCollector.h"
 
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
@@ -91,6 +92,62 @@ double vtkNeuralMeshComparison::GetNormalAngle(int direction)
   return this->GetFigures(direction).NormalAngle;
 }
 
+double vtkNeuralMeshComparison::GetNormalAngle() { return this->BothWays.NormalAngle; }
+
+double vtkNeuralMeshComparison::GetNormalConsistency(int direction)
+{
+  return this->GetFigures(direction).NormalConsistency;
+}
+
+double vtkNeuralMeshComparison::GetNormalConsistency() { return this->BothWays.NormalConsistency; }
+
+double vtkNeuralMeshComparison::GetEdgeLength(int direction)
+{
+  return this->GetFigures(direction).EdgeLength;
+}
+
+double vtkNeuralMeshComparison::GetEdgeMean(int direction)
+{
+  return this->GetFigures(direction).EdgeMean;
+}
+
+double vtkNeuralMeshComparison::GetEdgeToSurface(int direction)
+{
+  return this->GetFigures(direction).EdgeToSurface;
+}
+
+double vtkNeuralMeshComparison::GetChamferDistance() { return this->BothWays.Chamfer; }
+
+double vtkNeuralMeshComparison::GetSquaredChamferDistance()
+{
+  return this->BothWays.ChamferSquared;
+}
+
+double vtkNeuralMeshComparison::GetHausdorffDistance() { return this->BothWays.Hausdorff; }
+
+vtkNeuralMeshComparison::Score vtkNeuralMeshComparison::GetScore(int threshold) const
+{
+  const bool exists = threshold == TENTH_PERCENT || threshold == HALF_PERCENT;
+  return exists ? this->BothWays.Scores[static_cast<std::size_t>(threshold)] : Score();
+}
+
+double vtkNeuralMeshComparison::GetPrecision(int threshold)
+{
+  return this->GetScore(threshold).Precision;
+}
+
+double vtkNeuralMeshComparison::GetRecall(int threshold)
+{
+  return this->GetScore(threshold).Recall;
+}
+
+double vtkNeuralMeshComparison::GetFScore(int threshold)
+{
+  return this->GetScore(threshold).FScore;
+}
+
+double vtkNeuralMeshComparison::GetEdgeChamferDistance() { return this->BothWays.EdgeChamfer; }
+
 double vtkNeuralMeshComparison::GetReferenceDiagonal() { return this->ReferenceDiagonal; }
 
 int vtkNeuralMeshComparison::FillInputPortInformation(int, vtkInformation* info)
@@ -123,6 +180,7 @@ int vtkNeuralMeshComparison::RequestData(
   vtkPolyData* resultOutput = vtkPolyData::GetData(outputVector, 0);
   vtkPolyData* referenceOutput = vtkPolyData::GetData(outputVector, 1);
   this->FiguresOfDirections = {};
+  this->BothWays = {};
   this->ReferenceDiagonal = vtkMath::Nan();
   if (IsEmpty(resultInput) && IsEmpty(referenceInput))
   {
@@ -149,11 +207,20 @@ int vtkNeuralMeshComparison::RequestData(
   {
     return 1;
   }
-  const auto figures = [](const neuralmesh::DistanceFigures& of) {
-    return Figures{ of.mean, of.rootMeanSquare, of.percentile99, of.maximum, of.normalAngle };
+  const auto figures = [](const neuralmesh::DistanceFigures& of)
+  {
+    return Figures{ of.mean, of.rootMeanSquare, of.percentile99, of.maximum, of.normalAngle,
+      of.normalConsistency, of.edgeMean, of.edgeToSurface, of.edgeLength };
+  };
+  const auto score = [](const neuralmesh::DistanceScore& of) {
+    return Score{ of.precision, of.recall, of.fScore };
   };
   this->FiguresOfDirections = { figures(comparison->referenceToResult),
     figures(comparison->resultToReference) };
+  const neuralmesh::BothWaysFigures& both = comparison->bothWays;
+  this->BothWays = { both.chamfer, both.chamferSquared, both.hausdorff, both.normalAngle,
+    both.normalConsistency, both.edgeChamfer,
+    { score(both.atTenthPercent), score(both.atHalfPercent) } };
   this->ReferenceDiagonal = comparison->referenceDiagonal;
 
   referenceOutput->ShallowCopy(referenceInput);
@@ -161,6 +228,7 @@ int vtkNeuralMeshComparison::RequestData(
   resultOutput->ShallowCopy(resultInput);
   AddDistances(resultOutput, comparison->resultDistances);
   this->FillTable(vtkTable::GetData(outputVector, 2));
+  this->FillFieldData(vtkTable::GetData(outputVector, 2));
   return 1;
 }
 
@@ -193,6 +261,31 @@ void vtkNeuralMeshComparison::FillTable(vtkTable* table) const
     add(std::string(name) + "Percent", figure, 100.0 / this->ReferenceDiagonal);
   }
   add("NormalAngle", &Figures::NormalAngle, 1.0);
+  add("NormalConsistency", &Figures::NormalConsistency, 1.0);
+  add("EdgeMean", &Figures::EdgeMean, 1.0);
+  add("EdgeToSurface", &Figures::EdgeToSurface, 1.0);
+  add("EdgeMeanPercent", &Figures::EdgeMean, 100.0 / this->ReferenceDiagonal);
+  add("EdgeToSurfacePercent", &Figures::EdgeToSurface, 100.0 / this->ReferenceDiagonal);
+  add("EdgeLength", &Figures::EdgeLength, 1.0);
+}
+
+void vtkNeuralMeshComparison::FillFieldData(vtkTable* table) const
+{
+  const BothWaysFigures& both = this->BothWays;
+  const Score &tenth = both.Scores[TENTH_PERCENT], &half = both.Scores[HALF_PERCENT];
+  const double percent = 100.0 / this->ReferenceDiagonal;
+  const std::pair<const char*, double> figures[] = { { "Hausdorff", both.Hausdorff },
+    { "HausdorffPercent", percent * both.Hausdorff }, { "NormalAngle", both.NormalAngle },
+    { "NormalConsistency", both.NormalConsistency }, { "Chamfer", both.Chamfer },
+    { "ChamferPercent", percent * both.Chamfer }, { "ChamferSquared", both.ChamferSquared },
+    { "Precision0_1", tenth.Precision }, { "Recall0_1", tenth.Recall },
+    { "FScore0_1", tenth.FScore }, { "Precision0_5", half.Precision }, { "Recall0_5", half.Recall },
+    { "FScore0_5", half.FScore }, { "EdgeChamfer", both.EdgeChamfer },
+    { "EdgeChamferPercent", percent * both.EdgeChamfer } };
+  for (const auto& [name, figure] : figures)
+  {
+    table->GetFieldData()->AddArray(vtkMeshArrays::MakeNumbers(name, std::vector{ figure }));
+  }
 }
 
 void vtkNeuralMeshComparison::PrintSelf(ostream& os, vtkIndent indent)
@@ -207,6 +300,19 @@ void vtkNeuralMeshComparison::PrintSelf(ostream& os, vtkIndent indent)
     os << indent << (direction == REFERENCE_TO_RESULT ? "ReferenceToResult:" : "ResultToReference:")
        << " Mean " << figures.Mean << ", RMS " << figures.RMS << ", Percentile99 "
        << figures.Percentile99 << ", Maximum " << figures.Maximum << ", NormalAngle "
-       << figures.NormalAngle << "\n";
+       << figures.NormalAngle << ", NormalConsistency " << figures.NormalConsistency
+       << ", EdgeMean " << figures.EdgeMean << ", EdgeToSurface " << figures.EdgeToSurface
+       << ", EdgeLength " << figures.EdgeLength << "\n";
+  }
+  const BothWaysFigures& both = this->BothWays;
+  os << indent << "BothWays: Chamfer " << both.Chamfer << ", ChamferSquared " << both.ChamferSquared
+     << ", Hausdorff " << both.Hausdorff << ", NormalAngle " << both.NormalAngle
+     << ", NormalConsistency " << both.NormalConsistency << ", EdgeChamfer " << both.EdgeChamfer
+     << "\n";
+  for (const int threshold : { TENTH_PERCENT, HALF_PERCENT })
+  {
+    const Score score = this->GetScore(threshold);
+    os << indent << (threshold == TENTH_PERCENT ? "TenthPercent:" : "HalfPercent:") << " Precision "
+       << score.Precision << ", Recall " << score.Recall << ", FScore " << score.FScore << "\n";
   }
 }

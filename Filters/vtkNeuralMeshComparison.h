@@ -7,6 +7,8 @@
  * each to the nearest point of the other surface, and gives mean, root mean square, 99 % and
  * maximum of them, for each direction. From the result to the reference these tell of what the
  * result has and the reference has not, from the reference to the result of what the result misses.
+ * Both directions together give the measures of the field: Chamfer distance, F-score, normal
+ * consistency, Hausdorff distance, and the distance between the sharp edges of both.
  * vtkHausdorffDistancePointSetFilter looks at vertices alone: its figures depend on how the vertices
  * are spread, and what a large triangle cuts off it does not see.
  *
@@ -27,7 +29,14 @@
  * - `Mean`, `RMS`, `Percentile99`, `Maximum` in units of the input;
  * - `MeanPercent`, `RMSPercent`, `Percentile99Percent`, `MaximumPercent`, in percent of the
  *   diagonal of the bounding box of the reference;
- * - `NormalAngle`, in degrees.
+ * - `NormalAngle`, in degrees; `NormalConsistency`, 0 to 1;
+ * - `EdgeMean`, `EdgeToSurface`, `EdgeLength` in units of the input, and `EdgeMeanPercent`,
+ *   `EdgeToSurfacePercent`: of the sharp edges.
+ *
+ * What is told of both directions together is field data of that table, a double each: `Hausdorff`,
+ * `HausdorffPercent`, `NormalAngle`, `NormalConsistency`, `Chamfer`, `ChamferPercent`,
+ * `ChamferSquared`, `Precision0_1`, `Recall0_1`, `FScore0_1` at 0.1 % of the diagonal,
+ * `Precision0_5`, `Recall0_5`, `FScore0_5` at 0.5 %, `EdgeChamfer`, `EdgeChamferPercent`.
  *
  * The same inputs and seed give the same figures, on any number of threads. Of triangles that are
  * equally near, the normal of the first counts.
@@ -105,12 +114,89 @@ public:
   double GetMaximum(int direction);
   ///@}
 
+  ///@{
   /**
    * The mean angle, in degrees from 0 to 90, between the normals of the triangles at a sample and
    * at the nearest point of the other surface, whichever way the triangles are oriented. Over
-   * 20000 of the samples; the mean of both directions is the usual figure. NaN as above.
+   * 20000 of the samples. Without a direction the mean of both, the usual figure. NaN as above.
    */
   double GetNormalAngle(int direction);
+  double GetNormalAngle();
+  ///@}
+
+  ///@{
+  /**
+   * Normal consistency: the mean of |n . n'|, 0 to 1, n and n' being the normals of the triangles at
+   * a sample and at the nearest point of the other surface. It is absolute: orientation does not
+   * matter. At the samples that GetNormalAngle() takes. Without a direction the mean of both, the
+   * usual figure (L. Mescheder, M. Oechsle, M. Niemeyer, S. Nowozin, A. Geiger, Occupancy Networks,
+   * CVPR 2019). NaN as above.
+   */
+  double GetNormalConsistency(int direction);
+  double GetNormalConsistency();
+  ///@}
+
+  ///@{
+  /**
+   * Of the sharp edges of the surface from which a direction sets out, those between triangles whose
+   * planes turn by more than 30 degrees, whichever way they are oriented; points at the same place
+   * are one here, and boundaries are not sharp. GetEdgeLength() is their length, 0 without any.
+   * GetEdgeMean() is the mean distance of 20000 points (NumberOfSamples, if that is less), drawn
+   * evenly over that length, from the nearest sharp edge of the other surface, and NaN if one of
+   * both has none. GetEdgeToSurface() is the mean distance of these points from the other surface,
+   * wherever: what is cut off or rounded at the edges; NaN if there are none. In units of the input.
+   * NaN as above.
+   */
+  double GetEdgeLength(int direction);
+  double GetEdgeMean(int direction);
+  double GetEdgeToSurface(int direction);
+  ///@}
+
+  ///@{
+  /**
+   * Chamfer distance: half of the sum of the means of both directions, in units of the input (the
+   * Chamfer-L1 of Mescheder and others, above). Squared: the sum of the mean squares of both
+   * directions, in squares of these units (H. Fan, H. Su, L. Guibas, A Point Set Generation Network
+   * for 3D Object Reconstruction from a Single Image, CVPR 2017, with means in place of sums). NaN
+   * as above.
+   */
+  double GetChamferDistance();
+  double GetSquaredChamferDistance();
+  ///@}
+
+  /** The larger maximum of both directions, in units of the input. NaN as above. */
+  double GetHausdorffDistance();
+
+  /** The distances of scores, in percent of GetReferenceDiagonal(): 0.1 and 0.5. */
+  enum ThresholdType
+  {
+    TENTH_PERCENT,
+    HALF_PERCENT
+  };
+
+  ///@{
+  /**
+   * Precision is the part, 0 to 1, of the samples of the result that are nearer to the reference
+   * than a distance, recall the part of those of the reference that are nearer to the result. The
+   * F-score is their harmonic mean, 2 P R / (P + R), and 0 where both are 0 (A. Knapitsch, J. Park,
+   * Q.-Y. Zhou, V. Koltun, Tanks and Temples, ACM Transactions on Graphics 36(4), 2017; for meshes
+   * M. Tatarchenko and others, What Do Single-view 3D Reconstruction Networks Learn?, CVPR 2019).
+   * NaN as above, or if `threshold` is no ThresholdType.
+   */
+  double GetPrecision(int threshold);
+  double GetRecall(int threshold);
+  double GetFScore(int threshold);
+  ///@}
+
+  /**
+   * Half of the sum of GetEdgeMean() of both directions, in units of the input; NaN if one of the
+   * surfaces has no sharp edges, and as above. After the edge Chamfer distance of Z. Chen,
+   * A. Tagliasacchi, H. Zhang, BSP-Net, CVPR 2020, and Z. Chen, H. Zhang, Neural Marching Cubes, ACM
+   * Transactions on Graphics 40(6), 2021. They take samples of the surface whose neighbours have
+   * other normals for points of edges; here the points lie on the edges, so that the same mesh has
+   * a distance of 0.
+   */
+  double GetEdgeChamferDistance();
 
   /**
    * Diagonal of the bounding box of the triangles of the reference, in units of the input, to which
@@ -146,16 +232,41 @@ private:
     double Percentile99 = std::numeric_limits<double>::quiet_NaN();
     double Maximum = std::numeric_limits<double>::quiet_NaN();
     double NormalAngle = std::numeric_limits<double>::quiet_NaN();
+    double NormalConsistency = std::numeric_limits<double>::quiet_NaN();
+    double EdgeMean = std::numeric_limits<double>::quiet_NaN();
+    double EdgeToSurface = std::numeric_limits<double>::quiet_NaN();
+    double EdgeLength = std::numeric_limits<double>::quiet_NaN();
+  };
+
+  struct Score
+  {
+    double Precision = std::numeric_limits<double>::quiet_NaN();
+    double Recall = std::numeric_limits<double>::quiet_NaN();
+    double FScore = std::numeric_limits<double>::quiet_NaN();
+  };
+
+  struct BothWaysFigures
+  {
+    double Chamfer = std::numeric_limits<double>::quiet_NaN();
+    double ChamferSquared = std::numeric_limits<double>::quiet_NaN();
+    double Hausdorff = std::numeric_limits<double>::quiet_NaN();
+    double NormalAngle = std::numeric_limits<double>::quiet_NaN();
+    double NormalConsistency = std::numeric_limits<double>::quiet_NaN();
+    double EdgeChamfer = std::numeric_limits<double>::quiet_NaN();
+    std::array<Score, 2> Scores;
   };
 
   /** Reports how much is done. Returns whether to go on. */
   bool Advance(double progress);
   Figures GetFigures(int direction) const;
+  Score GetScore(int threshold) const;
   void FillTable(vtkTable* table) const;
+  void FillFieldData(vtkTable* table) const;
 
   vtkIdType NumberOfSamples = 200000;
   int Seed = 1;
   std::array<Figures, 2> FiguresOfDirections;
+  BothWaysFigures BothWays;
   double ReferenceDiagonal = std::numeric_limits<double>::quiet_NaN();
 };
 

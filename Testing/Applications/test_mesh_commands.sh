@@ -18,7 +18,8 @@ make_meshes()
   printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' > points.obj
 }
 
-# Promise: a table with both directions, all figures in units and in percent.
+# Promise: a table with both directions, all figures in units and in percent; the sharp edges, and what is told
+# of both directions together.
 test_compare_table()
 {
   expect 0 "$neuralmesh" compare cube.obj left.obj --samples 2000
@@ -27,8 +28,18 @@ test_compare_table()
   grep -Eq '^reference to result( +[0-9.e-]+){4} +[0-9.]+ deg$' out || fail "no first direction"
   grep -Eq '^result to reference( +[0-9.e-]+){4} +0.00 deg$' out || fail "no second direction"
   grep -Eq '^ +(0.0000 % *){4}$' out || fail "no percent, or it is not on the reference"
+  grep -Eq '^sharp edges +length +to edges +to surface$' out || fail "no edges"
+  grep -Eq '^reference to result +12 +nan +0\.[0-9]+$' out || fail "no edges of the reference"
+  grep -Eq '^result to reference +0 +nan +nan$' out || fail "no edges of the result"
+  grep -Eq '^F-score at 0.1 %: 0.2[0-9]+ \(precision 1.0000, recall 0.1[0-9]+\)$' out || fail "no F-score"
+  grep -Eq '^F-score at 0.5 %: 0.[0-9]+ \(precision 1.0000, recall 0.[0-9]+\)$' out || fail "no second F-score"
+  grep -Eq '^Chamfer distance [0-9.]+ \([0-9.]+ %\), squared [0-9.]+, of sharp edges nan \(nan %\)$' out ||
+    fail "no Chamfer distance"
+  grep -Eq '^Normal consistency 0\.[0-9]{4}$' out || fail "no normal consistency"
   grep -q '^Hausdorff distance 1 (57.7350 %)' out || fail "no Hausdorff distance"
   [ ! -s err ] || { cat err; fail "there is something on stderr"; }
+  expect 0 "$neuralmesh" compare left.obj left.obj --samples 2000
+  grep -Eq '^sharp edges +none$' out || fail "that there are no edges is not told"
 }
 
 # Promise: --json gives one object; the figures are right, and the same for the same seed.
@@ -45,11 +56,23 @@ test_compare_json()
             for key in ("mean", "rms", "percentile_99", "maximum"))'
   json 'lines[0]["reference_to_result"]["normal_angle"] < 1e-6'
   json 'near(2 * lines[0]["normal_angle"], lines[0]["result_to_reference"]["normal_angle"])'
+  json 'lines[0]["chamfer"] == (lines[0]["reference_to_result"]["mean"]
+                                + lines[0]["result_to_reference"]["mean"]) / 2'
+  json 'near(lines[0]["chamfer_squared"], 0.01 + lines[0]["result_to_reference"]["rms"] ** 2)'
+  json 'all(lines[0][key + at] == 0 for key in ("precision", "recall", "f_score") for at in ("_0_1", "_0_5"))'
+  json 'near(lines[0]["reference_to_result"]["edge_mean"], 0.02 ** 0.5)'
+  json 'near(lines[0]["reference_to_result"]["edge_to_surface"], 0.1)'
+  json 'near(lines[0]["result_to_reference"]["edge_length"], 14.4)'
+  json 'near(lines[0]["edge_chamfer_percent"], 100 * lines[0]["edge_chamfer"] / 3 ** 0.5)'
+  json 'lines[0]["reference_to_result"]["normal_consistency"] == 1 and 0.8 < lines[0]["normal_consistency"] < 1'
   cp out first
   expect 0 "$neuralmesh" compare cube.obj large.obj --json --samples 20000
   cmp out first || fail "the same seed gave other figures"
   expect 0 "$neuralmesh" compare cube.obj large.obj --json --seed 2 --samples 3000
   json 'lines[0]["seed"] == 2 and lines[0]["samples"] == 3000'
+  expect 0 "$neuralmesh" compare left.obj left.obj --json --samples 1000
+  json 'lines[0]["edge_chamfer"] is None and lines[0]["reference_to_result"]["edge_to_surface"] is None'
+  json 'lines[0]["f_score_0_1"] == 1 and lines[0]["reference_to_result"]["edge_length"] == 0'
 }
 
 # Promise: exit status 1 and a message that names the file.

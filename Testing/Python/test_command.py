@@ -232,6 +232,7 @@ class Beside(CommandTest):
 
     # Promise: what is printed and how it ends are the same.
     def test_output(self):
+        self.run_command("reconstruct", "ball.xyz", "coarse.ply", "--vertices", 20, "--quiet")
         for arguments in (
             ["reconstruct", "ball.xyz", "out.ply", "--vertices", "300"],
             ["reconstruct", "ball.xyz", "out.ply", "--vertices", "300", "--shift", "auto"],
@@ -247,6 +248,8 @@ class Beside(CommandTest):
             ["tune", "ball.xyz", "--vertices", "500"],
             ["tune", "ball.xyz", "--vertices", "500", "--json", "--close"],
             ["compare", "mesh.ply", "mesh.ply", "--samples", "2000"],
+            ["compare", "coarse.ply", "mesh.ply", "--samples", "2000"],
+            ["compare", "coarse.ply", "mesh.ply", "--json"],
             ["compare", "mesh.ply", "mesh.ply", "--json"],
             ["info", "mesh.ply", "none.ply"],
             ["info", "mesh.ply", "--json"],
@@ -306,6 +309,11 @@ class Beside(CommandTest):
         self.assertLessEqual(options, set(re.findall(r"^  (--[a-z-]+)", found, re.MULTILINE)))
         table = wanted[wanted.index("Parameters of learning") : wanted.index("For example")]
         self.assertIn(table, found)
+        (found, _, _), (wanted, _, _) = self.both("compare", "--help")
+        for help_text in (found, wanted):
+            self.assertIn("(Knapitsch et al. 2017)", help_text)
+        figures = wanted[wanted.index("Points are drawn evenly") : wanted.index("Exit status")]
+        self.assertIn(figures, found)
 
     # Promise: figures are the same, digit by digit.
     def test_json(self):

@@ -30,7 +30,7 @@ except ImportError as error:
     sys.exit()
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-DIRECTIONS = {"reference_to_result", "result_to_reference"}
+FIGURES = {"reference_to_result", "result_to_reference", "both_ways"}
 
 
 def sphere(count=3000):
@@ -235,8 +235,9 @@ class Kinds(unittest.TestCase):
     def test_measures(self):
         reference, result = pyvista.Sphere(radius=1), pyvista.Sphere(radius=1.1)
         figures = result.neuralmesh.compare(reference, 5000)
-        self.assertEqual(figures, neuralmesh.compare(reference, result, samples=5000))
-        self.assertEqual(set(figures), DIRECTIONS)
+        # By their texts: what is no number is equal to nothing.
+        self.assertEqual(str(figures), str(neuralmesh.compare(reference, result, samples=5000)))
+        self.assertEqual(set(figures), FIGURES)
         self.assertAlmostEqual(figures["reference_to_result"]["mean"], 0.1, places=2)
         told = pyvista.Cube().clean().neuralmesh.info()
         self.assertEqual((told["vertices"], told["triangles"], told["genus"]), (8, 12, 0))

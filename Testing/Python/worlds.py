@@ -324,9 +324,14 @@ def measured(cls, properties=None, ports=()):
     if cls == "vtkNeuralMeshComparison":
         found["figures"] = [
             repr(getattr(algorithm, f"Get{name}")(direction))
-            for name in ("Mean", "RMS", "Percentile99", "Maximum", "NormalAngle")
-            for direction in (0, 1, 2)
-        ] + [repr(algorithm.GetReferenceDiagonal())]
+            for name in ("Mean", "RMS", "Percentile99", "Maximum", "NormalAngle", "NormalConsistency",
+                         "EdgeMean", "EdgeToSurface", "EdgeLength", "Precision", "Recall", "FScore")
+            for direction in (0, 1, 2, -1)
+        ] + [
+            repr(getattr(algorithm, f"Get{name}")())
+            for name in ("ReferenceDiagonal", "ChamferDistance", "SquaredChamferDistance",
+                         "HausdorffDistance", "NormalAngle", "NormalConsistency", "EdgeChamferDistance")
+        ]
     return found
 
 
@@ -478,6 +483,8 @@ CASES = {
     "growth_and_checkpoint": lambda: learn(rich(), GrowthAsTime=1, CheckpointFileName="x"),
     "comparison": lambda: measured("vtkNeuralMeshComparison", {"NumberOfSamples": 2000},
                                    (sphere_mesh(), sphere_mesh(16))),
+    "comparison_smooth": lambda: measured("vtkNeuralMeshComparison", {"NumberOfSamples": 2000},
+                                          (sphere_mesh(40), sphere_mesh(50))),
     "comparison_empty": lambda: measured("vtkNeuralMeshComparison", {},
                                          (vtkPolyData(), vtkPolyData())),
     "comparison_bad": lambda: measured("vtkNeuralMeshComparison", {},

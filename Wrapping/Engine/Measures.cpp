@@ -27,6 +27,28 @@ nb::dict figuresOf(const DistanceFigures& figures)
   result["Percentile99"] = figures.percentile99;
   result["Maximum"] = figures.maximum;
   result["NormalAngle"] = figures.normalAngle;
+  result["NormalConsistency"] = figures.normalConsistency;
+  result["EdgeMean"] = figures.edgeMean;
+  result["EdgeToSurface"] = figures.edgeToSurface;
+  result["EdgeLength"] = figures.edgeLength;
+  return result;
+}
+
+nb::dict figuresOf(const BothWaysFigures& figures)
+{
+  nb::dict result;
+  result["Chamfer"] = figures.chamfer;
+  result["ChamferSquared"] = figures.chamferSquared;
+  result["Hausdorff"] = figures.hausdorff;
+  result["NormalAngle"] = figures.normalAngle;
+  result["NormalConsistency"] = figures.normalConsistency;
+  result["Precision0_1"] = figures.atTenthPercent.precision;
+  result["Recall0_1"] = figures.atTenthPercent.recall;
+  result["FScore0_1"] = figures.atTenthPercent.fScore;
+  result["Precision0_5"] = figures.atHalfPercent.precision;
+  result["Recall0_5"] = figures.atHalfPercent.recall;
+  result["FScore0_5"] = figures.atHalfPercent.fScore;
+  result["EdgeChamfer"] = figures.edgeChamfer;
   return result;
 }
 
@@ -58,6 +80,7 @@ nb::object compare(
   nb::dict figures;
   figures["reference to result"] = figuresOf(comparison->referenceToResult);
   figures["result to reference"] = figuresOf(comparison->resultToReference);
+  figures["both ways"] = figuresOf(comparison->bothWays);
   figures["diagonal"] = comparison->referenceDiagonal;
   figures["reference distances"] = arrayOf(std::move(comparison->referenceDistances));
   figures["result distances"] = arrayOf(std::move(comparison->resultDistances));

@@ -10,8 +10,8 @@
 
 namespace neuralmesh::binding
 {
-/// The figures of both directions, the distances of the points of both, and the diagonal; None if it was
-/// ended. Throws std::invalid_argument where a surface has no area.
+/// The figures of both directions and of both ways together, the distances of the points of both, and the
+/// diagonal; None if it was ended. Throws std::invalid_argument where a surface has no area.
 nanobind::object compare(
   TriangleMesh reference, TriangleMesh result, std::size_t samples, std::uint64_t seed, Call& call);
 

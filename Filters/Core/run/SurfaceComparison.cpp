@@ -5,10 +5,12 @@
 #include "mesh/MeasuredSurface.h"
 #include "mesh/NearestTriangle.h"
 #include "mesh/SurfaceSampler.h"
+#include "run/ComparedEdges.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -22,6 +24,11 @@ namespace
 {
 /// Angles settle with fewer samples than the tail of the distances.
 constexpr std::size_t MostAngleSamples = 20000;
+/// So do means over edges.
+constexpr std::size_t MostEdgeSamples = 20000;
+/// The distances of the scores, as parts of the diagonal of the reference.
+constexpr double TenthPercent = 0.001;
+constexpr double HalfPercent = 0.005;
 /// Where the maximum is looked for: in so many triangles, with so many steps that get smaller.
 constexpr std::size_t ClimbedTriangles = 128;
 constexpr std::size_t ClimbSteps = 96;
@@ -31,7 +38,10 @@ constexpr std::size_t MeasuredPerRange = 512;
 constexpr std::size_t MeasuredPerLook = 16384;
 /// Where the distances of the samples begin and end, as fractions of the whole.
 constexpr double BeginOfDistances = 0.05;
-constexpr double EndOfDistances = 0.9;
+constexpr double EndOfDistances = 0.8;
+constexpr double EndOfEdges = 0.9;
+/// Edges have random numbers of their own.
+constexpr std::uint64_t EdgeStream = 1;
 
 using Samples = std::vector<SurfaceSampler::Sample>;
 
@@ -130,11 +140,19 @@ public:
       std::sqrt(
         std::inner_product(distances.begin(), distances.end(), distances.begin(), 0.) / count);
     figures.maximum = unit * maximum(nearestOfOther, random, executor);
-    figures.normalAngle = meanNormalAngle(other);
+    compareNormals(other, figures);
     const auto place = distances.begin() + std::ptrdiff_t((distances.size() - 1) * 99 / 100);
     std::nth_element(distances.begin(), place, distances.end());
     figures.percentile99 = unit * *place;
     return figures;
+  }
+
+  /// The part of the samples that is nearer to the other surface than that.
+  double partWithin(double distance) const
+  {
+    const auto count = std::count_if(ofSamples_.begin(), ofSamples_.end(),
+      [distance](const Near& near) { return near.distance < distance; });
+    return double(count) / double(ofSamples_.size());
   }
 
 private:
@@ -216,21 +234,23 @@ private:
     return farthest;
   }
 
-  /// In degrees, between the normals here at samples and those of the other surface at the nearest places.
-  double meanNormalAngle(const ComparedSurface& other) const
+  /// The normals here at samples, and those of the other surface at the nearest places.
+  void compareNormals(const ComparedSurface& other, DistanceFigures& figures) const
   {
     const std::size_t stride = (samples_.size() + MostAngleSamples - 1) / MostAngleSamples;
-    double sum = 0.;
+    double angles = 0., cosines = 0.;
     std::size_t count = 0;
     for (std::size_t i = 0; i < samples_.size(); i += stride)
     {
       const Eigen::Vector3d a = surface_.normal(mesh().triangles[samples_[i].triangle]);
       const Eigen::Vector3d b =
         other.surface_.normal(other.mesh().triangles[ofSamples_[i].triangle]);
-      sum += std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
+      angles += std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
+      cosines += std::min(1., std::abs(a.normalized().dot(b.normalized())));
       ++count;
     }
-    return 180. / std::numbers::pi * sum / double(count);
+    figures.normalAngle = 180. / std::numbers::pi * angles / double(count);
+    figures.normalConsistency = cosines / double(count);
   }
 
   MeasuredSurface surface_;
@@ -238,6 +258,36 @@ private:
   std::vector<Near> ofPoints_;
   std::vector<Near> ofSamples_;
 };
+
+/// What sets out from the edges of one surface.
+void compareEdges(const ComparedEdges& edges, const ComparedEdges& other,
+  const NearestTriangle& otherSurface, double unit, DistanceFigures& figures,
+  const Executor& executor)
+{
+  figures.edgeLength = unit * edges.length();
+  figures.edgeMean = unit * edges.meanTo(other, executor);
+  figures.edgeToSurface = unit * edges.meanTo(otherSurface, executor);
+}
+
+DistanceScore scoreAt(
+  double distance, const ComparedSurface& reference, const ComparedSurface& result)
+{
+  const double precision = result.partWithin(distance), recall = reference.partWithin(distance);
+  const double sum = precision + recall;
+  return { precision, recall, sum > 0. ? 2. * precision * recall / sum : 0. };
+}
+
+BothWaysFigures bothWays(const DistanceFigures& a, const DistanceFigures& b)
+{
+  BothWaysFigures both;
+  both.chamfer = 0.5 * (a.mean + b.mean);
+  both.chamferSquared = a.rootMeanSquare * a.rootMeanSquare + b.rootMeanSquare * b.rootMeanSquare;
+  both.hausdorff = std::max(a.maximum, b.maximum);
+  both.normalAngle = 0.5 * (a.normalAngle + b.normalAngle);
+  both.normalConsistency = 0.5 * (a.normalConsistency + b.normalConsistency);
+  both.edgeChamfer = 0.5 * (a.edgeMean + b.edgeMean);
+  return both;
+}
 }
 
 std::optional<SurfaceComparison> compareSurfaces(const TriangleMesh& referenceMesh,
@@ -272,9 +322,27 @@ std::optional<SurfaceComparison> compareSurfaces(const TriangleMesh& referenceMe
   {
     return std::nullopt;
   }
+  const std::size_t edgeSamples = std::min(rules.samples, MostEdgeSamples);
+  std::array<std::optional<ComparedEdges>, 2> edges;
+  executor.forEachPart(edges.size(),
+    [&](std::size_t i)
+    {
+      const ComparedSurface& surface = i == 0 ? reference : result;
+      edges[i].emplace(surface.mesh(), edgeSamples, Random(rules.seed, EdgeStream + i));
+    });
+  if (!progress(EndOfEdges))
+  {
+    return std::nullopt;
+  }
   SurfaceComparison comparison;
-  comparison.referenceToResult = reference.figures(result, onResult, unit, random, executor);
-  comparison.resultToReference = result.figures(reference, onReference, unit, random, executor);
+  DistanceFigures &to = comparison.referenceToResult, &back = comparison.resultToReference;
+  to = reference.figures(result, onResult, unit, random, executor);
+  back = result.figures(reference, onReference, unit, random, executor);
+  compareEdges(*edges[0], *edges[1], onResult, unit, to, executor);
+  compareEdges(*edges[1], *edges[0], onReference, unit, back, executor);
+  comparison.bothWays = bothWays(to, back);
+  comparison.bothWays.atTenthPercent = scoreAt(TenthPercent, reference, result);
+  comparison.bothWays.atHalfPercent = scoreAt(HalfPercent, reference, result);
   comparison.referenceDistances = reference.pointDistances(referenceMesh, unit);
   comparison.resultDistances = result.pointDistances(resultMesh, unit);
   comparison.referenceDiagonal = unit;

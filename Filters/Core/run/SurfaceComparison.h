@@ -27,6 +27,45 @@ struct DistanceFigures
   /// The mean angle, 0 to 90 degrees, between the normals of the triangles at 20000 of the samples and at
   /// the nearest places, whichever way the triangles are oriented.
   double normalAngle = Unknown;
+  /// At the same samples, the mean of |n . n'|, 0 to 1, n and n' being these normals. (Mescheder, Oechsle,
+  /// Niemeyer, Nowozin, Geiger 2019: Occupancy Networks)
+  double normalConsistency = Unknown;
+  /// Of the sharp edges of the first surface, where it turns by more than 30 degrees (see sharpEdges());
+  /// 0 without any.
+  double edgeLength = Unknown;
+  /// The mean distance of 20000 points, drawn evenly over that length, from the nearest sharp edge of the
+  /// other surface; unknown if one of the two has none.
+  double edgeMean = Unknown;
+  /// ... from the other surface, sharp or not: how much of the edges is cut off. Unknown if there are none.
+  double edgeToSurface = Unknown;
+};
+
+/// How many of the samples are near the other surface. (Knapitsch, Park, Zhou, Koltun 2017: Tanks and
+/// Temples)
+struct DistanceScore
+{
+  double precision = DistanceFigures::Unknown; ///< of the result, 0 to 1, nearer than the distance
+  double recall = DistanceFigures::Unknown;    ///< of the reference
+  double fScore = DistanceFigures::Unknown;    ///< their harmonic mean; 0 where both are 0
+};
+
+/// What is told of both directions together. Lengths are in units of the input.
+struct BothWaysFigures
+{
+  /// Half of the sum of both means. (Chamfer-L1 of Mescheder et al. 2019)
+  double chamfer = DistanceFigures::Unknown;
+  /// The sum of both mean squares. (Fan, Su, Guibas 2017, with means in place of their sums)
+  double chamferSquared = DistanceFigures::Unknown;
+  double hausdorff = DistanceFigures::Unknown;         ///< the larger maximum
+  double normalAngle = DistanceFigures::Unknown;       ///< the mean of both
+  double normalConsistency = DistanceFigures::Unknown; ///< the mean of both
+  /// At 0.1 and 0.5 % of the diagonal of the reference.
+  DistanceScore atTenthPercent;
+  DistanceScore atHalfPercent;
+  /// Half of the sum of both means of the edges; unknown if one of the surfaces has none. After the edge
+  /// Chamfer distance of Chen, Tagliasacchi, Zhang 2020 (BSP-Net) and Chen, Zhang 2021 (Neural Marching
+  /// Cubes), who find points near edges by the normals of their neighbours; here they lie on the edges.
+  double edgeChamfer = DistanceFigures::Unknown;
 };
 
 /// What decides how two surfaces are compared.
@@ -41,6 +80,7 @@ struct SurfaceComparison
 {
   DistanceFigures referenceToResult; ///< what the result misses
   DistanceFigures resultToReference; ///< what the result has and the reference has not
+  BothWaysFigures bothWays;
   /// Of the points of each mesh from the other surface, in units of the input; NaN for points that are not
   /// finite.
   std::vector<double> referenceDistances;

@@ -34,8 +34,24 @@ def compare(
         `result_to_reference`, which tells of what it has too much. Each is a dict of floats:
         `mean`, `rms`, `percentile_99` and `maximum` of the distances, in the unit of the input; the
         same with `_percent` behind, in percent of the diagonal of the bounding box of the
-        reference; and `normal_angle`, the mean angle between the normals of both surfaces, in
-        degrees from 0 to 90.
+        reference; `normal_angle`, the mean angle between the normals of both surfaces, in degrees
+        from 0 to 90; `normal_consistency`, the mean of |n . n'| of these normals (Mescheder et al.
+        2019); and, of the sharp edges of the surface from which the direction sets out, where it
+        turns by more than 30 degrees, `edge_length` and the mean distances `edge_mean` from the
+        sharp edges and `edge_to_surface` from the whole of the other surface, these also with
+        `_percent`.
+
+        The key `both_ways` has a dict of what is told of both directions together: `chamfer`, half
+        of the sum of both means (Mescheder et al. 2019); `chamfer_squared`, the sum of both mean
+        squares (Fan et al. 2017); `precision_0_1`, `recall_0_1` and `f_score_0_1`, the parts, 0 to
+        1, of the result and of the reference that are nearer to the other surface than 0.1 % of
+        the diagonal, and their harmonic mean (Knapitsch et al. 2017), and the same with `_0_5` at
+        0.5 %; `hausdorff`, the larger maximum; `normal_angle` and `normal_consistency`, the means
+        of both directions; `edge_chamfer`, half of the sum of both `edge_mean` (after Chen and
+        Zhang 2021). `chamfer`, `hausdorff` and `edge_chamfer` are there with `_percent`, too.
+
+        Distances of edges are NaN where there are none: `edge_to_surface` if the first surface has
+        no sharp edges, `edge_mean` and `edge_chamfer` if one of both has none.
 
     Raises:
         ValueError: A parameter is out of its range, which the message names; or a surface is no
@@ -58,10 +74,12 @@ def compare(
         _world.take_surface(surface, name)
         for name, surface in (("reference", reference), ("result", result))
     ]
-    columns = _world.compare(comparison, *surfaces)
-    if not any(columns.values()):
+    columns, both_ways = _world.compare(comparison, *surfaces)
+    if not both_ways:
         raise ValueError("reference and result are empty")
-    return {
+    figures = {
         direction: {snake_case(name): values[row] for name, values in columns.items()}
         for row, direction in enumerate(_DIRECTIONS)
     }
+    figures["both_ways"] = {snake_case(name): value for name, value in both_ways.items()}
+    return figures

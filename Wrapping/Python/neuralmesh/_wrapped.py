@@ -9,6 +9,7 @@ from typing import Any
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
+from ._both_ways import BOTH_WAYS
 from ._execution import Progress, check_parameters, execute, observed_call
 from ._kinds import as_given
 from ._parameters import snake_case
@@ -86,18 +87,25 @@ def learnt_mesh(stream: NeuralMeshStream, progress: Progress | None, given: obje
 
 def compare(
     comparison: NeuralMeshComparison, reference: vtkPolyData, result: vtkPolyData
-) -> dict[str, list[Any]]:
-    """Columns of a row for each direction; of none where both surfaces are empty."""
+) -> tuple[dict[str, list[Any]], dict[str, float]]:
+    """Columns of a row for each direction, and what is told of both ways; nothing where both surfaces are
+    empty.
+    """
     comparison.SetReferenceData(reference)
     comparison.SetInputData(result)
     execute(comparison)
     table = comparison.GetTableOutput()
     columns = [table.GetColumn(i) for i in range(table.GetNumberOfColumns())]
+    fields = table.GetFieldData()
+    both_ways = {}
+    # VTK passes the field data of the first input along.
+    if columns:
+        both_ways = {name: fields.GetArray(name).GetValue(0) for name in BOTH_WAYS}
     return {
         column.GetName(): [column.GetValue(row) for row in range(table.GetNumberOfRows())]
         for column in columns
         if column.GetName() != "Direction"
-    }
+    }, both_ways
 
 
 def report(mesh: vtkPolyData) -> dict[str, Any]:

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import json
+import math
 from typing import Any, Sequence
 
+from .._parameters import snake_case
 from ..engine.measures import Comparison, NeuralMeshComparison
 from .names import MESHES, read_mesh
 from .parsing import Parser, number_from
@@ -16,7 +18,10 @@ _FIGURES = {
     "mean": "Mean", "rms": "RMS", "percentile_99": "Percentile99", "maximum": "Maximum",
     "mean_percent": "MeanPercent", "rms_percent": "RMSPercent",
     "percentile_99_percent": "Percentile99Percent", "maximum_percent": "MaximumPercent",
-    "normal_angle": "NormalAngle",
+    "normal_angle": "NormalAngle", "normal_consistency": "NormalConsistency",
+    "edge_mean": "EdgeMean", "edge_to_surface": "EdgeToSurface",
+    "edge_mean_percent": "EdgeMeanPercent", "edge_to_surface_percent": "EdgeToSurfacePercent",
+    "edge_length": "EdgeLength",
 }  # fmt: skip
 _LENGTHS = ("Mean", "RMS", "Percentile99", "Maximum")
 _FOOTER = (
@@ -27,6 +32,20 @@ _FOOTER = (
     "maximum, in units of the files and in percent of the diagonal of the reference's bounding\n"
     "box; and the mean angle, 0 to 90 degrees, between the normals at a point and at its nearest\n"
     "point. Nothing is aligned.\n"
+    "\n"
+    "Sharp edges are those where a surface turns by more than 30 degrees. Printed are their length,\n"
+    "and the mean distance of points on them from the sharp edges of the other surface, and from\n"
+    "that surface as a whole; nan where there are none.\n"
+    "\n"
+    "Of both directions together:\n"
+    "  F-score             precision P and recall R are the parts of the result and of the\n"
+    "                      reference that are nearer to the other surface than 0.1 or 0.5 % of the\n"
+    "                      diagonal, the F-score is 2 P R / (P + R) (Knapitsch et al. 2017)\n"
+    "  Chamfer distance    half of the sum of both means (Mescheder et al. 2019); squared: the sum\n"
+    "                      of both mean squares (Fan et al. 2017); of edges: half of the sum of\n"
+    "                      both means between edges (after Chen and Zhang 2021)\n"
+    "  normal consistency  the mean of |n . n'| of the normals, 0 to 1 (Mescheder et al. 2019)\n"
+    "  Hausdorff distance  the larger maximum\n"
     "\nExit status: 0 done, 1 failed (the message is on stderr), 2 wrong use."
 )
 
@@ -48,9 +67,9 @@ def run(arguments: Sequence[str]) -> int:
 
 def _print_json(options: Any, found: Comparison) -> None:
     rows = [
-        {name: found.table[column][row] for name, column in _FIGURES.items()} for row in range(2)
+        {name: _or_null(found.table[column][row]) for name, column in _FIGURES.items()}
+        for row in range(2)
     ]
-    hausdorff = max(found.table["Maximum"])
     report = {
         "reference": options.reference,
         "result": options.result,
@@ -59,11 +78,14 @@ def _print_json(options: Any, found: Comparison) -> None:
         "reference_diagonal": found.diagonal,
         "reference_to_result": rows[0],
         "result_to_reference": rows[1],
-        "hausdorff": hausdorff,
-        "hausdorff_percent": 100.0 * hausdorff / found.diagonal,
-        "normal_angle": sum(found.table["NormalAngle"]) / 2.0,
+        **{snake_case(name): _or_null(figure) for name, figure in found.both_ways.items()},
     }
     print(json.dumps(report, separators=(",", ":"), ensure_ascii=False))
+
+
+def _or_null(figure: float) -> float | None:
+    """JSON has no word for what is no number."""
+    return None if math.isnan(figure) else figure
 
 
 def _print_table(options: Any, found: Comparison) -> None:
@@ -77,10 +99,42 @@ def _print_table(options: Any, found: Comparison) -> None:
         lengths = "".join(f"  {figure:11.5g}" for figure in figures)
         print(f"{title:22}{lengths}  {found.table['NormalAngle'][row]:8.2f} deg")
         print(" " * 22 + "".join(f"  {percent * figure:9.4f} %" for figure in figures))
-    hausdorff = max(found.table["Maximum"])
+    _print_edges(found)
+    _print_both_ways(found)
+
+
+def _print_edges(found: Comparison) -> None:
+    if not any(found.table["EdgeLength"]):
+        print(f"\n{'sharp edges':22}  {'none':>11}")
+        return
+    columns = "  ".join(f"{name:>11}" for name in ("length", "to edges", "to surface"))
+    print(f"\n{'sharp edges':22}  {columns}")
+    for row, title in enumerate(("reference to result", "result to reference")):
+        figures = [found.table[name][row] for name in ("EdgeLength", "EdgeMean", "EdgeToSurface")]
+        print(f"{title:22}" + "".join(f"  {figure:11.5g}" for figure in figures))
+        percent = [100.0 / found.diagonal * figure for figure in figures[1:]]
+        print(" " * 35 + "".join(f"  {figure:9.4f} %" for figure in percent))
+
+
+def _print_both_ways(found: Comparison) -> None:
+    both = found.both_ways
+    print()
+    for name in ("0.1", "0.5"):
+        precision, recall, score = (
+            both[figure + name.replace(".", "_")] for figure in ("Precision", "Recall", "FScore")
+        )
+        print(
+            f"F-score at {name} %: {score:.4f} (precision {precision:.4f}, recall {recall:.4f})"
+        )
     print(
-        f"\nHausdorff distance {hausdorff:.5g} ({100.0 * hausdorff / found.diagonal:.4f} %), mean angle "
-        f"of the normals {sum(found.table['NormalAngle']) / 2.0:.2f} deg"
+        f"Chamfer distance {both['Chamfer']:.5g} ({both['ChamferPercent']:.4f} %), squared "
+        f"{both['ChamferSquared']:.5g}, of sharp edges {both['EdgeChamfer']:.5g} "
+        f"({both['EdgeChamferPercent']:.4f} %)"
+    )
+    print(f"Normal consistency {both['NormalConsistency']:.4f}")
+    print(
+        f"Hausdorff distance {both['Hausdorff']:.5g} ({both['HausdorffPercent']:.4f} %), mean angle "
+        f"of the normals {both['NormalAngle']:.2f} deg"
     )
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from .. import _engine
+from .._both_ways import BOTH_WAYS
 from .._property import Property, new_values, with_properties
 from .._types import Progress
 from .algorithm import of_name
@@ -20,6 +21,7 @@ from .reconstruction import explained_points
 
 DIRECTIONS = ("reference to result", "result to reference")
 _LENGTHS = ("Mean", "RMS", "Percentile99", "Maximum")
+_EDGE_LENGTHS = ("EdgeMean", "EdgeToSurface")
 
 
 class Measure:
@@ -42,6 +44,7 @@ class Comparison:
     """What compares two surfaces."""
 
     table: dict[str, list[float]]  # columns, of a row for each direction
+    both_ways: dict[str, float]
     reference_distances: np.ndarray
     result_distances: np.ndarray
     diagonal: float  # of the reference
@@ -74,9 +77,20 @@ class NeuralMeshComparison(Measure):
         table = {name: [row[name] for row in rows] for name in _LENGTHS}
         for name in _LENGTHS:
             table[name + "Percent"] = [100.0 / diagonal * row[name] for row in rows]
-        table["NormalAngle"] = [row["NormalAngle"] for row in rows]
+        for name in ("NormalAngle", "NormalConsistency", *_EDGE_LENGTHS):
+            table[name] = [row[name] for row in rows]
+        for name in _EDGE_LENGTHS:
+            table[name + "Percent"] = [100.0 / diagonal * row[name] for row in rows]
+        table["EdgeLength"] = [row["EdgeLength"] for row in rows]
+        both = figures["both ways"]
+        for name in ("Chamfer", "Hausdorff", "EdgeChamfer"):
+            both[name + "Percent"] = 100.0 / diagonal * both[name]
         return Comparison(
-            table, figures["reference distances"], figures["result distances"], diagonal
+            table,
+            {name: both[name] for name in BOTH_WAYS},
+            figures["reference distances"],
+            figures["result distances"],
+            diagonal,
         )
 
 

@@ -24,16 +24,21 @@ from .vtk_arrays import field_array, named, table_column, vtk_points
 from .vtk_names import PACKAGE, vtkDataObject, vtkPolyData, vtkTable
 
 
+_THRESHOLDS = ("0_1", "0_5")
+
+
 class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
     """How far a mesh is from a reference, over the surfaces and both ways.
 
     Input port 0 takes the mesh, port 1 the reference. Outputs are both with the point data `Distance`,
-    and a vtkTable of the figures, a row for each direction.
+    and a vtkTable of the figures, a row for each direction; what is told of both directions together is
+    its field data.
     """
 
     _INPUTS = (("vtkPolyData",), ("vtkPolyData",))
     _OUTPUTS = ("vtkPolyData", "vtkPolyData", "vtkTable")
     REFERENCE_TO_RESULT, RESULT_TO_REFERENCE = 0, 1
+    TENTH_PERCENT, HALF_PERCENT = 0, 1
 
     def __init__(self, **properties: Any) -> None:
         vtkEngineAlgorithm.__init__(self)
@@ -62,6 +67,14 @@ class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
             return math.nan
         return self._found.table[name][direction]
 
+    def _of_both_ways(self, name: str) -> float:
+        return self._found.both_ways[name] if self._found is not None else math.nan
+
+    def _score(self, name: str, threshold: int) -> float:
+        if not 0 <= threshold < len(_THRESHOLDS):
+            return math.nan
+        return self._of_both_ways(name + _THRESHOLDS[threshold])
+
     def GetMean(self, direction: int) -> float:
         """A figure of the last run, in units of the input, as the next ones; NaN if there is none."""
         return self._figure("Mean", direction)
@@ -78,9 +91,57 @@ class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
         """The largest distance found."""
         return self._figure("Maximum", direction)
 
-    def GetNormalAngle(self, direction: int) -> float:
-        """Mean angle between normals, in degrees."""
+    def GetNormalAngle(self, direction: int | None = None) -> float:
+        """Mean angle between normals, in degrees; of both directions where none is given."""
+        if direction is None:
+            return self._of_both_ways("NormalAngle")
         return self._figure("NormalAngle", direction)
+
+    def GetNormalConsistency(self, direction: int | None = None) -> float:
+        """Mean of |n . n'| of the normals; of both directions where none is given."""
+        if direction is None:
+            return self._of_both_ways("NormalConsistency")
+        return self._figure("NormalConsistency", direction)
+
+    def GetEdgeLength(self, direction: int) -> float:
+        """Of the sharp edges of the surface from which the direction sets out."""
+        return self._figure("EdgeLength", direction)
+
+    def GetEdgeMean(self, direction: int) -> float:
+        """Mean distance of sharp edges from the nearest ones of the other surface; NaN without any."""
+        return self._figure("EdgeMean", direction)
+
+    def GetEdgeToSurface(self, direction: int) -> float:
+        """Mean distance of sharp edges from the other surface, wherever; NaN without any."""
+        return self._figure("EdgeToSurface", direction)
+
+    def GetChamferDistance(self) -> float:
+        """Half of the sum of both means."""
+        return self._of_both_ways("Chamfer")
+
+    def GetSquaredChamferDistance(self) -> float:
+        """The sum of both mean squares."""
+        return self._of_both_ways("ChamferSquared")
+
+    def GetHausdorffDistance(self) -> float:
+        """The larger maximum."""
+        return self._of_both_ways("Hausdorff")
+
+    def GetPrecision(self, threshold: int) -> float:
+        """Part of the result that is nearer to the reference than 0.1 or 0.5 % of its diagonal."""
+        return self._score("Precision", threshold)
+
+    def GetRecall(self, threshold: int) -> float:
+        """Part of the reference that is nearer to the result than that."""
+        return self._score("Recall", threshold)
+
+    def GetFScore(self, threshold: int) -> float:
+        """The harmonic mean of both."""
+        return self._score("FScore", threshold)
+
+    def GetEdgeChamferDistance(self) -> float:
+        """Half of the sum of both means of the edges; NaN if one of the surfaces has none."""
+        return self._of_both_ways("EdgeChamfer")
 
     def GetReferenceDiagonal(self) -> float:
         """That of the bounding box of the reference, to which percentages refer."""
@@ -112,7 +173,10 @@ class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
             output.GetPointData().AddArray(named(values, "Distance", PACKAGE))
             output.GetPointData().SetActiveScalars("Distance")
         table = {"Direction": list(DIRECTIONS), **found.table}
-        fill_table(vtkTable.GetData(outputs, 2), table)
+        output = vtkTable.GetData(outputs, 2)
+        fill_table(output, table)
+        for name, figure in found.both_ways.items():
+            output.GetFieldData().AddArray(field_array(figure, name, PACKAGE))
         return 1
 
 

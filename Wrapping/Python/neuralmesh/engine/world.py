@@ -125,10 +125,12 @@ def learnt_mesh(stream: NeuralMeshStream, progress: Progress | None, given: obje
 
 def compare(
     comparison: NeuralMeshComparison, reference: Mesh, result: Mesh
-) -> dict[str, list[Any]]:
-    """Columns of a row for each direction; of none where both surfaces are empty."""
+) -> tuple[dict[str, list[Any]], dict[str, float]]:
+    """Columns of a row for each direction, and what is told of both ways; nothing where both surfaces are
+    empty.
+    """
     found = comparison.compare(reference, result)
-    return found.table if found else {}
+    return (found.table, found.both_ways) if found else ({}, {})
 
 
 def explain(
