@@ -89,6 +89,8 @@ private:
 /// Of a triangle beyond a rim, in distances to this side of it: what is closer is no farther beyond, unless the
 /// surface folds by more than 120 degrees.
 constexpr float Reach = 2.f;
+/// Of two triangles that are as close but for rounding, that of the vertex stays.
+constexpr float LeastChange = 0.9999f;
 
 /// A triangle beyond those of the vertex can be closer only where the place lies near their rim, against the
 /// distance: behind an obtuse triangle or a crease.
@@ -129,7 +131,7 @@ PlaceOnMesh closestPlaceAround(Vector4 point, const Mesh& mesh, VertexIndex v)
   for (std::size_t corner = 1; corner < 3 && mayBeBeyond(first, mesh); ++corner)
   {
     const PlaceOnMesh other = closestPlaceAt(point, mesh, first.triangle[corner]);
-    if (other.squaredDistance < best.squaredDistance)
+    if (other.squaredDistance < LeastChange * best.squaredDistance)
     {
       best = other;
     }

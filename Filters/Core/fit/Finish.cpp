@@ -86,7 +86,7 @@ Finish::Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
 bool Finish::run(const Progress& progress)
 {
   const Mesh before = mesh_;
-  FitGuard guard(cloud_, mesh_, executor_);
+  FitGuard guard(cloud_, mesh_, executor_, plan_.residualTo);
   if (!runRounds(plan_.rounds, guard, progress))
   {
     return false;

@@ -39,6 +39,9 @@ struct FinishPlan
 {
   int rounds = 2;                        ///< of the least-squares fit
   Fidelity fidelity = Fidelity::Default; ///< tells how many come after them, and of which kind
+  /// What the residual is measured to that may not grow. Where a mesh is to be simplified, what lies ill on
+  /// thin parts counts.
+  DistanceTo residualTo = DistanceTo::Surface;
   bool keepsPlaces = false; ///< vertices do not go elsewhere: what is known of them is of there
   double smoothness = 0.;   ///< lambda of the fit; 0 = by the noise and the shape
   double samplesPerVertex = 10.; ///< in the fit

@@ -236,7 +236,7 @@ void SmoothnessByRisk::chooseLocally()
   spreadOverRings(localParts_);
   for (float& part : localParts_)
   {
-    part = std::exp(part);
+    part = float(std::exp(double(part)));
   }
 }
 

@@ -185,7 +185,7 @@ void SurfaceFit::relaxCreases(double deviations)
   {
     float& part = smoothnessParts_[v];
     part = limit > 0.f ? std::max(LeastSmoothnessPart, limit / (limit + part)) : 1.f;
-    part = std::pow(part, support[v]);
+    part = 1.f - support[v] * (1.f - part);
     if (!localParts_.empty())
     {
       const float local = localParts_[v];

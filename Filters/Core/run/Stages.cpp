@@ -115,12 +115,13 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
     .vertexCount = std::max(vertexCount, learnt.mesh.vertexCount()) };
   dropPieces(learnt.mesh, parameters.keepPieces);
   const bool isSimplified = plan.vertexCount > vertexCount;
+  plan.residualTo = isSimplified ? DistanceTo::ClosestVertex : DistanceTo::Surface;
   const double endOfFirst = isSimplified ? 0.5 : 1.;
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
   const PointCloud& fitted = once ? *once : cloud;
-  const PointNormals normalOf = hints.normalOf && !fitted.origins().empty()
-    ? [&](std::size_t point) { return directionOf(hints.normalOf(fitted.origins()[point])); }
-    : PointNormals();
+  const PointNormals normalOf = hints.normalOf && !fitted.origins().empty() ? [&](std::size_t point)
+  { return directionOf(hints.normalOf(fitted.origins()[point])); }
+                                                                            : PointNormals();
   Finish finish(fitted, learnt.mesh, plan, executor, normalOf);
   if (!finish.run(partOf(progress, 0., endOfFirst)))
   {
