@@ -112,7 +112,8 @@ CASES
 }
 
 # A clean one, and one that is so noisy that bends cannot be told from it.
-make_cloud 40000
+awk 'BEGIN { srand(1); for (i = 0; i < 40000; ++i) { z = 2 * rand() - 1; r = sqrt(1 - z * z); a = 6.283185 * rand()
+  printf "%.9f %.9f %.9f\n", r * cos(a), r * sin(a), z } }' > cloud.xyz
 awk 'function noise() { return 0.05 * (rand() + rand() + rand() - 1.5) }
   BEGIN { srand(1) } { print $1 + noise(), $2 + noise(), $3 + noise() }' cloud.xyz > noisy.xyz
 "test_$2"
