@@ -177,7 +177,7 @@ TEST(Tuning, RimsStayWhereThereAreGaps)
   CloudOptions options;
   options.count = 40000;
   options.holes = 5;
-  options.holeRadius = 0.1;
+  options.holeRadius = 0.06;
   const PointCloud cloud(sphereCloud(options));
   Parameters wanted = fiveThousand();
   wanted.fidelity = Fidelity::Draft;
