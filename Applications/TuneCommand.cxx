@@ -62,10 +62,10 @@ void PrintJSON(const TuneOptions& options, const neuralmesh::Tuning& tuning)
   nlohmann::ordered_json trials = nlohmann::ordered_json::array();
   for (const auto& trial : tuning.trials)
   {
-    trials.push_back({ { "parameter", trial.parameter },
-      { "before", JSONOf(trial.parameter, trial.before) },
-      { "value", JSONOf(trial.parameter, trial.value) }, { "error", trial.error }, { "gain", trial.gain },
-      { "standard_error", trial.doubt }, { "taken", trial.isTaken } });
+    trials.push_back(
+      { { "parameter", trial.parameter }, { "before", JSONOf(trial.parameter, trial.before) },
+        { "value", JSONOf(trial.parameter, trial.value) }, { "error", trial.error },
+        { "gain", trial.gain }, { "standard_error", trial.doubt }, { "taken", trial.isTaken } });
   }
   const nlohmann::ordered_json report{ { "file", options.Input }, { "vertices", options.Vertices },
     { "chosen", chosen }, { "trials", trials }, { "reasons", tuning.reasons() } };

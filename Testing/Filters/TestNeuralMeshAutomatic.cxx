@@ -42,7 +42,8 @@ int TestNeuralMeshAutomatic(int, char*[])
   vtkStringArray* chosen = Words(filter, "ChosenParameters");
   CHECK(chosen && chosen->GetNumberOfValues() > 0);
   CHECK(Words(filter, "ReasonsOfChoice")->GetNumberOfValues() >= chosen->GetNumberOfValues());
-  CHECK(filter->GetFidelity() == vtkNeuralMesh::DRAFT_FIDELITY && filter->GetFitSmoothness() == 0.0);
+  CHECK(
+    filter->GetFidelity() == vtkNeuralMesh::DRAFT_FIDELITY && filter->GetFitSmoothness() == 0.0);
   CHECK(filter->GetChoiceTime() > 0.0);
 
   vtkNew<vtkNeuralMesh> byHand;

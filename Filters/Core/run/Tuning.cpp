@@ -218,7 +218,8 @@ private:
       const TuningTrial trial{ "Fidelity", double(before), double(fidelity) };
       if (!hasOtherRounds(before, fidelity))
       {
-        result_.remarks.push_back(inWords(trial) + " was not tried, as under noise it does the same");
+        result_.remarks.push_back(
+          inWords(trial) + " was not tried, as under noise it does the same");
         break;
       }
       Parameters tried = result_.parameters;
@@ -239,7 +240,8 @@ private:
   /// Whether there is a patch for which the one does something else than the other.
   bool hasOtherRounds(Fidelity one, Fidelity other) const
   {
-    return std::any_of(smoothness_.begin(), smoothness_.end(), [&](double lambda)
+    return std::any_of(smoothness_.begin(), smoothness_.end(),
+      [&](double lambda)
       { return FidelityRounds::count(one, lambda) != FidelityRounds::count(other, lambda); });
   }
 
