@@ -111,9 +111,9 @@ CASES
   grep -q 'Exit status: 0' out || fail "the help does not tell the exit statuses"
 }
 
-# A clean one that bends everywhere, and one that is so noisy that bends cannot be told from it.
-awk 'BEGIN { srand(1); for (i = 0; i < 100000; ++i) { u = 6.2831853 * rand(); v = 6.2831853 * rand()
-  r = 1 + 0.4 * cos(v); print r * cos(u), r * sin(u), 0.4 * sin(v) } }' > cloud.xyz
+# A clean one, and one that is so noisy that bends cannot be told from it.
+awk 'BEGIN { srand(1); for (i = 0; i < 40000; ++i) { z = 2 * rand() - 1; r = sqrt(1 - z * z); a = 6.283185 * rand()
+  printf "%.9f %.9f %.9f\n", r * cos(a), r * sin(a), z } }' > cloud.xyz
 awk 'function noise() { return 0.05 * (rand() + rand() + rand() - 1.5) }
   BEGIN { srand(1) } { print $1 + noise(), $2 + noise(), $3 + noise() }' cloud.xyz > noisy.xyz
 "test_$2"
