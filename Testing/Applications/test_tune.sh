@@ -57,8 +57,8 @@ test_json()
 # Promise: reconstruct --automatic tells what was chosen, and why.
 test_automatic()
 {
-  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 4500 --automatic --fidelity draft
-  grep -Eq '^chosen +Fidelity=(default|high)' out || { cat out; fail "the choice is not told"; }
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 4500 --automatic
+  grep -Eq '^chosen +Fidelity=high' out || { cat out; fail "the choice is not told"; }
   expect 0 "$neuralmesh" reconstruct noisy.xyz mesh.ply --vertices 4500 --automatic
   grep -Eq '^chosen +CurvatureDensity=0' out || { cat out; fail "the choice is not told"; }
   grep -q 'as bends cannot be told from noise' out || { cat out; fail "the reason is not told"; }

@@ -102,7 +102,7 @@ PlaceOnMesh facingPlace(Vector4 point, const Mesh& mesh, VertexIndex closest, Ve
 {
   if (opposite == NoVertex || !mesh.isAlive(opposite))
   {
-    return closestPlaceAround(point, mesh, closest);
+    return closestPlaceAt(point, mesh, closest);
   }
   const PlaceOnMesh place = closestPlaceOnLayer(point, mesh, closest);
   const PlaceOnMesh other = closestPlaceOnLayer(point, mesh, opposite);

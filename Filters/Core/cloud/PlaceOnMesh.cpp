@@ -141,7 +141,7 @@ PlaceOnMesh closestPlaceAround(Vector4 point, const Mesh& mesh, VertexIndex v)
 
 PlaceOnMesh closestPlace(Vector4 point, const Mesh& mesh, const VertexGrid& grid)
 {
-  return closestPlaceAround(point, mesh, grid.closest(point, mesh.positions()));
+  return closestPlaceAt(point, mesh, grid.closest(point, mesh.positions()));
 }
 
 PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near)
@@ -160,7 +160,7 @@ PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near)
     }
     if (closest == near)
     {
-      return closestPlaceAround(point, mesh, near);
+      return closestPlaceAt(point, mesh, near);
     }
   }
 }

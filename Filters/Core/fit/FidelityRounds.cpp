@@ -61,6 +61,7 @@ bool FidelityRounds::run(Fidelity fidelity, double lambda, bool isFixed, const P
   const int rounds = count(fidelity, lambda);
   const bool sharpens = isClean(lambda);
   lambda_ = sharpens && !isFixed ? PartOnCleanClouds * lambda : lambda;
+  fit_.findExactly();
   fit_.keepBoundaries();
   if (sharpens)
   {

@@ -43,7 +43,7 @@ FitGuard::FitGuard(
   , executor_(executor)
   , to_(to)
   , points_(heldOutPoints(cloud, MostOfGuard))
-  , before_(squaredDistances(cloud, points_, mesh, executor, DistanceTo::ClosestVertex))
+  , before_(squaredDistances(cloud, points_, mesh, executor, to))
   , residual_(residual(squaredDistances(cloud, points_, mesh, executor, to), mesh.meanEdge()))
 {
 }
@@ -56,8 +56,7 @@ bool FitGuard::isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired)
 
 bool FitGuard::losesPoints(const Mesh& mesh, bool isRepaired)
 {
-  return losesPoints(
-    squaredDistances(cloud_, points_, mesh, executor_, DistanceTo::ClosestVertex), isRepaired);
+  return losesPoints(squaredDistances(cloud_, points_, mesh, executor_, to_), isRepaired);
 }
 
 /// Of those that are no outliers.

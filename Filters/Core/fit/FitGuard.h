@@ -32,7 +32,7 @@ class FitGuard
 {
 public:
   /// Of the mesh as it is. Cloud and executor must outlive the guard.
-  /// Residuals are measured to `to`.
+  /// Distances are measured to `to`.
   FitGuard(const PointCloud& cloud, const Mesh& mesh,
     const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::Surface);
 
@@ -50,7 +50,7 @@ private:
   const Executor& executor_;
   DistanceTo to_;
   std::vector<std::size_t> points_;
-  std::vector<float> before_; ///< squared distances, to the triangles of the closest vertex
+  std::vector<float> before_; ///< squared distances
   double residual_ = 0.;
   std::optional<PointSpacing> spacing_; ///< known where it was needed
 };

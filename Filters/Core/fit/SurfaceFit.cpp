@@ -137,6 +137,7 @@ void SurfaceFit::findPlace(std::size_t sample, const VertexGrid& grid)
   if (opposite == NoVertex)
   {
     place = closestPlaceFrom(point, mesh_, place.triangle[0]);
+    place = isExact_ ? closestPlaceAround(point, mesh_, place.triangle[0]) : place;
     return;
   }
   place = closestPlaceOnLayer(point, mesh_, place.triangle[0]);
@@ -410,6 +411,7 @@ void SurfaceFit::follow(const ChangedVertices& changed)
         if (isChanged)
         {
           places_[i] = closestPlaceFrom(samples_[i], mesh_, triangle[0]);
+          places_[i] = closestPlaceAround(samples_[i], mesh_, places_[i].triangle[0]);
         }
       }
     });

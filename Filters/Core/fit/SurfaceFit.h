@@ -72,6 +72,8 @@ public:
   /// From now on the surface slides less below its samples, and vertices keep to where they are where nothing
   /// pulls them: for rounds that come after the places have settled.
   void settle() { isSettled_ = true; }
+  /// From now on places are looked for beyond the triangles of the closest vertex, too.
+  void findExactly() { isExact_ = true; }
   /// From now on the boundaries, and what is next to them, stay where they are.
   void keepBoundaries();
   /// The lambda of the last moveVertices().
@@ -160,6 +162,7 @@ private:
   bool hasPlaces_ = false;
   bool reachesTheEnd_ = false;
   bool isSettled_ = false;
+  bool isExact_ = false;
   std::vector<std::uint8_t>
     isKept_;                    ///< of each vertex, whether it stays where it is; empty: none does
   std::vector<Vector4> shifts_; ///< of samples, at each vertex; empty: none

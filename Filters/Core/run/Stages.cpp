@@ -115,6 +115,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
     .vertexCount = std::max(vertexCount, learnt.mesh.vertexCount()) };
   dropPieces(learnt.mesh, parameters.keepPieces);
   const bool isSimplified = plan.vertexCount > vertexCount;
+  plan.fidelity = isSimplified ? Fidelity::Draft : plan.fidelity;
   plan.residualTo = isSimplified ? DistanceTo::ClosestVertex : DistanceTo::Surface;
   const double endOfFirst = isSimplified ? 0.5 : 1.;
   const std::optional<PointCloud> once = withoutRepetitions(cloud);

@@ -61,7 +61,7 @@ std::vector<std::array<Eigen::Vector3d, 2>> rimOf(const TriangleMesh& mesh)
       rim.push_back({ mesh.points[edge.first], mesh.points[edge.second] });
     }
   }
-  return length;
+  return rim;
 }
 
 /// How far the rim of a mesh has any of its vertices from that of another one.
