@@ -66,6 +66,7 @@ struct ReconstructOptions
   int Topology = DefaultTopology;
   int Boundaries = 0;
   double CloseHolesBelow = 0.0;
+  int Fidelity = 0;
   double KeepPieces = 0.0;
   int Members = 0; ///< of an ensemble; 0 for none
   std::string Jump;
@@ -155,6 +156,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
   }
   filter->SetBoundaries(options.Boundaries);
   filter->SetCloseHolesBelow(options.CloseHolesBelow);
+  filter->SetFidelity(options.Fidelity);
   filter->SetKeepPieces(options.KeepPieces);
   filter->SetComputeFeatureStrength(options.Features);
   filter->SetPreset(options.Preset);
@@ -401,6 +403,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   options->Variant = defaults->GetVariant();
   options->Order = defaults->GetOrder();
   options->Boundaries = defaults->GetBoundaries();
+  options->Fidelity = defaults->GetFidelity();
   options->Preset = defaults->GetPreset();
   options->Automatic = defaults->GetAutomatic();
   options->Features = defaults->GetComputeFeatureStrength();
@@ -425,6 +428,10 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   const std::vector<PropertyWord> boundaries{ { "keep", vtkNeuralMesh::KEEP,
                                                 "the mesh ends where the data ends" },
     { "close", vtkNeuralMesh::CLOSE, "it is watertight" } };
+  const std::vector<PropertyWord> fidelities{ { "draft", vtkNeuralMesh::DRAFT_FIDELITY,
+                                                "the first rounds of the fit alone" },
+    { "default", vtkNeuralMesh::DEFAULT_FIDELITY, "creases, tips and noise, too" },
+    { "high", vtkNeuralMesh::HIGH_FIDELITY, "until hardly anything is gained" } };
 
   CLI::App* command =
     application.add_subcommand("reconstruct", "Make a triangle mesh from a point cloud");
@@ -471,6 +478,8 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   AddShiftOption(command, options->Shift);
   AddChoice(command, "--boundaries", options->Boundaries, boundaries,
     "Gaps in the scan; " + Described(boundaries, options->Boundaries));
+  AddChoice(command, "--fidelity", options->Fidelity, fidelities,
+    "How much is done to come close to the points; " + Described(fidelities, options->Fidelity));
   AddNumber(command, "--close-holes-below", options->CloseHolesBelow, holes,
     "Fill holes whose outline, the sum of its edges, is shorter than LENGTH, in units of INPUT; " +
       Described(holes),
@@ -488,7 +497,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     ->expected(1, CLI::detail::expected_max_vector_size - 1)
     ->allow_extra_args(false);
   command->add_flag("--automatic", options->Automatic,
-    "Choose FitRounds, FitSmoothness and CurvatureDensity for INPUT by some seconds of short runs");
+    "Choose Fidelity, FitSmoothness and CurvatureDensity for INPUT by some seconds of short runs");
   command->add_flag("--features", options->Features,
     "Give each vertex its FeatureStrength, high at edges and corners; OUTPUT must be .vtp or .vtk");
   AddNumber(command, "--time-limit", options->TimeLimit, seconds,

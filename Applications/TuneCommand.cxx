@@ -23,6 +23,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace
 {
@@ -36,19 +37,35 @@ struct TuneOptions
   bool JSON = false;
 };
 
+/** A word where there is one. */
+nlohmann::ordered_json JSONOf(std::string_view parameter, double value)
+{
+  const std::string_view word = neuralmesh::tunedWord(parameter, value);
+  return word.empty() ? nlohmann::ordered_json(value) : nlohmann::ordered_json(word);
+}
+
+std::string TextOf(std::string_view parameter, double value)
+{
+  const std::string_view word = neuralmesh::tunedWord(parameter, value);
+  char number[32];
+  std::snprintf(number, sizeof(number), "%.3g", value);
+  return word.empty() ? number : std::string(word);
+}
+
 void PrintJSON(const TuneOptions& options, const neuralmesh::Tuning& tuning)
 {
   nlohmann::ordered_json chosen = nlohmann::ordered_json::object();
   for (const auto& choice : tuning.choices)
   {
-    chosen[std::string(choice.parameter)] = choice.value;
+    chosen[std::string(choice.parameter)] = JSONOf(choice.parameter, choice.value);
   }
   nlohmann::ordered_json trials = nlohmann::ordered_json::array();
   for (const auto& trial : tuning.trials)
   {
-    trials.push_back({ { "parameter", trial.parameter }, { "before", trial.before },
-      { "value", trial.value }, { "error", trial.error }, { "gain", trial.gain },
-      { "standard_error", trial.doubt }, { "taken", trial.isTaken } });
+    trials.push_back(
+      { { "parameter", trial.parameter }, { "before", JSONOf(trial.parameter, trial.before) },
+        { "value", JSONOf(trial.parameter, trial.value) }, { "error", trial.error },
+        { "gain", trial.gain }, { "standard_error", trial.doubt }, { "taken", trial.isTaken } });
   }
   const nlohmann::ordered_json report{ { "file", options.Input }, { "vertices", options.Vertices },
     { "chosen", chosen }, { "trials", trials }, { "reasons", tuning.reasons() } };
@@ -60,11 +77,11 @@ void Print(const TuneOptions& options, const neuralmesh::Tuning& tuning)
   std::string assignments;
   for (const auto& choice : tuning.choices)
   {
-    std::printf("%-17s %.3g instead of %.3g\n", std::string(choice.parameter).c_str(), choice.value,
-      choice.before);
-    char value[32];
-    std::snprintf(value, sizeof(value), "%.3g", choice.value);
-    assignments += " --set " + std::string(choice.parameter) + "=" + value;
+    const std::string value = TextOf(choice.parameter, choice.value);
+    std::printf("%-17s %s instead of %s\n", std::string(choice.parameter).c_str(), value.c_str(),
+      TextOf(choice.parameter, choice.before).c_str());
+    assignments +=
+      choice.parameter == "Fidelity" ? " --fidelity " + value : " --set " + choice.assignment();
   }
   if (tuning.choices.empty())
   {

@@ -19,7 +19,6 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace
@@ -53,14 +52,6 @@ vtkNew<vtkStringArray> MakeStrings(const char* name, const std::vector<std::stri
     array->InsertNextValue(text);
   }
   return array;
-}
-
-std::string Assignment(const neuralmesh::TuningChoice& choice)
-{
-  std::ostringstream text;
-  text.precision(3);
-  text << choice.parameter << "=" << choice.value;
-  return text.str();
 }
 }
 
@@ -174,7 +165,7 @@ void vtkNeuralMeshReport::AddTuning(const neuralmesh::Tuning& tuning, vtkPolyDat
   chosen->SetName("ChosenParameters");
   for (const auto& choice : tuning.choices)
   {
-    chosen->InsertNextValue(Assignment(choice));
+    chosen->InsertNextValue(choice.assignment());
   }
   output->GetFieldData()->AddArray(chosen);
   output->GetFieldData()->AddArray(MakeStrings("ReasonsOfChoice", tuning.reasons()));
@@ -184,7 +175,7 @@ void vtkNeuralMeshReport::Log(const neuralmesh::Tuning& tuning, vtkObject* filte
 {
   for (const auto& choice : tuning.choices)
   {
-    vtkLog(INFO, << filter->GetClassName() << " has chosen " << Assignment(choice));
+    vtkLog(INFO, << filter->GetClassName() << " has chosen " << choice.assignment());
   }
   for (const std::string& reason : tuning.reasons())
   {

@@ -7,21 +7,34 @@ source "$(dirname "$0")/command_testing.sh"
 # does; it writes nothing.
 test_table()
 {
-  expect 0 "$neuralmesh" tune cloud.xyz --vertices 4500
+  expect 0 "$neuralmesh" tune noisy.xyz --vertices 4500
   grep -Eq '^CurvatureDensity +0 instead of 0.5$' out || { cat out; fail "no choice"; }
   grep -q '^  CurvatureDensity is 0, as bends cannot be told from noise' out || fail "no reason"
-  grep -Eq 'FitRounds 6 instead of 3: .*squares .* (less|more) \(standard error' out ||
+  grep -q '^  Fidelity high instead of default was not tried, as under noise' out ||
+    { cat out; fail "no word of Fidelity"; }
+  check_line noisy.xyz
+  expect 0 "$neuralmesh" tune cloud.xyz --vertices 4500
+  grep -Eq '^Fidelity +high instead of default$' out || { cat out; fail "no choice"; }
+  grep -Eq '^  Fidelity high instead of default: taken, squares .* less \(standard error' out ||
     { cat out; fail "no trial"; }
+  [[ $(tail -n 1 out) = *' --fidelity high'* ]] || { cat out; fail "no --fidelity"; }
+  check_line cloud.xyz
+}
+
+# Of the command line that was printed for a cloud.
+check_line()
+{
   [ ! -s err ] || { cat err; fail "there is something on stderr"; }
-  [ "$(ls)" = "$(printf 'cloud.xyz\nerr\nout')" ] || fail "it wrote something"
+  [ "$(ls)" = "$(printf 'cloud.xyz\nerr\nnoisy.xyz\nout')" ] || fail "it wrote something"
   local line
   line=$(tail -n 1 out)
-  [[ $line = 'neuralmesh reconstruct cloud.xyz OUTPUT '* ]] || fail "no command line at the end"
+  [[ $line = "neuralmesh reconstruct $1 OUTPUT "* ]] || fail "no command line at the end"
   line=${line/#neuralmesh/"$neuralmesh"}
   # Some words.
   expect 0 ${line/OUTPUT/by_hand.ply} --quiet
-  expect 0 "$neuralmesh" reconstruct cloud.xyz automatic.ply --vertices 4500 --automatic --quiet
+  expect 0 "$neuralmesh" reconstruct "$1" automatic.ply --vertices 4500 --automatic --quiet
   cmp by_hand.ply automatic.ply || fail "--automatic gives another mesh than the command line"
+  rm by_hand.ply automatic.ply
 }
 
 # Promise: --json prints one object with choices, trials and reasons.
@@ -30,16 +43,23 @@ test_json()
   expect 0 "$neuralmesh" tune cloud.xyz --vertices 4500 --json
   python3 -c 'import json; print(json.dumps(json.load(open("out"))))' > line && mv line out
   json 'lines[0]["file"] == "cloud.xyz" and lines[0]["vertices"] == 4500'
+  json 'lines[0]["chosen"]["Fidelity"] == "high"'
+  json 'all(trial["error"] > 0 and trial["standard_error"] > 0 for trial in lines[0]["trials"])'
+  json 'lines[0]["trials"][0]["parameter"] == "Fidelity" and lines[0]["trials"][0]["value"] == "high"'
+  json 'lines[0]["trials"][0]["before"] == "default"'
+  json 'len(lines[0]["reasons"]) >= len(lines[0]["trials"])'
+  expect 0 "$neuralmesh" tune noisy.xyz --vertices 4500 --json
+  python3 -c 'import json; print(json.dumps(json.load(open("out"))))' > line && mv line out
   json 'lines[0]["chosen"]["CurvatureDensity"] == 0'
   json 'all(trial["error"] > 0 and trial["standard_error"] > 0 for trial in lines[0]["trials"])'
-  json 'lines[0]["trials"][0]["parameter"] == "FitRounds" and lines[0]["trials"][0]["value"] == 6'
-  json 'len(lines[0]["reasons"]) >= len(lines[0]["trials"])'
 }
 
 # Promise: reconstruct --automatic tells what was chosen, and why.
 test_automatic()
 {
   expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 4500 --automatic
+  grep -Eq '^chosen +Fidelity=high' out || { cat out; fail "the choice is not told"; }
+  expect 0 "$neuralmesh" reconstruct noisy.xyz mesh.ply --vertices 4500 --automatic
   grep -Eq '^chosen +CurvatureDensity=0' out || { cat out; fail "the choice is not told"; }
   grep -q 'as bends cannot be told from noise' out || { cat out; fail "the reason is not told"; }
   expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 4500
@@ -50,12 +70,12 @@ test_automatic()
 # points in one place, of which there may be any number.
 test_coincident()
 {
-  awk '{ print NR % 3 ? $0 : "0.3 0.2 0.1" } NR % 2 { print "0.5 0.5 0.5" }' cloud.xyz > spots.xyz
+  awk '{ print NR % 3 ? $0 : "0.3 0.2 0.1" } NR % 2 { print "0.5 0.5 0.5" }' noisy.xyz > spots.xyz
   expect 0 "$neuralmesh" tune spots.xyz --vertices 20000 --threads 1
   cp out first
   expect 0 "$neuralmesh" tune spots.xyz --vertices 20000 --threads 3
   cmp out first || fail "threads change the choice"
-  awk '{ print NR % 2 ? "1 2 3" : "3 2 1" }' cloud.xyz > two.xyz
+  awk '{ print NR % 2 ? "1 2 3" : "3 2 1" }' noisy.xyz > two.xyz
   expect 0 "$neuralmesh" tune two.xyz
   grep -q 'too few points' out || { cat out; fail "not the reason"; }
 }
@@ -91,9 +111,9 @@ CASES
   grep -q 'Exit status: 0' out || fail "the help does not tell the exit statuses"
 }
 
-# So noisy that there is something to choose.
-make_cloud 40000
+# A clean one, and one that is so noisy that bends cannot be told from it.
+awk 'BEGIN { srand(1); for (i = 0; i < 40000; ++i) { z = 2 * rand() - 1; r = sqrt(1 - z * z); a = 6.283185 * rand()
+  printf "%.9f %.9f %.9f\n", r * cos(a), r * sin(a), z } }' > cloud.xyz
 awk 'function noise() { return 0.05 * (rand() + rand() + rand() - 1.5) }
   BEGIN { srand(1) } { print $1 + noise(), $2 + noise(), $3 + noise() }' cloud.xyz > noisy.xyz
-mv noisy.xyz cloud.xyz
 "test_$2"

@@ -31,7 +31,7 @@ int TestNeuralMeshAutomatic(int, char*[])
   vtkNew<vtkNeuralMesh> filter;
   filter->SetInputData(cloud);
   filter->SetNumberOfVertices(4500);
-  filter->SetFitRounds(1); // too few
+  filter->SetFidelityToDraft(); // too little
   CHECK(!filter->GetAutomatic());
   filter->Update();
   CHECK(!Words(filter, "ChosenParameters") && !Words(filter, "ReasonsOfChoice"));
@@ -42,30 +42,33 @@ int TestNeuralMeshAutomatic(int, char*[])
   vtkStringArray* chosen = Words(filter, "ChosenParameters");
   CHECK(chosen && chosen->GetNumberOfValues() > 0);
   CHECK(Words(filter, "ReasonsOfChoice")->GetNumberOfValues() >= chosen->GetNumberOfValues());
-  CHECK(filter->GetFitRounds() == 1 && filter->GetFitSmoothness() == 0.0);
+  CHECK(
+    filter->GetFidelity() == vtkNeuralMesh::DRAFT_FIDELITY && filter->GetFitSmoothness() == 0.0);
   CHECK(filter->GetChoiceTime() > 0.0);
 
   vtkNew<vtkNeuralMesh> byHand;
   byHand->SetInputData(cloud);
   byHand->SetNumberOfVertices(4500);
-  byHand->SetFitRounds(1);
+  byHand->SetFidelityToDraft();
   for (vtkIdType i = 0; i < chosen->GetNumberOfValues(); ++i)
   {
     const std::string text = chosen->GetValue(i);
     const std::string name = text.substr(0, text.find('='));
-    const double value = std::stod(text.substr(text.find('=') + 1));
-    if (name == "FitRounds")
+    const std::string value = text.substr(text.find('=') + 1);
+    if (name == "Fidelity")
     {
-      byHand->SetFitRounds(static_cast<int>(value));
+      CHECK(value == "default" || value == "high");
+      byHand->SetFidelity(
+        value == "high" ? vtkNeuralMesh::HIGH_FIDELITY : vtkNeuralMesh::DEFAULT_FIDELITY);
     }
     else if (name == "FitSmoothness")
     {
-      byHand->SetFitSmoothness(value);
+      byHand->SetFitSmoothness(std::stod(value));
     }
     else
     {
       CHECK(name == "CurvatureDensity");
-      byHand->SetCurvatureDensity(value);
+      byHand->SetCurvatureDensity(std::stod(value));
     }
   }
   byHand->Update();

@@ -314,7 +314,7 @@ class Panel(unittest.TestCase):
 
     # Promise: few properties are shown at first, and those are the ones that most people need.
     def test_advanced(self):
-        most = {"NumberOfVertices", "Variant", "Seed", "TimeLimit", "Boundaries",
+        most = {"NumberOfVertices", "Variant", "Seed", "TimeLimit", "Boundaries", "Fidelity",
                 "TopologyLearning", "CarryPointData", "GrowthAsTime", "Automatic"}
         for name, wanted in (
             ("NeuralMesh", most),

@@ -20,7 +20,7 @@ def main():
     assert information.GetNumberOfPoints() == 1000, information.GetNumberOfPoints()
     assert information.GetNumberOfCells() == 1996, information.GetNumberOfCells()
     # What the panel shows comes from the same list.
-    assert mesh.FitRounds == 3 and mesh.Variant == "Noise Filtering", (mesh.FitRounds, mesh.Variant)
+    assert mesh.FitRounds == 2 and mesh.Variant == "Noise Filtering", (mesh.FitRounds, mesh.Variant)
     ensemble = simple.NeuralMeshEnsemble(Input=scan, NumberOfVertices=500, NumberOfMembers=2)
     ensemble.UpdatePipeline()
     assert ensemble.GetDataInformation().GetNumberOfPoints() == 500

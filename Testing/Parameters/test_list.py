@@ -170,8 +170,9 @@ class BadLists(ListTest):
             with self.subTest(message):
                 self.check_refused(content, message)
         content = copy.deepcopy(GOOD)
-        content["choices"][-2]["values"][0]["name"] = "Exact"
-        entry_of(content, content["choices"][-2]["name"])["default"] = "Exact"
+        start = next(choice for choice in content["choices"] if choice["name"] == "Start")
+        start["values"][0]["name"] = "Exact"
+        entry_of(content, "Start")["default"] = "Exact"
         self.check_refused(content, "choices: EXACT is the constant of two values")
         content = copy.deepcopy(GOOD)
         content["choices"][0]["values"][0]["words"] = "b"

@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace nb = nanobind;
@@ -18,14 +17,6 @@ namespace neuralmesh::binding
 namespace
 {
 std::string textOf(std::string_view text) { return std::string(text); }
-
-std::string assignment(const TuningChoice& choice)
-{
-  std::ostringstream text;
-  text.precision(3);
-  text << choice.parameter << "=" << choice.value;
-  return text.str();
-}
 }
 
 nb::dict meshOf(const TriangleMesh& mesh, bool isDouble)
@@ -119,7 +110,7 @@ void addTuning(const Tuning& tuning, nb::dict& fields)
   std::vector<std::string> chosen;
   for (const TuningChoice& choice : tuning.choices)
   {
-    chosen.push_back(assignment(choice));
+    chosen.push_back(choice.assignment());
   }
   fields["ChosenParameters"] = chosen;
   fields["ReasonsOfChoice"] = tuning.reasons();
@@ -130,7 +121,7 @@ std::vector<std::string> textsOf(const Tuning& tuning)
   std::vector<std::string> texts;
   for (const TuningChoice& choice : tuning.choices)
   {
-    texts.push_back("has chosen " + assignment(choice));
+    texts.push_back("has chosen " + choice.assignment());
   }
   const std::vector<std::string> reasons = tuning.reasons();
   texts.insert(texts.end(), reasons.begin(), reasons.end());

@@ -12,6 +12,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace nb = nanobind;
 
@@ -19,12 +20,19 @@ namespace neuralmesh::binding
 {
 namespace
 {
+/// A word where there is one.
+nb::object objectOf(std::string_view parameter, double value)
+{
+  const std::string_view word = tunedWord(parameter, value);
+  return word.empty() ? nb::object(nb::float_(value)) : nb::str(word.data(), word.size());
+}
+
 nb::dict dictOf(const TuningChoice& choice)
 {
   nb::dict result;
   result["parameter"] = std::string(choice.parameter);
-  result["before"] = choice.before;
-  result["value"] = choice.value;
+  result["before"] = objectOf(choice.parameter, choice.before);
+  result["value"] = objectOf(choice.parameter, choice.value);
   return result;
 }
 
@@ -32,8 +40,8 @@ nb::dict dictOf(const TuningTrial& trial)
 {
   nb::dict result;
   result["parameter"] = std::string(trial.parameter);
-  result["before"] = trial.before;
-  result["value"] = trial.value;
+  result["before"] = objectOf(trial.parameter, trial.before);
+  result["value"] = objectOf(trial.parameter, trial.value);
   result["error"] = trial.error;
   result["gain"] = trial.gain;
   result["standard_error"] = trial.doubt;

@@ -28,6 +28,6 @@ PlaceOnMesh closestPlaceOnLayer(Vector4 point, const Mesh& mesh, VertexIndex nea
 
 /// The place on the layer that faces the point: the closer one of the place near `closest`, the closest
 /// vertex, and of that near `opposite`, a vertex of the other layer. If `opposite` is NoVertex, or erased,
-/// that on the triangles of `closest`.
+/// that around `closest`.
 PlaceOnMesh facingPlace(Vector4 point, const Mesh& mesh, VertexIndex closest, VertexIndex opposite);
 }

@@ -85,6 +85,22 @@ private:
   float c_ = 0.f;
   unsigned slot_ = 0;
 };
+
+/// Of a triangle beyond a rim, in distances to this side of it: what is closer is no farther beyond, unless the
+/// surface folds by more than 120 degrees.
+constexpr float Reach = 2.f;
+/// Of two triangles that are as close but for rounding, that of the vertex stays.
+constexpr float LeastChange = 0.9999f;
+
+/// A triangle beyond those of the vertex can be closer only where the place lies near their rim, against the
+/// distance: behind an obtuse triangle or a crease.
+bool mayBeBeyond(const PlaceOnMesh& place, const Mesh& mesh)
+{
+  const Vector4 rim = mesh.position(place.triangle[2]) - mesh.position(place.triangle[1]);
+  const float height = squaredNorm(normalAt(place, mesh.positions()));
+  const float reach = Reach * Reach * place.squaredDistance;
+  return reach * squaredNorm(rim) >= place.weights[0] * place.weights[0] * height;
+}
 }
 
 PlaceOnMesh closestPlaceAt(Vector4 point, const Mesh& mesh, VertexIndex v)
@@ -106,6 +122,21 @@ PlaceOnMesh closestPlaceAt(Vector4 point, const Mesh& mesh, VertexIndex v)
     Vector4(1.f - closest.b() - closest.c(), closest.b(), closest.c()), 0.f };
   place.squaredDistance = squaredNorm(point - pointAt(place, mesh.positions()));
   return place;
+}
+
+PlaceOnMesh closestPlaceAround(Vector4 point, const Mesh& mesh, VertexIndex v)
+{
+  const PlaceOnMesh first = closestPlaceAt(point, mesh, v);
+  PlaceOnMesh best = first;
+  for (std::size_t corner = 1; corner < 3 && mayBeBeyond(first, mesh); ++corner)
+  {
+    const PlaceOnMesh other = closestPlaceAt(point, mesh, first.triangle[corner]);
+    if (other.squaredDistance < LeastChange * best.squaredDistance)
+    {
+      best = other;
+    }
+  }
+  return best;
 }
 
 PlaceOnMesh closestPlace(Vector4 point, const Mesh& mesh, const VertexGrid& grid)

@@ -27,6 +27,9 @@ PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near);
 /// The same, on the triangles of this vertex.
 PlaceOnMesh closestPlaceAt(Vector4 point, const Mesh& mesh, VertexIndex v);
 
+/// The same, and on those of its neighbours where the closest may be there.
+PlaceOnMesh closestPlaceAround(Vector4 point, const Mesh& mesh, VertexIndex v);
+
 /// Whether the place lies on the boundary.
 bool isOnBoundary(const PlaceOnMesh& place, const Mesh& mesh);
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace neuralmesh
 {
@@ -14,7 +15,12 @@ template <typename Number>
 std::string shortestText(Number number)
 {
   std::array<char, 64> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+  // Without an exponent where VTK writes none.
+  const Number size = std::abs(number);
+  const auto format = size == 0 || (size >= Number(1e-6) && size < Number(1e21))
+    ? std::chars_format::fixed
+    : std::chars_format::scientific;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, format).ptr;
   return { digits.data(), end };
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/Finish.h"
 
+#include "fit/FidelityRounds.h"
 #include "mesh/BoundaryFilling.h"
 #include "mesh/CrossingRemoval.h"
 #include "mesh/EdgeFlips.h"
@@ -20,6 +21,10 @@ namespace
 /// Defects, at most, that are taken away if nothing else helps: so many, or that part of the triangles.
 constexpr std::size_t MostTakenAway = 200;
 constexpr double MostPartTakenAway = 0.02;
+/// Of the time, if more rounds come after them.
+constexpr double PartOfFirstRounds = 0.4;
+/// For them.
+constexpr double LeastSamplesPerVertex = 1.5;
 /// Of triangles, see removeSlivers().
 constexpr float LeastQuality = 0.1f;
 /// To take slivers away; each leaves more of them.
@@ -68,29 +73,35 @@ VertexIndex nearestToCollapseInto(const Mesh& mesh, VertexIndex v)
 }
 }
 
-Finish::Finish(
-  const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan, const Executor& executor)
+Finish::Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
+  const Executor& executor, PointNormals normalOf)
   : cloud_(cloud)
   , mesh_(mesh)
   , plan_(plan)
   , executor_(executor)
+  , normalOf_(std::move(normalOf))
 {
 }
 
 bool Finish::run(const Progress& progress)
 {
   const Mesh before = mesh_;
-  FitGuard guard(cloud_, mesh_, executor_);
+  FitGuard guard(cloud_, mesh_, executor_, plan_.residualTo);
   if (!runRounds(plan_.rounds, guard, progress))
   {
     return false;
   }
   const Progress untilLater = partOf(progress, 1., 1.);
-  for (int rounds = plan_.rounds - 1; rounds >= 0 && isWorseThan(before, guard); --rounds)
+  // Those of the fidelity are taken back first, all together.
+  const bool hadMore = plan_.rounds > 0 && report_.fidelityRounds > 0;
+  const int most = plan_.rounds + report_.fidelityRounds;
+  for (int rounds = plan_.rounds - (hadMore ? 0 : 1); rounds >= 0 && isWorseThan(before, guard);
+       --rounds)
   {
     mesh_ = before;
     report_ = FinishReport{};
-    report_.roundsTakenBack = plan_.rounds - rounds;
+    report_.roundsTakenBack = most - rounds;
+    plan_.fidelity = Fidelity::Draft;
     if (!runRounds(rounds, guard, untilLater))
     {
       return false;
@@ -118,11 +129,17 @@ bool Finish::isWorseThan(const Mesh& before, FitGuard& guard) const
 }
 
 /// So many rounds of the fit, and what goes with them.
-bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
+bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
 {
   const auto samples = std::size_t(plan_.samplesPerVertex * double(plan_.vertexCount));
+  // With fewer samples, more rounds would follow single ones.
+  const bool areEnough = double(std::min(samples, cloud_.points().size())) >
+    LeastSamplesPerVertex * double(plan_.vertexCount);
+  const bool hasMore = rounds > 0 && areEnough && plan_.fidelity != Fidelity::Draft;
+  const double endOfFirst = hasMore ? PartOfFirstRounds : 1.;
+  const Progress progress = partOf(report, 0., endOfFirst);
   std::optional<SurfaceFit> surfaceFit;
-  const auto beginAnew = [&] { surfaceFit.emplace(cloud_, mesh_, samples, executor_); };
+  const auto beginAnew = [&] { surfaceFit.emplace(cloud_, mesh_, samples, executor_, normalOf_); };
   const auto refineAll = [&](double at)
   {
     const bool isDone = refine(mesh_, plan_.vertexCount, partOf(progress, at, at));
@@ -171,7 +188,11 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& progress)
       flipEdges(mesh_);
     }
   }
-  if (!repair(*surfaceFit, guard, partOf(progress, 1., 1.)))
+  if (hasMore && !improve(*surfaceFit, partOf(report, endOfFirst, 1.)))
+  {
+    return false;
+  }
+  if (!repair(*surfaceFit, guard, partOf(report, 1., 1.)))
   {
     return false;
   }
@@ -328,6 +349,23 @@ bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& prog
   report_.smoothness = surfaceFit.smoothness();
   report_.outlierShare = surfaceFit.outlierShare();
   report_.heldVertices += surfaceFit.heldCount();
+  return true;
+}
+
+/// The rounds that come after the first ones.
+bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
+{
+  report_.fidelityRounds = FidelityRounds::count(plan_.fidelity, report_.smoothness);
+  FidelityRounds rounds(mesh_, surfaceFit, plan_.vertexCount, plan_.keepsPlaces);
+  if (!rounds.run(plan_.fidelity, report_.smoothness, plan_.smoothness > 0., progress))
+  {
+    return false;
+  }
+  report_.noise = surfaceFit.noise();
+  report_.smoothness = rounds.lambda();
+  report_.outlierShare = surfaceFit.outlierShare();
+  report_.heldVertices += rounds.heldVertices();
+  report_.shareBetweenLayers = surfaceFit.shareBetweenLayers();
   return true;
 }
 

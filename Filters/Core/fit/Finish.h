@@ -5,6 +5,7 @@
 #include "base/Progress.h"
 #include "cloud/PointCloud.h"
 #include "fit/DataGaps.h"
+#include "fit/FidelityRounds.h"
 #include "fit/FitGuard.h"
 #include "fit/IntersectionRepair.h"
 #include "fit/SurfaceFit.h"
@@ -27,6 +28,7 @@ struct FinishReport
   /// Rounds of the fit that were taken back, as with them the mesh had a worse residual or coverage
   /// than at first, or more intersections; see FitGuard.h.
   int roundsTakenBack = 0;
+  int fidelityRounds = 0; ///< rounds that came after those of the plan
   std::size_t heldVertices =
     0; ///< that rounds have left where they were, so that no samples were lost
   double shareBetweenLayers = 0.; ///< see SurfaceFit::shareBetweenLayers(), after the last round
@@ -35,8 +37,13 @@ struct FinishReport
 /// What is to be done with a mesh once it is learnt.
 struct FinishPlan
 {
-  int rounds = 3;                ///< of the least-squares fit
-  double smoothness = 0.;        ///< lambda of the fit; 0 = by the noise and the shape
+  int rounds = 2;                        ///< of the least-squares fit
+  Fidelity fidelity = Fidelity::Default; ///< tells how many come after them, and of which kind
+  /// What the residual is measured to that may not grow. Where a mesh is to be simplified, what lies ill on
+  /// thin parts counts.
+  DistanceTo residualTo = DistanceTo::Surface;
+  bool keepsPlaces = false; ///< vertices do not go elsewhere: what is known of them is of there
+  double smoothness = 0.;   ///< lambda of the fit; 0 = by the noise and the shape
   double samplesPerVertex = 10.; ///< in the fit
   std::optional<GapPlan> gaps;   ///< nothing: none is opened or closed
   double closedOutline =
@@ -50,8 +57,9 @@ struct FinishPlan
 class Finish
 {
 public:
+  /// `normalOf` gives the normal that came with a point of the cloud, if there are some.
   Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
-    const Executor& executor = Executor::sequential());
+    const Executor& executor = Executor::sequential(), PointNormals normalOf = {});
 
   /// Returns false if it was ended before its end; then the mesh is valid all the same.
   bool run(const Progress& progress);
@@ -63,6 +71,7 @@ private:
   bool isWorseThan(const Mesh& before, FitGuard& guard) const;
   bool fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   bool openGaps(const SurfaceFit& surfaceFit);
+  bool improve(SurfaceFit& surfaceFit, const Progress& progress);
   bool closeHoles();
   void dropShrunkPieces();
   void takeSliversAway(FitGuard& guard);
@@ -76,6 +85,7 @@ private:
   Mesh& mesh_;
   FinishPlan plan_;
   const Executor& executor_;
+  PointNormals normalOf_;
   FinishReport report_;
 };
 }

@@ -37,24 +37,26 @@ double median(std::vector<float> squared)
 }
 }
 
-FitGuard::FitGuard(const PointCloud& cloud, const Mesh& mesh, const Executor& executor)
+FitGuard::FitGuard(
+  const PointCloud& cloud, const Mesh& mesh, const Executor& executor, DistanceTo to)
   : cloud_(cloud)
   , executor_(executor)
+  , to_(to)
   , points_(heldOutPoints(cloud, MostOfGuard))
-  , before_(squaredDistances(cloud, points_, mesh, executor))
-  , residual_(residual(before_, mesh.meanEdge()))
+  , before_(squaredDistances(cloud, points_, mesh, executor, to))
+  , residual_(residual(squaredDistances(cloud, points_, mesh, executor, to), mesh.meanEdge()))
 {
 }
 
 bool FitGuard::isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired)
 {
-  const std::vector<float> after = squaredDistances(cloud_, points_, mesh, executor_);
-  return hasGrown(after, mesh.meanEdge(), rule) || losesPoints(after, isRepaired);
+  return hasGrown(squaredDistances(cloud_, points_, mesh, executor_, to_), mesh.meanEdge(), rule) ||
+    losesPoints(mesh, isRepaired);
 }
 
 bool FitGuard::losesPoints(const Mesh& mesh, bool isRepaired)
 {
-  return losesPoints(squaredDistances(cloud_, points_, mesh, executor_), isRepaired);
+  return losesPoints(squaredDistances(cloud_, points_, mesh, executor_, to_), isRepaired);
 }
 
 /// Of those that are no outliers.

@@ -3,6 +3,7 @@
 
 #include "base/Executor.h"
 #include "cloud/PointCloud.h"
+#include "fit/HeldOutPoints.h"
 #include "fit/PointSpacing.h"
 #include "mesh/Mesh.h"
 
@@ -31,8 +32,9 @@ class FitGuard
 {
 public:
   /// Of the mesh as it is. Cloud and executor must outlive the guard.
-  FitGuard(
-    const PointCloud& cloud, const Mesh& mesh, const Executor& executor = Executor::sequential());
+  /// Distances are measured to `to`.
+  FitGuard(const PointCloud& cloud, const Mesh& mesh,
+    const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::Surface);
 
   /// Whether `mesh` is worse than the mesh was at first.
   bool isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired = false);
@@ -46,6 +48,7 @@ private:
 
   const PointCloud& cloud_;
   const Executor& executor_;
+  DistanceTo to_;
   std::vector<std::size_t> points_;
   std::vector<float> before_; ///< squared distances
   double residual_ = 0.;

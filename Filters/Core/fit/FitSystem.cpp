@@ -68,6 +68,27 @@ void FitSystem::add(
   }
 }
 
+void FitSystem::addNormal(
+  const PlaceOnMesh& place, Vector4 unitNormal, float weight, const Rows& rows)
+{
+  const Block metric{ weight * (unitNormal * unitNormal),
+    weight * (unitNormal * rotated(unitNormal)) };
+  for (unsigned i = 0; i < 3; ++i)
+  {
+    const VertexIndex v = place.triangle[i];
+    if (!rows.has(v))
+    {
+      continue;
+    }
+    diagonal_[v] += 2.f * metric;
+    const Ring& ring = mesh_.ring(v);
+    for (const unsigned j : { (i + 1) % 3, (i + 2) % 3 })
+    {
+      others_[rowBegin_[v] + ring.find(place.triangle[j])] += -1.f * metric;
+    }
+  }
+}
+
 void FitSystem::applyLaplacian(std::span<const Vector4> x, std::span<Vector4> result) const
 {
   executor_.forEachRange(x.size(), RowsPerRange,
@@ -95,9 +116,9 @@ void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vecto
     [&](std::size_t begin, std::size_t end)
     {
       applyUmbrella<float>(mesh_, x, laplacian, begin, end);
-      for (auto v = VertexIndex(begin); v < end && onBoundary < 1.f; ++v)
+      for (auto v = VertexIndex(begin); v < end && (onBoundary < 1.f || !parts_.empty()); ++v)
       {
-        laplacian[v] = mesh_.isBoundary(v) ? onBoundary * laplacian[v] : laplacian[v];
+        laplacian[v] = smoothnessPart(v, onBoundary) * laplacian[v];
       }
     });
   const auto applyRow = [&](VertexIndex v)
@@ -136,7 +157,7 @@ std::vector<FitSystem::Block> FitSystem::inverseDiagonal(double lambda) const
 {
   std::vector<Block> result = diagonal_;
   const float onBoundary = boundaryPart(lambda);
-  const auto part = [&](VertexIndex v) { return mesh_.isBoundary(v) ? onBoundary : 1.f; };
+  const auto part = [&](VertexIndex v) { return smoothnessPart(v, onBoundary); };
   const auto invert = [&](VertexIndex v)
   {
     float squares = part(v);

@@ -45,6 +45,20 @@ public:
   void add(
     const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight, const Rows& rows);
 
+  /// Pulls the edges of a triangle, on which a place is, into a plane with this normal, of length 1 or 0.
+  void addNormal(const PlaceOnMesh& place, Vector4 unitNormal, float weight, const Rows& rows);
+  /// Pulls a vertex to a position.
+  void addAnchor(VertexIndex v, Vector4 position, float weight)
+  {
+    diagonal_[v].diagonal += Vector4(weight, weight, weight);
+    rightSide_[v] += weight * position;
+  }
+  /// Lambda counts so much of itself at each vertex; without any, all of it.
+  void setSmoothnessParts(std::span<const float> parts)
+  {
+    parts_.assign(parts.begin(), parts.end());
+  }
+
   /// Improves `x` until the residual is `tolerance` times `scale`, which is raised first to the
   /// residual of the given `x`. Returns false if it was ended before.
   bool solve(double lambda, double tolerance, double& scale, std::span<Vector4> x,
@@ -76,6 +90,11 @@ private:
 
   void apply(double lambda, std::span<const Vector4> x, std::span<Vector4> laplacian,
     std::span<Vector4> result) const;
+  /// Of lambda, for a vertex.
+  float smoothnessPart(VertexIndex v, float onBoundary) const
+  {
+    return mesh_.isBoundary(v) ? onBoundary : parts_.empty() ? 1.f : parts_[v];
+  }
   /// Of lambda, for the vertices on boundaries.
   static float boundaryPart(double lambda);
   std::vector<Block> inverseDiagonal(double lambda) const;
@@ -89,6 +108,7 @@ private:
   std::vector<Block> diagonal_;
   std::vector<Block> others_; ///< for each slot of the ring of each vertex
   std::vector<Vector4> rightSide_;
+  std::vector<float> parts_;        ///< of lambda; empty: all 1
   std::vector<float> innerWeights_; ///< umbrella weights at inner vertices; 0 at others
 };
 }

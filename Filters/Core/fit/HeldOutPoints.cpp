@@ -27,7 +27,7 @@ std::vector<std::size_t> heldOutPoints(const PointCloud& cloud, std::size_t most
 }
 
 std::vector<float> squaredDistances(const PointCloud& cloud, const std::vector<std::size_t>& points,
-  const Mesh& mesh, const Executor& executor)
+  const Mesh& mesh, const Executor& executor, DistanceTo to)
 {
   const VertexGrid grid = gridOf(mesh, cloud);
   std::vector<float> result(points.size());
@@ -36,7 +36,12 @@ std::vector<float> squaredDistances(const PointCloud& cloud, const std::vector<s
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        result[i] = closestPlace(cloud.points()[points[i]], mesh, grid).squaredDistance;
+        const Vector4 point = cloud.points()[points[i]];
+        const VertexIndex closest = grid.closest(point, mesh.positions());
+        const PlaceOnMesh place = to == DistanceTo::Surface
+          ? closestPlaceAround(point, mesh, closest)
+          : closestPlaceAt(point, mesh, closest);
+        result[i] = place.squaredDistance;
       }
     });
   return result;

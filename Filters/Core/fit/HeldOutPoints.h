@@ -18,7 +18,15 @@ constexpr std::size_t HeldOutStride = 20;
 /// that none is.
 std::vector<std::size_t> heldOutPoints(const PointCloud& cloud, std::size_t most);
 
+/// What of a mesh a distance is to.
+enum class DistanceTo
+{
+  Surface,
+  ClosestVertex ///< its triangles alone: where another is closer, the mesh lies ill there
+};
+
 /// The squared distance of each of these points to the mesh, of which no vertex may be erased.
 std::vector<float> squaredDistances(const PointCloud& cloud, const std::vector<std::size_t>& points,
-  const Mesh& mesh, const Executor& executor = Executor::sequential());
+  const Mesh& mesh, const Executor& executor = Executor::sequential(),
+  DistanceTo to = DistanceTo::Surface);
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -14,6 +15,13 @@ namespace
 {
 /// What a distance along the surface counts, against one across it.
 constexpr double Slip = 0.01;
+constexpr double SettledSlip = 0.001;
+/// What it counts, then, that a vertex moves, against a sample.
+constexpr float AnchorWeight = 0.01f;
+/// ... and of a vertex that is to stay.
+constexpr float WeightOfKept = 1e4f;
+/// Around a boundary that is kept.
+constexpr int KeptRings = 2;
 /// In the first round samples are no outliers up to so many edges: the mesh does not fit yet.
 constexpr float FirstOutlierEdges = 1.f;
 constexpr float LaterOutlierEdges = 0.5f;
@@ -24,18 +32,6 @@ constexpr float OutlierSpacings = 3.f;
 constexpr std::size_t SamplesPerAbortCheck = 65536;
 /// Of the residual of the equations, against the largest at the start of a round.
 constexpr double Tolerance = 1e-3;
-
-// Where samples would be lost
-/// Beyond so many median distances, and distances between samples around it, a sample is lost. Points
-/// whose own neighbours are three times their usual distance away count as missed; samples are told
-/// earlier.
-constexpr float LostMedians = 10.f;
-constexpr float LostSpacings = 2.5f;
-/// A vertex stays if more than this part of the samples around it would be lost, and, where samples are
-/// not sparse, more than so many: single ones are outliers to which the mesh has been drawn.
-constexpr float LeastLostPart = 0.05f;
-constexpr float LeastLost = 2.f;
-constexpr int MostHolds = 4;
 
 // Where the mesh lies between layers
 /// So many samples tell it; by their mean distance over the root mean square, which is 0.80 with noise, 0.87
@@ -59,8 +55,8 @@ constexpr double RetreatOfEmpty = 0.5;
 constexpr double PartOfChoice = 0.6;
 }
 
-SurfaceFit::SurfaceFit(
-  const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount, const Executor& executor)
+SurfaceFit::SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount,
+  const Executor& executor, const PointNormals& normalOf)
   : cloud_(cloud)
   , mesh_(mesh)
   , executor_(executor)
@@ -69,17 +65,24 @@ SurfaceFit::SurfaceFit(
   const std::size_t fitted = all - all / HeldOutStride;
   const std::size_t count = std::min(fitted, sampleCount);
   samples_.reserve(count);
+  std::vector<Vector4> normals;
+  normals.reserve(normalOf ? count : 0);
   for (std::size_t i = 0; i < count; ++i)
   {
     const std::size_t chosen = i * fitted / count;
     // One is passed over behind each group of those that are fitted.
     const std::size_t point = chosen + chosen / (HeldOutStride - 1);
     samples_.push_back(cloud.points()[point]);
+    if (normalOf)
+    {
+      normals.push_back(normalOf(point));
+    }
     if (!cloud.weights().empty())
     {
       weights_.push_back(cloud.weights()[point]);
     }
   }
+  normals_ = GivenNormals(std::move(normals));
   places_.resize(count);
   isUsed_.resize(count);
 }
@@ -114,7 +117,6 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   medianDistance_ = std::sqrt(medianOf(distances, executor_));
   outlierDistance_ = neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(), edges);
   chooseUsed(edges);
-  fillSystem();
   return true;
 }
 
@@ -135,6 +137,7 @@ void SurfaceFit::findPlace(std::size_t sample, const VertexGrid& grid)
   if (opposite == NoVertex)
   {
     place = closestPlaceFrom(point, mesh_, place.triangle[0]);
+    place = isExact_ ? closestPlaceAround(point, mesh_, place.triangle[0]) : place;
     return;
   }
   place = closestPlaceOnLayer(point, mesh_, place.triangle[0]);
@@ -165,10 +168,43 @@ void SurfaceFit::chooseUsed(float edges)
     });
 }
 
+void SurfaceFit::keepBoundaries()
+{
+  if (!mesh_.isOpen())
+  {
+    return;
+  }
+  isKept_.assign(mesh_.indexEnd(), 0);
+  for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
+  {
+    isKept_[v] = mesh_.isBoundary(v) ? 1 : 0;
+  }
+  for (int ring = 0; ring < KeptRings; ++ring)
+  {
+    const std::vector<std::uint8_t> before = isKept_;
+    for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
+    {
+      for (const VertexIndex neighbor : mesh_.ring(v))
+      {
+        isKept_[v] = isKept_[v] | before[neighbor];
+      }
+    }
+  }
+}
+
 void SurfaceFit::fillSystem()
 {
   // Anew, as edges may have been flipped.
-  system_.emplace(mesh_, Slip, executor_);
+  system_.emplace(mesh_, isSettled_ ? SettledSlip : Slip, executor_);
+  system_->setSmoothnessParts(smoothnessParts_);
+  for (VertexIndex v = 0; v < mesh_.indexEnd() && (isSettled_ || !isKept_.empty()); ++v)
+  {
+    const bool isKept = !isKept_.empty() && isKept_[v] != 0;
+    system_->addAnchor(v, mesh_.position(v),
+      isKept         ? WeightOfKept
+        : isSettled_ ? AnchorWeight
+                     : 0.f);
+  }
   forEachRows([this](const FitSystem::Rows& rows) { fillRows(rows); });
   usedCount_ = std::size_t(executor_.sum(
     places_.size(), SamplesPerRange, [this](std::size_t i) { return isUsed(i) ? 1. : 0.; }));
@@ -223,7 +259,11 @@ void SurfaceFit::fillRows(const FitSystem::Rows& rows)
       }
       else
       {
-        system_->add(place, samples_[i], normal, weight(i), rows);
+        system_->add(place, shifted(i), normal, weight(i), rows);
+        if (normalWeight_ > 0.)
+        {
+          system_->addNormal(place, normals_.at(i), float(normalWeight_) * weight(i), rows);
+        }
       }
     }
   }
@@ -296,89 +336,13 @@ void SurfaceFit::pullBoundariesIn()
   }
 }
 
-/// Whether the mesh was near to a sample, and is not now.
-bool SurfaceFit::isLost(std::size_t sample, float squaredBefore) const
-{
-  const PlaceOnMesh& place = places_[sample];
-  const float toPlace = squaredNorm(samples_[sample] - pointAt(place, mesh_.positions()));
-  const float usual = LostMedians * medianDistance_;
-  // Most are still near to the same place: only the others are looked for.
-  if (squaredBefore < 0.f || toPlace <= usual * usual)
-  {
-    return false;
-  }
-  const float limit = std::max(usual, LostSpacings * spacing_->samplesAt(place));
-  const auto isBeyond = [limit](float squared) { return squared > limit * limit; };
-  return !isBeyond(squaredBefore) && isBeyond(toPlace) &&
-    isBeyond(closestPlaceFrom(samples_[sample], mesh_, place.triangle[0]).squaredDistance);
-}
-
-/// The vertices around which samples are lost. `squaredBefore(i)` is the distance of sample i if that
-/// was used, else less than 0.
-template <typename Distance>
-std::vector<std::uint8_t> SurfaceFit::lostPlaces(const Distance& squaredBefore) const
-{
-  std::vector<std::uint8_t> lostSamples(samples_.size());
-  executor_.forEachRange(samples_.size(), SamplesPerRange,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        lostSamples[i] = isLost(i, squaredBefore(i)) ? 1 : 0;
-      }
-    });
-  std::vector<std::uint8_t> result(mesh_.indexEnd());
-  if (std::find(lostSamples.begin(), lostSamples.end(), 1) == lostSamples.end())
-  {
-    return result;
-  }
-  std::vector<float> all(mesh_.indexEnd()), lost(mesh_.indexEnd());
-  for (std::size_t i = 0; i < samples_.size(); ++i)
-  {
-    for (const VertexIndex v : places_[i].triangle)
-    {
-      all[v] += squaredBefore(i) >= 0.f ? 1.f : 0.f;
-      lost[v] += float(lostSamples[i]);
-    }
-  }
-  const float sparse = SparseSpacings * spacing_->usual();
-  for (VertexIndex v = 0; v < result.size(); ++v)
-  {
-    const float least = spacing_->samplesAt(v) > sparse
-      ? LeastLostPart * all[v]
-      : std::max(LeastLost, LeastLostPart * all[v]);
-    result[v] = lost[v] > least ? 1 : 0;
-  }
-  return result;
-}
-
-/// Vertices around which samples are lost go back.
-template <typename Distance>
-std::size_t SurfaceFit::hold(std::span<const Vector4> before, const Distance& squaredBefore)
-{
-  std::size_t held = 0;
-  for (int i = 0; i < MostHolds; ++i)
-  {
-    const std::vector<std::uint8_t> isLostAt = lostPlaces(squaredBefore);
-    const std::size_t heldBefore = held;
-    for (VertexIndex v = 0; v < before.size(); ++v)
-    {
-      if (isLostAt[v] != 0 && squaredNorm(mesh_.position(v) - before[v]) > 0.f)
-      {
-        mesh_.setPosition(v, before[v]);
-        ++held;
-      }
-    }
-    if (held == heldBefore)
-    {
-      break;
-    }
-  }
-  return held;
-}
-
 bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
 {
+  fillSystem();
+  if (!spacing_)
+  {
+    spacing_.emplace(mesh_, places_);
+  }
   smoothness_ = lambda;
   const double choice = lambda > 0. ? 0. : PartOfChoice;
   if (lambda <= 0. && !chooseSmoothness(partOf(progress, 0., choice)))
@@ -396,29 +360,75 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
   {
     mesh_.setPosition(v, positions[v]);
   }
-  heldCount_ =
-    hold(before, [this](std::size_t i) { return isUsed(i) ? places_[i].squaredDistance : -1.f; });
+  heldCount_ = holdLost(before);
   return true;
 }
 
-std::size_t SurfaceFit::holdAgainst(const Mesh& before)
+void SurfaceFit::follow(const ChangedVertices& changed)
 {
-  std::vector<float> squaredBefore(samples_.size(), -1.f);
-  const auto hasMoved = [&](VertexIndex v)
-  { return squaredNorm(mesh_.position(v) - before.position(v)) > 0.f; };
-  executor_.forEachRange(samples_.size(), SamplesPerRange,
+  if (!changed.any)
+  {
+    return;
+  }
+  std::vector<VertexIndex> newOf(mesh_.indexEnd());
+  for (VertexIndex v = 0; v < newOf.size(); ++v)
+  {
+    newOf[v] = changed.alive(mesh_, v);
+  }
+  const std::vector<VertexIndex> oldOf = mesh_.dropErased();
+  std::vector<VertexIndex> place(newOf.size());
+  std::vector<VertexIndex> opposite(oldOf.size());
+  const std::vector<std::uint8_t> wasKept = isKept_;
+  isKept_.resize(isKept_.empty() ? 0 : oldOf.size());
+  for (VertexIndex v = 0; v < oldOf.size(); ++v)
+  {
+    place[oldOf[v]] = v;
+  }
+  for (VertexIndex& v : newOf)
+  {
+    v = place[v];
+  }
+  for (VertexIndex v = 0; v < oldOf.size(); ++v)
+  {
+    VertexIndex old = oldOf[v];
+    while (old >= opposite_.size())
+    {
+      old = changed.heir[old];
+    }
+    opposite[v] = opposite_[old] == NoVertex ? NoVertex : newOf[opposite_[old]];
+  }
+  opposite_ = std::move(opposite);
+  executor_.forEachRange(places_.size(), SamplesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        const Triangle& triangle = places_[i].triangle;
-        if (isUsed(i) && std::any_of(triangle.begin(), triangle.end(), hasMoved))
+        Triangle& triangle = places_[i].triangle;
+        const bool isChanged = std::any_of(triangle.begin(), triangle.end(),
+          [&](VertexIndex v) { return changed.isTouched[v] != 0; });
+        std::transform(triangle.begin(), triangle.end(), triangle.begin(),
+          [&](VertexIndex v) { return newOf[v]; });
+        if (isChanged)
         {
-          squaredBefore[i] = closestPlaceFrom(samples_[i], before, triangle[0]).squaredDistance;
+          places_[i] = closestPlaceFrom(samples_[i], mesh_, triangle[0]);
+          places_[i] = closestPlaceAround(samples_[i], mesh_, places_[i].triangle[0]);
         }
       }
     });
-  return hold(before.positions(), [&](std::size_t i) { return squaredBefore[i]; });
+  for (VertexIndex v = 0; v < oldOf.size() && !isKept_.empty(); ++v)
+  {
+    const bool isNew = oldOf[v] >= wasKept.size();
+    isKept_[v] = isNew ? 0 : wasKept[oldOf[v]];
+  }
+  spacing_.reset();
+  smoothnessParts_.clear();
+  shifts_.clear();
+  localParts_.clear();
+}
+
+double SurfaceFit::variance() const
+{
+  return double(medianDistance_) * double(medianDistance_) / MedianOfSquares;
 }
 
 double SurfaceFit::distanceEvenness() const

@@ -5,9 +5,12 @@
 #include "base/Progress.h"
 #include "cloud/PlaceOnMesh.h"
 #include "cloud/PointCloud.h"
+#include "fit/ChangedVertices.h"
 #include "fit/FitSystem.h"
+#include "fit/GivenNormals.h"
 #include "fit/HeldOutPoints.h"
 #include "fit/LocalSpacing.h"
+#include "fit/TriangleSamples.h"
 #include "mesh/Mesh.h"
 
 #include <cstddef>
@@ -35,9 +38,10 @@ public:
   static constexpr double CleanSmoothness = 0.2;
 
   /// Takes so many points of the cloud, evenly picked but for those held out, as samples. No vertex
-  /// may be erased. Cloud, mesh and executor must outlive the fit.
+  /// may be erased. `normalOf` gives the normal that came with a point of the cloud, if there are some. Cloud,
+  /// mesh and executor must outlive the fit.
   SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount,
-    const Executor& executor = Executor::sequential());
+    const Executor& executor = Executor::sequential(), const PointNormals& normalOf = {});
 
   /// From now on a round brings boundaries all the way to the end of the samples, not half of it. Not before
   /// holes are filled in which there are samples: their sides would run into each other.
@@ -50,6 +54,28 @@ public:
   /// around them would be lost: farther from the mesh than some distances between samples, though
   /// they were closer. Returns false, and moves none, if it was ended before.
   bool moveVertices(double lambda, const Progress& progress);
+  /// Follows a change of the mesh since findPlaces(): indices of erased vertices are given up, and samples on
+  /// what has changed get new places near by.
+  void follow(const ChangedVertices& changed);
+  /// Vertices at creases, where the surface bends more sharply than usual by some `deviations`, are held less
+  /// smooth from the next moveVertices() on, but for those with few samples. With 0 all are held alike.
+  void relaxCreases(double deviations);
+  /// From the next moveVertices() on, samples count as moved against what noise of this variance does where the
+  /// surface bends: more of it lies on the outer side there. The bends are those of the mesh as it is.
+  void shiftAgainstNoise(double variance);
+  /// From the next moveVertices() on the surface turns to the normals that came with the samples, as far as they
+  /// are to be trusted, for samples whose distances have this variance.
+  void turnToNormals(double variance);
+  /// Chooses lambda by the risk of the surface that it gives, with places as they are, and how much of it
+  /// counts at each vertex; goes down from `first`. Returns false if it was ended before.
+  bool chooseSmoothnessByRisk(double first, const Progress& progress);
+  /// From now on the surface slides less below its samples, and vertices keep to where they are where nothing
+  /// pulls them: for rounds that come after the places have settled.
+  void settle() { isSettled_ = true; }
+  /// From now on places are looked for beyond the triangles of the closest vertex, too.
+  void findExactly() { isExact_ = true; }
+  /// From now on the boundaries, and what is next to them, stay where they are.
+  void keepBoundaries();
   /// The lambda of the last moveVertices().
   double smoothness() const { return smoothness_; }
 
@@ -75,24 +101,24 @@ public:
   double shareBetweenLayers() const;
   /// Of the samples to the mesh.
   float medianDistance() const { return medianDistance_; }
+  /// Of the samples about the surface, by their median distance.
+  double variance() const;
   /// Of the samples, at the last findPlaces().
   std::span<const PlaceOnMesh> places() const { return places_; }
+  PlacedSamples placedSamples() const { return { samples_, places_, isUsed_, weights_ }; }
 
 private:
   // Parts for the executor.
   static constexpr std::size_t SamplesPerRange = 1024;
   static constexpr std::size_t VerticesPerRange = 4096;
+  /// Median of the square of a Gaussian variable, against its variance.
+  static constexpr double MedianOfSquares = 0.455;
 
   bool isUsed(std::size_t sample) const { return isUsed_[sample] != 0; }
   float weight(std::size_t sample) const { return weights_.empty() ? 1.f : weights_[sample]; }
   void findPlace(std::size_t sample, const VertexGrid& grid);
   /// Tells outliers by how far samples are from each other around their places.
   void chooseUsed(float edges);
-  bool isLost(std::size_t sample, float squaredBefore) const;
-  template <typename Distance>
-  std::vector<std::uint8_t> lostPlaces(const Distance& squaredBefore) const;
-  template <typename Distance>
-  std::size_t hold(std::span<const Vector4> before, const Distance& squaredBefore);
   void fillSystem();
   template <typename Body>
   void forEachRows(const Body& body) const;
@@ -100,8 +126,23 @@ private:
   Vector4 beyondBoundary(
     const Vector4& sample, const PlaceOnMesh& place, const Vector4& normal) const;
   void pullBoundariesIn();
+  // In SurfaceFitHold.cpp
+  bool isLost(std::size_t sample, float squaredBefore) const;
+  template <typename Distance>
+  std::vector<std::uint8_t> lostPlaces(const Distance& squaredBefore) const;
+  template <typename Distance>
+  std::size_t hold(std::span<const Vector4> before, const Distance& squaredBefore);
+  std::size_t holdLost(std::span<const Vector4> before);
   // In SurfaceFitSmoothness.cpp
   bool chooseSmoothness(const Progress& progress);
+  std::vector<float> squaredBends(std::span<const Vector4> positions) const;
+  std::vector<float> supports() const;
+  /// A sample, moved against what noise does.
+  Vector4 shifted(std::size_t sample) const
+  {
+    return shifts_.empty() ? samples_[sample]
+                           : samples_[sample] + pointAt(places_[sample], shifts_);
+  }
   double meanSquaredDistance() const;
   double residualVariance(std::span<const Vector4> positions, double lambda) const;
   double roughness(std::span<const Vector4> positions) const;
@@ -111,6 +152,8 @@ private:
   const Executor& executor_;
   std::optional<FitSystem> system_;
   std::vector<Vector4> samples_;
+  GivenNormals normals_;
+  double normalWeight_ = 0.;
   std::vector<float> weights_; ///< of the samples; empty if all weigh alike
   std::vector<PlaceOnMesh> places_;
   /// Of the samples, those that are no outliers, and have not switched to the other side of a thin part.
@@ -118,6 +161,13 @@ private:
   std::vector<VertexIndex> opposite_; ///< of each vertex, see OppositeLayer.h
   bool hasPlaces_ = false;
   bool reachesTheEnd_ = false;
+  bool isSettled_ = false;
+  bool isExact_ = false;
+  std::vector<std::uint8_t>
+    isKept_;                    ///< of each vertex, whether it stays where it is; empty: none does
+  std::vector<Vector4> shifts_; ///< of samples, at each vertex; empty: none
+  std::vector<float> localParts_;       ///< by the risk, likewise
+  std::vector<float> smoothnessParts_;  ///< of lambda, for each vertex; empty: all 1
   std::optional<LocalSpacing> spacing_; ///< at the last findPlaces()
   std::size_t usedCount_ = 0;
   std::size_t heldCount_ = 0;

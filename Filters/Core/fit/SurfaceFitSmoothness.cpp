@@ -2,8 +2,13 @@
 // How smooth the surface is to be: the choice of lambda.
 #include "fit/SurfaceFit.h"
 
+#include "base/Median.h"
+#include "fit/SmoothnessByRisk.h"
+#include "mesh/UmbrellaLaplacian.h"
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -22,6 +27,14 @@ constexpr double MostGrowthByNoise = 2.;
 constexpr double PartIfShrunk = 0.1;
 /// Of the residual of the equations, against that at the start.
 constexpr double ToleranceOfChoice = 1e-2;
+/// Where the surface bends most, this part of lambda is left.
+constexpr float LeastSmoothnessPart = 0.02f;
+/// Bends that are usual are no less than this part of the mean: elsewhere all may be flat.
+constexpr double LeastPartOfMeanBend = 0.001;
+/// A vertex with this part of the samples that others rest on has enough of them.
+constexpr float EnoughSupport = 0.5f;
+/// Shifts against noise are averaged over so many rings.
+constexpr int RingsOfShifts = 2;
 }
 
 /// With Gaussian noise of variance s^2 and a surface whose L x has the variance r^2 across it, the
@@ -77,7 +90,7 @@ double SurfaceFit::residualVariance(std::span<const Vector4> positions, double l
       return 0.;
     }
     const Vector4 normal = normalAt(place, positions);
-    const Vector4 offset = samples_[i] - positions[place.triangle[0]];
+    const Vector4 offset = shifted(i) - positions[place.triangle[0]];
     const float across = dot(offset, normal);
     const float squared = squaredNorm(normal);
     const float distance = squared > 0.f ? across * across / squared : squaredNorm(offset);
@@ -97,11 +110,18 @@ double SurfaceFit::residualVariance(std::span<const Vector4> positions, double l
 
 double SurfaceFit::roughness(std::span<const Vector4> positions) const
 {
-  std::vector<Vector4> laplacian(positions.size());
-  system_->applyLaplacian(positions, laplacian);
-  const auto squaredAcross = [&](std::size_t vertex)
+  const std::vector<float> bends = squaredBends(positions);
+  return executor_.sum(
+           bends.size(), VerticesPerRange, [&](std::size_t v) { return double(bends[v]); }) /
+    double(bends.size());
+}
+
+/// Of L x, what is across the surface, for each vertex.
+std::vector<float> SurfaceFit::squaredBends(std::span<const Vector4> positions) const
+{
+  std::vector<float> result(positions.size());
+  const auto bendAt = [&](VertexIndex v)
   {
-    const auto v = VertexIndex(vertex);
     const Ring& ring = mesh_.ring(v);
     Vector4 normal;
     for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
@@ -109,11 +129,134 @@ double SurfaceFit::roughness(std::span<const Vector4> positions) const
       normal += cross(
         positions[ring[slot]] - positions[v], positions[ring[ring.after(slot)]] - positions[v]);
     }
-    const float across = dot(laplacian[v], normal);
+    const float across = dot(umbrella<float>(mesh_, positions, v), normal);
     const float squared = squaredNorm(normal);
-    return squared > 0.f ? double(across * across / squared) : 0.;
+    return squared > 0.f ? across * across / squared : 0.f;
   };
-  return executor_.sum(positions.size(), VerticesPerRange, squaredAcross) /
-    double(positions.size());
+  executor_.forEachRange(positions.size(), VerticesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        result[v] = bendAt(v);
+      }
+    });
+  return result;
+}
+
+/// How many of the samples each vertex rests on, against half of what is usual, but at most 1.
+std::vector<float> SurfaceFit::supports() const
+{
+  std::vector<float> result(mesh_.indexEnd());
+  double sum = 0.;
+  for (std::size_t i = 0; i < places_.size(); ++i)
+  {
+    for (int corner = 0; corner < 3 && isUsed(i); ++corner)
+    {
+      const float square = weight(i) * places_[i].weights[corner] * places_[i].weights[corner];
+      result[places_[i].triangle[std::size_t(corner)]] += square;
+      sum += double(square);
+    }
+  }
+  const float enough = EnoughSupport * float(sum / double(result.size()));
+  for (float& support : result)
+  {
+    support = enough > 0.f ? std::min(1.f, support / enough) : 1.f;
+  }
+  return result;
+}
+
+void SurfaceFit::relaxCreases(double deviations)
+{
+  smoothnessParts_.clear();
+  if (!(deviations > 0.))
+  {
+    return;
+  }
+  smoothnessParts_ = squaredBends(mesh_.positions());
+  const double mean = executor_.sum(smoothnessParts_.size(), VerticesPerRange,
+                        [&](std::size_t v) { return double(smoothnessParts_[v]); }) /
+    double(smoothnessParts_.size());
+  const double usual = std::max(
+    double(medianOf(smoothnessParts_, executor_)) / MedianOfSquares, LeastPartOfMeanBend * mean);
+  const auto limit = float(deviations * deviations * usual);
+  const std::vector<float> support = supports();
+  for (std::size_t v = 0; v < smoothnessParts_.size(); ++v)
+  {
+    float& part = smoothnessParts_[v];
+    part = limit > 0.f ? std::max(LeastSmoothnessPart, limit / (limit + part)) : 1.f;
+    part = 1.f - support[v] * (1.f - part);
+    if (!localParts_.empty())
+    {
+      const float local = localParts_[v];
+      part = local > 1.f ? part * local : std::min(part, local);
+    }
+  }
+}
+bool SurfaceFit::chooseSmoothnessByRisk(double first, const Progress& progress)
+{
+  fillSystem();
+  std::vector<Vector4> points(samples_.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[i] = shifted(i);
+  }
+  SmoothnessByRisk choice(
+    mesh_, *system_, { points, places_, isUsed_, weights_ }, smoothnessParts_, executor_);
+  if (!choice.run(first, progress))
+  {
+    return false;
+  }
+  smoothness_ = choice.lambda();
+  localParts_ = choice.localParts();
+  return true;
+}
+
+void SurfaceFit::turnToNormals(double variance)
+{
+  normalWeight_ = normals_.any() ? normals_.weight(mesh_, placedSamples(), variance) : 0.;
+}
+
+/// Where the surface has the mean curvature H, the expectation of isotropic noise of the variance s^2 lies
+/// s^2 H on its outer side; L x across the surface is e^2 H / 2 for edges of the length e.
+void SurfaceFit::shiftAgainstNoise(double variance)
+{
+  const auto positions = mesh_.positions();
+  const auto shiftAt = [&](VertexIndex v)
+  {
+    const Vector4 normal = mesh_.normal(v);
+    const float squared = squaredNorm(normal);
+    float edges = 0.f;
+    for (const VertexIndex neighbor : mesh_.ring(v))
+    {
+      edges += squaredNorm(positions[neighbor] - positions[v]);
+    }
+    edges /= float(mesh_.valence(v));
+    if (mesh_.isBoundary(v) || !(squared * edges > 0.f))
+    {
+      return Vector4();
+    }
+    const float across = dot(umbrella<float>(mesh_, positions, v), normal);
+    return float(2. * variance) * across / (squared * edges) * normal;
+  };
+  std::vector<Vector4> shifts(positions.size()), next(positions.size());
+  for (VertexIndex v = 0; v < positions.size(); ++v)
+  {
+    shifts[v] = shiftAt(v);
+  }
+  for (int ring = 0; ring < RingsOfShifts; ++ring)
+  {
+    for (VertexIndex v = 0; v < positions.size(); ++v)
+    {
+      Vector4 sum = shifts[v];
+      for (const VertexIndex neighbor : mesh_.ring(v))
+      {
+        sum += shifts[neighbor];
+      }
+      next[v] = 1.f / float(1 + mesh_.valence(v)) * sum;
+    }
+    shifts.swap(next);
+  }
+  shifts_ = std::move(shifts);
 }
 }

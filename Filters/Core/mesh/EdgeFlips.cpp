@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/EdgeFlips.h"
 
+#include "mesh/TriangleShape.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,21 +18,6 @@ constexpr float CosineOfRim = -0.5f;
 constexpr float SquaredHeightOfSliver = 1e-6f;
 constexpr int MaximumPasses = 4;
 
-/// By how much a flip of a-b to c-d lowers the sum of squared excesses of valence.
-int valenceGain(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
-{
-  return 2 *
-    (mesh.valenceExcess(a) + mesh.valenceExcess(b) - mesh.valenceExcess(c) -
-      mesh.valenceExcess(d)) -
-    4;
-}
-
-float cosine(Vector4 a, Vector4 b)
-{
-  const float lengths = std::sqrt(squaredNorm(a) * squaredNorm(b));
-  return lengths > 0.f ? dot(a, b) / lengths : -1.f;
-}
-
 bool keepsShape(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
 {
   const Vector4 pa = mesh.position(a), pb = mesh.position(b);
@@ -39,7 +26,7 @@ bool keepsShape(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, V
   const Vector4 new1 = cross(pd - pa, pc - pa), new2 = cross(pc - pb, pd - pb);
   const Vector4 old = old1 + old2;
   return dot(new1, old) > 0.f && dot(new2, old) > 0.f &&
-    cosine(new1, new2) >= std::min(CosineOfBend, cosine(old1, old2));
+    cosineBetween(new1, new2) >= std::min(CosineOfBend, cosineBetween(old1, old2));
 }
 
 /// Whether a-b is the rim at which two sheets lie back to back, and c-d is shorter. Such sheets
@@ -53,7 +40,7 @@ bool isRimOfSheets(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c
   const float length = squaredNorm(pb - pa);
   const float sliver = SquaredHeightOfSliver * length * length;
   return squaredNorm(pd - pc) < length && squaredNorm(normal1) > sliver &&
-    squaredNorm(normal2) > sliver && cosine(normal1, normal2) < CosineOfRim;
+    squaredNorm(normal2) > sliver && cosineBetween(normal1, normal2) < CosineOfRim;
 }
 
 bool isMoreRegular(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
@@ -86,6 +73,14 @@ bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims)
   mesh.flip(a, b);
   return true;
 }
+}
+
+int valenceGain(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
+{
+  return 2 *
+    (mesh.valenceExcess(a) + mesh.valenceExcess(b) - mesh.valenceExcess(c) -
+      mesh.valenceExcess(d)) -
+    4;
 }
 
 bool flipIfMoreRegular(Mesh& mesh, VertexIndex a, VertexIndex b)

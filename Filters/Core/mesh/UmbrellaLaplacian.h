@@ -21,6 +21,23 @@ Real umbrellaWeight(const Ring& ring, VertexIndex neighbor)
   return ring.front() == neighbor || ring.back() == neighbor ? Real(0.5) : Real(0);
 }
 
+/// L x at a vertex.
+template <typename Real, typename Value>
+Value umbrella(const Mesh& mesh, std::span<const Value> x, VertexIndex v)
+{
+  const Ring& ring = mesh.ring(v);
+  if (ring.isOpen())
+  {
+    return Real(0.5) * (x[ring.front()] + x[ring.back()]) - x[v];
+  }
+  Value sum = x[ring.front()];
+  for (unsigned slot = 1; slot < ring.size(); ++slot)
+  {
+    sum += x[ring[slot]];
+  }
+  return Real(1) / Real(ring.size()) * sum - x[v];
+}
+
 /// L x, for the vertices from `begin` to before `end`.
 template <typename Real, typename Value>
 void applyUmbrella(const Mesh& mesh, std::span<const Value> x, std::span<Value> result,
@@ -28,18 +45,7 @@ void applyUmbrella(const Mesh& mesh, std::span<const Value> x, std::span<Value> 
 {
   for (auto v = VertexIndex(begin); v < end; ++v)
   {
-    const Ring& ring = mesh.ring(v);
-    if (ring.isOpen())
-    {
-      result[v] = Real(0.5) * (x[ring.front()] + x[ring.back()]) - x[v];
-      continue;
-    }
-    Value sum = x[ring.front()];
-    for (unsigned slot = 1; slot < ring.size(); ++slot)
-    {
-      sum += x[ring[slot]];
-    }
-    result[v] = Real(1) / Real(ring.size()) * sum - x[v];
+    result[v] = umbrella<Real>(mesh, x, v);
   }
 }
 }

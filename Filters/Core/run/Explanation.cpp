@@ -136,6 +136,7 @@ public:
   VertexSupport result(double points) const
   {
     VertexSupport support;
+    support.pointsPerAsked = points;
     support.weights.resize(weights_.size());
     support.residuals.resize(weights_.size());
     for (std::size_t v = 0; v < weights_.size(); ++v)

@@ -56,6 +56,8 @@ struct VertexSupport
     weights; ///< of the points of the cloud, about: 1 for each where all weigh alike
   /// Root of the mean squared distance of these points, in units of the input; NaN where there are none.
   std::vector<double> residuals;
+  /// Of the cloud, for each that was asked; what is told of less is chance.
+  double pointsPerAsked = 1.;
 };
 
 /// What a mesh leaves of a cloud. A point is away from the mesh if it is farther than three of its own

@@ -104,7 +104,7 @@ Reconstruction learnAndFinish(std::uint64_t leastLearnt, const PointCloud& input
           parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
         return finishing(fraction) && !isTimeOver;
       },
-      executor);
+      executor, hints);
     if (!result.finish)
     {
       result.stopReason = isCancelled ? StopReason::Cancelled : StopReason::TimeLimit;
@@ -122,7 +122,7 @@ Reconstruction learnAndFinish(std::uint64_t leastLearnt, const PointCloud& input
     explainPoints(
       input, cleaned ? &*cleaned : nullptr, requested.keepPieces, explainsAll, result, executor);
   }
-  result.warnings = warningsOf(result, input);
+  result.warnings = warningsOf(result, input, requested);
   result.times.leave();
   return result;
 }

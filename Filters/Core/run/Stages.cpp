@@ -37,6 +37,13 @@ std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& l
   }
   return result;
 }
+
+/// Of length 1; 0 if it tells nothing.
+Vector4 directionOf(const Eigen::Vector3d& vector)
+{
+  const double length = vector.stableNorm();
+  return length > 0. && vector.allFinite() ? Vector4(Eigen::Vector3d(vector / length)) : Vector4();
+}
 }
 
 Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Progress& progress,
@@ -96,9 +103,11 @@ StopReason learn(Learner& learner, StoppingRules& rules, const Parameters& param
 
 std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Parameters& parameters, const std::optional<GapPlan>& gaps, std::size_t vertexCount,
-  const Progress& progress, const Executor& executor)
+  const Progress& progress, const Executor& executor, const OrientationHints& hints)
 {
   FinishPlan plan{ .rounds = parameters.fitRounds,
+    .fidelity = parameters.fidelity,
+    .keepsPlaces = parameters.computeFeatureStrength,
     .smoothness = parameters.fitSmoothness,
     .samplesPerVertex = parameters.fitSamples,
     .gaps = gaps,
@@ -106,10 +115,20 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
     .vertexCount = std::max(vertexCount, learnt.mesh.vertexCount()) };
   dropPieces(learnt.mesh, parameters.keepPieces);
   const bool isSimplified = plan.vertexCount > vertexCount;
+  if (isSimplified)
+  {
+    // The rounds of the fidelity would be of the larger mesh: one more of the first takes their place.
+    plan.fidelity = Fidelity::Draft;
+    plan.rounds += plan.rounds > 0 ? 1 : 0;
+    plan.residualTo = DistanceTo::ClosestVertex;
+  }
   const double endOfFirst = isSimplified ? 0.5 : 1.;
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
   const PointCloud& fitted = once ? *once : cloud;
-  Finish finish(fitted, learnt.mesh, plan, executor);
+  const PointNormals normalOf = hints.normalOf && !fitted.origins().empty() ? [&](std::size_t point)
+  { return directionOf(hints.normalOf(fitted.origins()[point])); }
+                                                                            : PointNormals();
+  Finish finish(fitted, learnt.mesh, plan, executor, normalOf);
   if (!finish.run(partOf(progress, 0., endOfFirst)))
   {
     return {};
@@ -122,12 +141,12 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   plan.gaps.reset();
   plan.closedOutline = 0.;
   plan.vertexCount = learnt.mesh.vertexCount();
-  Finish finishSimplified(fitted, learnt.mesh, plan, executor);
+  Finish finishSimplified(fitted, learnt.mesh, plan, executor, normalOf);
   if (!finishSimplified.run(partOf(progress, endOfFirst, 1.)))
   {
     return {};
   }
-  // What is simplified lies close already, and is often left as it is: the fit is that of before.
+  // The fit is that of before.
   FinishReport report = finish.report();
   report.repaired = finishSimplified.report().repaired;
   report.left = finishSimplified.report().left;

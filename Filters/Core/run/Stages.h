@@ -52,7 +52,8 @@ StopReason learn(Learner& learner, StoppingRules& rules, const Parameters& param
 /// was ended before.
 std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Parameters& parameters, const std::optional<GapPlan>& gaps, std::size_t vertexCount,
-  const Progress& progress, const Executor& executor = Executor::sequential());
+  const Progress& progress, const Executor& executor = Executor::sequential(),
+  const OrientationHints& hints = {});
 
 /// Turns the mesh to its outer side, and adds to `result` all that a user gets of it. Its quality is
 /// measured by `all` points, if there are any.

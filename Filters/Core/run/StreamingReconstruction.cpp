@@ -271,7 +271,7 @@ Reconstruction StreamingReconstruction::mesh(
   {
     explainPoints(all, withClusters_ ? &*cloud_ : nullptr, parameters_.keepPieces, false, result);
   }
-  result.warnings = warningsOf(result, all);
+  result.warnings = warningsOf(result, all, parameters_);
   return result;
 }
 }

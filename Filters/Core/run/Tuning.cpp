@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/Tuning.h"
 
+#include "base/Choices.h"
 #include "base/Median.h"
+#include "fit/FidelityRounds.h"
 #include "fit/SurfaceFit.h"
-#include "run/Reconstruction.h"
 #include "run/TuningPatch.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace neuralmesh
 namespace
 {
 constexpr std::size_t LeastProbes = 1000;
-constexpr std::array RoundsToTry = { 6, 10 };
+constexpr std::array FidelitiesToTry = { Fidelity::Default, Fidelity::High };
 constexpr double LeastGain = 0.01;
 constexpr double LeastGainInDoubts = 3.;
 // Noise, in mean edge lengths.
@@ -30,12 +31,25 @@ constexpr double NoiseToSmooth = 0.05;
 /// Lambda by the data, of patches.
 constexpr double MostSmoothnessOverLeast = 3.;
 
-std::string text(double value)
+std::string text(double value, int digits = 2)
 {
   std::ostringstream stream;
-  stream.precision(2);
+  stream.precision(digits);
   stream << value;
   return stream.str();
+}
+
+/// A word, or a number of so many digits.
+std::string text(std::string_view parameter, double value, int digits = 2)
+{
+  const std::string_view word = tunedWord(parameter, value);
+  return word.empty() ? text(value, digits) : std::string(word);
+}
+
+std::string inWords(const TuningTrial& trial)
+{
+  return std::string(trial.parameter) + " " + text(trial.parameter, trial.value) + " instead of " +
+    text(trial.parameter, trial.before);
 }
 
 /// To two digits: what is told is what is used.
@@ -134,7 +148,7 @@ public:
     // With another density all that comes is to be measured against that.
     if (learn() && (!chooseDensity() || learn()))
     {
-      chooseRounds();
+      chooseFidelity();
       chooseSmoothness();
     }
     return isCancelled_ ? std::nullopt : std::optional(std::move(result_));
@@ -154,7 +168,6 @@ private:
       if (meshes[i])
       {
         const auto& [mesh, report] = *meshes[i];
-        smoothness_[i] = report.smoothness;
         noise += report.noise / mesh.meanEdge() / double(meshes.size());
         patches_[i].aim(mesh);
         probes += patches_[i].probeCount();
@@ -173,6 +186,7 @@ private:
     }
     noise_ = noise;
     best_ = measure(meshes);
+    readSmoothness(meshes);
     return true;
   }
 
@@ -191,55 +205,44 @@ private:
     return true;
   }
 
-  void chooseRounds()
+  void chooseFidelity()
   {
-    const int wanted = result_.parameters.fitRounds;
-    if (wanted < RoundsToTry.back() && hasGaps())
+    const Fidelity wanted = result_.parameters.fidelity;
+    for (const Fidelity fidelity : FidelitiesToTry)
     {
-      result_.remarks.emplace_back(
-        "no more FitRounds were tried, as the scan has gaps, whose rims they would draw back");
-      return;
-    }
-    for (const int rounds : RoundsToTry)
-    {
-      Parameters tried = result_.parameters;
-      tried.fitRounds = rounds;
-      const int before = result_.parameters.fitRounds;
-      if (rounds <= before)
+      const Fidelity before = result_.parameters.fidelity;
+      if (fidelity <= before)
       {
         continue;
       }
-      if (!isBetter(tried, 1., { "FitRounds", double(before), double(rounds) }))
+      const TuningTrial trial{ "Fidelity", double(before), double(fidelity) };
+      if (!hasOtherRounds(before, fidelity))
+      {
+        result_.remarks.push_back(
+          inWords(trial) + " was not tried, as under noise it does the same");
+        break;
+      }
+      Parameters tried = result_.parameters;
+      tried.fidelity = fidelity;
+      if (!isBetter(tried, 1., trial))
       {
         break;
       }
       result_.parameters = tried;
     }
-    if (result_.parameters.fitRounds != wanted)
+    if (result_.parameters.fidelity != wanted)
     {
       result_.choices.push_back(
-        { "FitRounds", double(wanted), double(result_.parameters.fitRounds) });
+        { "Fidelity", double(wanted), double(result_.parameters.fidelity) });
     }
   }
 
-  /// Whether a coarse mesh of the whole cloud ends anywhere.
-  bool hasGaps()
+  /// Whether there is a patch for which the one does something else than the other.
+  bool hasOtherRounds(Fidelity one, Fidelity other) const
   {
-    constexpr std::size_t PointsOfVertex = 20;
-    Parameters own = forTrial(result_.parameters);
-    if (own.boundaries == Boundaries::Close || own.start == Start::Tetrahedron)
-    {
-      return false;
-    }
-    own.numberOfVertices =
-      std::min<std::uint64_t>(own.numberOfVertices, TuningPatch::PatchVertices);
-    const std::size_t stride = std::max<std::size_t>(
-      1, cloud_.points().size() / (PointsOfVertex * std::size_t(own.numberOfVertices)));
-    std::size_t index = 0;
-    const PointCloud thinned = cloud_.without([&](Vector4) { return index++ % stride != 0; });
-    const Reconstruction run =
-      reconstruct(thinned, own, [this](double) { return !(isCancelled_ = !progress_(done())); });
-    return run.quality && run.quality->surface.boundaryLoops > 0;
+    return std::any_of(smoothness_.begin(), smoothness_.end(),
+      [&](double lambda)
+      { return FidelityRounds::count(one, lambda) != FidelityRounds::count(other, lambda); });
   }
 
   /// Less than lambda by the data, or more.
@@ -317,6 +320,14 @@ private:
     return meshes;
   }
 
+  void readSmoothness(const PatchMeshes& meshes)
+  {
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+    {
+      smoothness_[i] = meshes[i]->report.smoothness;
+    }
+  }
+
   /// Calls work(patch, progress), with as many at once as the executor runs.
   template <typename Work>
   void onAll(const Work& work)
@@ -378,6 +389,10 @@ private:
     if (trial.isTaken)
     {
       best_ = squared;
+      if (factor == 1.)
+      {
+        readSmoothness(meshes);
+      }
     }
     return trial.isTaken;
   }
@@ -395,13 +410,23 @@ private:
 };
 }
 
+std::string TuningChoice::assignment() const
+{
+  constexpr int Digits = 3;
+  return std::string(parameter) + "=" + text(parameter, value, Digits);
+}
+
+std::string_view tunedWord(std::string_view parameter, double value)
+{
+  return parameter == "Fidelity" ? fidelityWords[std::size_t(value)] : std::string_view();
+}
+
 std::vector<std::string> Tuning::reasons() const
 {
   std::vector<std::string> lines;
   for (const TuningTrial& trial : trials)
   {
-    lines.push_back(std::string(trial.parameter) + " " + text(trial.value) + " instead of " +
-      text(trial.before) + (trial.isTaken ? ": taken" : ": not taken") +
+    lines.push_back(inWords(trial) + (trial.isTaken ? ": taken" : ": not taken") +
       ", squares of held-out distances are " + text(100. * std::abs(trial.gain)) + " % " +
       (trial.gain < 0. ? "more" : "less") + " (standard error " + text(100. * trial.doubt) + " %)");
   }

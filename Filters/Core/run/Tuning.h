@@ -19,7 +19,7 @@ struct TuningTrial
 {
   std::string_view parameter; ///< by the name of the property
   double before = 0.;         ///< its value in the best parameters so far
-  double value = 0.;
+  double value = 0.;          ///< of a choice, the number of its word
   double error = 0.; ///< of held-out points, root of the mean square, in units of the input
   double gain = 0.;  ///< by which the mean square is less than that of the best, as a part of it
   double doubt = 0.; ///< standard error of the gain
@@ -32,6 +32,9 @@ struct TuningChoice
   std::string_view parameter;
   double before = 0.;
   double value = 0.;
+
+  /// NAME=VALUE.
+  std::string assignment() const;
 };
 
 /// What was chosen for a cloud.
@@ -47,16 +50,19 @@ struct Tuning
 };
 
 /// Those that are chosen, by the names of their properties.
-inline constexpr std::array<std::string_view, 3> TunedParameters{ "FitRounds", "FitSmoothness",
+inline constexpr std::array<std::string_view, 3> TunedParameters{ "Fidelity", "FitSmoothness",
   "CurvatureDensity" };
+
+/// The word for a value of one of them; empty where values are numbers.
+std::string_view tunedWord(std::string_view parameter, double value);
 
 /// Chooses the TunedParameters for a cloud; all others stay as they are.
 ///
 /// Short runs are made on patches of the cloud (see TuningPatch), with the one value or the other.
 /// A value is taken if held-out points lie closer to the mesh then, by at least 1 % of their mean
 /// square and three standard errors. CurvatureDensity is not tried: it is set to 0 where noise is so
-/// large that bends cannot be told from it. More FitRounds are not tried where the mesh ends at gaps
-/// in the scan: they would draw its rims back to the last points, and leave more of the surface open.
+/// large that bends cannot be told from it. A higher Fidelity is not tried where it does the same, as
+/// high does under noise.
 ///
 /// Returns nothing if it was ended before.
 std::optional<Tuning> tune(const PointCloud& cloud, const Parameters& wanted,

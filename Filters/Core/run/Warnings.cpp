@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/Warnings.h"
 
+#include "run/BareArea.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +20,8 @@ constexpr double MostBetweenLayers = 0.1;
 /// Of the area: less is not worth a word.
 constexpr double LeastUnknownSide = 0.001;
 constexpr double MostTurned = 0.005;
+/// Of the area: bridges over gaps have less.
+constexpr double MostBare = 0.04;
 constexpr double WholeArea = 0.999;
 /// Named in one sentence; the others are counted.
 constexpr std::size_t MostPiecesNamed = 2;
@@ -116,6 +120,19 @@ void warnOfPoints(
   for (const Fate fate : { Fate::Missing, Fate::BeyondBoundary, Fate::Coarse })
   {
     warnOfPieces(explanation, cloud, fate, warnings);
+  }
+}
+
+void warnOfBareArea(double share, std::vector<std::string>& warnings)
+{
+  if (share > MostBare)
+  {
+    warnings.push_back(percent(share) +
+      " of the surface has hardly any points: it is spanned between outliers, or over gaps. Look "
+      "at it "
+      "before you use the mesh: where Support is 0. Points that do not belong to the scan can be "
+      "cut "
+      "off, and bodies that are far apart be taken one by one.");
   }
 }
 
@@ -234,12 +251,17 @@ void warnOfSides(const OrientationReport& sides, std::vector<std::string>& warni
 }
 }
 
-std::vector<std::string> warningsOf(const Reconstruction& result, const PointCloud& cloud)
+std::vector<std::string> warningsOf(
+  const Reconstruction& result, const PointCloud& cloud, const Parameters& parameters)
 {
   std::vector<std::string> warnings;
   if (result.explanation)
   {
     warnOfPoints(*result.explanation, cloud, warnings);
+  }
+  if (parameters.boundaries == Boundaries::Keep && parameters.closeHolesBelow == 0.)
+  {
+    warnOfBareArea(bareShare(result.mesh, result.support), warnings);
   }
   if (result.quality)
   {

@@ -14,6 +14,7 @@ namespace neuralmesh
 /// - more than 3 % of the points are farther from the mesh than points are from each other, and no
 ///   outliers; or a piece or limb of them is missing: where, and how many;
 /// - the mesh has an opening where there are points;
+/// - more than 4 % of the area has hardly any points, unless gaps were to be closed;
 /// - triangles intersect others, or are folded;
 /// - the mesh has stopped growing below the size that was asked for;
 /// - the mesh is finer than its data: it has more vertices than every second point;
@@ -21,7 +22,8 @@ namespace neuralmesh
 /// - nothing tells the outer side of pieces with more than a thousandth of the area, unless they are one
 ///   piece of all: that agrees with itself, and can be turned as a whole;
 /// - viewpoints or normals were given, and tell nothing.
-std::vector<std::string> warningsOf(const Reconstruction& result, const PointCloud& cloud);
+std::vector<std::string> warningsOf(
+  const Reconstruction& result, const PointCloud& cloud, const Parameters& parameters = {});
 
 /// The same of a mesh to start from: that it has more vertices than are asked for, and what becomes of it then.
 /// Empty if it has not.

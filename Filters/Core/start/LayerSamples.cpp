@@ -50,9 +50,18 @@ constexpr float NoticeableError = 0.02f;
 constexpr float FarthestMove = 0.7f;
 /// Points that spread so much of their radius across are in no layer.
 constexpr float ScatterOfNoLayer = 0.25f;
-/// Points that are so much farther apart than usual, and scatter so much more, are scattered in space: sparse
-/// parts of a surface are as noisy as others, about.
-constexpr float SparseAgainstUsual = 3.f;
+/// Samples that are so much farther apart than usual are scattered in space, if on average over so many of them
+/// less than a part of those around lie in one layer with them: by chance hardly two do.
+constexpr float SparseAgainstUsual = 2.f;
+constexpr std::size_t SparseAsked = 32;
+constexpr std::size_t AroundSparse = 8;
+constexpr float LeastPartInLayer = 0.4f;
+/// Of those that are sparse, or of all: fewer are what ends of a scan have, and stay.
+constexpr double MostSparseScattered = 0.5;
+constexpr double MostScattered = 0.015;
+/// And points that are so much farther apart, and scatter so much more: sparse parts of a surface are as noisy as
+/// others, about.
+constexpr float VerySparseAgainstUsual = 3.f;
 constexpr float NoisyAgainstUsual = 4.f;
 constexpr float NoisyAgainstRadius = 0.11f;
 /// Samples that came that close to each other when they were moved.
@@ -264,38 +273,49 @@ bool isOnDisk(const LayerSample& sample, Vector4 place)
     height * height <= SlopeOfDisk * SlopeOfDisk * squaredNorm(offset);
 }
 
-/// Without those that came too close to others when they were moved.
-std::vector<LayerSample> apart(std::vector<LayerSample> samples, Layers layers, std::uint64_t seed)
+std::vector<Vector4> positionsOf(std::span<const LayerSample> samples)
 {
   std::vector<Vector4> positions(samples.size());
   std::transform(samples.begin(), samples.end(), positions.begin(),
     [](const LayerSample& sample) { return sample.position; });
+  return positions;
+}
+
+/// In an order in which those that are near in space are mostly near each other.
+std::vector<LayerSample> sorted(std::span<const LayerSample> samples)
+{
+  const std::vector<Vector4> positions = positionsOf(samples);
   Box box;
   std::for_each(
     positions.begin(), positions.end(), [&](Vector4 position) { box.extend(position); });
-  std::vector<LayerSample> sorted;
-  std::vector<Vector4> sortedPositions;
-  sorted.reserve(samples.size());
-  sortedPositions.reserve(samples.size());
+  std::vector<LayerSample> result;
+  result.reserve(samples.size());
   for (const std::uint32_t i : mortonOrder(positions, box.low, box.high))
   {
-    sorted.push_back(samples[i]);
-    sortedPositions.push_back(positions[i]);
+    result.push_back(samples[i]);
   }
-  const NearestPoints nearest(sortedPositions);
-  std::vector<bool> isCovered(sorted.size(), false);
+  return result;
+}
+
+/// Without those that came too close to others when they were moved.
+std::vector<LayerSample> apart(
+  std::span<const LayerSample> samples, Layers layers, std::uint64_t seed)
+{
+  const std::vector<Vector4> positions = positionsOf(samples);
+  const NearestPoints nearest(positions);
+  std::vector<bool> isCovered(samples.size(), false);
   std::vector<std::uint32_t> kept;
-  for (const std::uint32_t i : shuffled(sorted.size(), seed))
+  for (const std::uint32_t i : shuffled(samples.size(), seed))
   {
     if (isCovered[i])
     {
       continue;
     }
     kept.push_back(i);
-    nearest.forEachWithin(sortedPositions[i], ClosestOfMoved * sorted[i].radius,
+    nearest.forEachWithin(positions[i], ClosestOfMoved * samples[i].radius,
       [&](std::uint32_t other, float)
       {
-        if (layers == Layers::Joined || isOnDisk(sorted[i], sortedPositions[other]))
+        if (layers == Layers::Joined || isOnDisk(samples[i], positions[other]))
         {
           isCovered[other] = true;
         }
@@ -306,7 +326,7 @@ std::vector<LayerSample> apart(std::vector<LayerSample> samples, Layers layers, 
   result.reserve(kept.size());
   for (const std::uint32_t i : kept)
   {
-    result.push_back(sorted[i]);
+    result.push_back(samples[i]);
   }
   return result;
 }
@@ -324,9 +344,7 @@ bool areInOneLayer(const LayerSample& sample, const LayerSample& other)
 /// Without those that lie in one layer with none around them: between two layers, or across them.
 std::vector<LayerSample> withoutStrays(std::vector<LayerSample> samples)
 {
-  std::vector<Vector4> positions(samples.size());
-  std::transform(samples.begin(), samples.end(), positions.begin(),
-    [](const LayerSample& sample) { return sample.position; });
+  const std::vector<Vector4> positions = positionsOf(samples);
   const NearestPoints nearest(positions);
   std::vector<bool> isStray(samples.size(), false);
   for (std::uint32_t i = 0; i < samples.size(); ++i)
@@ -345,9 +363,73 @@ std::vector<LayerSample> withoutStrays(std::vector<LayerSample> samples)
   return samples;
 }
 
+/// The part of those around a sample that may lie in one layer with it.
+float partInLayer(
+  std::span<const LayerSample> samples, const NearestPoints& nearest, std::uint32_t sample)
+{
+  const auto mayBeInOneLayer = [](const LayerSample& a, const LayerSample& b)
+  {
+    // Lines of a scanner tell no layer.
+    return squaredNorm(a.normal) == 0.f || squaredNorm(b.normal) == 0.f ||
+      (areInOneLayer(a, b) && areInOneLayer(b, a));
+  };
+  std::array<NearPoint, AroundSparse + 1> found;
+  const std::size_t count = nearest.find(samples[sample].position, found);
+  float around = 0.f, inLayer = 0.f;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::uint32_t other = found[i].index;
+    around += other != sample ? 1.f : 0.f;
+    inLayer += other != sample && mayBeInOneLayer(samples[sample], samples[other]) ? 1.f : 0.f;
+  }
+  return inLayer / std::max(around, 1.f);
+}
+
+/// Which are farther apart than `radius`, where those that are so lie in one layer with hardly any. None if they
+/// are few.
+std::vector<bool> findScattered(std::span<const LayerSample> samples, float radius)
+{
+  const std::vector<Vector4> positions = positionsOf(samples);
+  const NearestPoints nearest(positions);
+  std::vector<std::uint32_t> sparse;
+  std::vector<Vector4> places;
+  std::vector<float> parts;
+  for (std::uint32_t i = 0; i < samples.size(); ++i)
+  {
+    if (samples[i].radius > radius)
+    {
+      sparse.push_back(i);
+      places.push_back(positions[i]);
+      parts.push_back(partInLayer(samples, nearest, i));
+    }
+  }
+  const NearestPoints nearestSparse(places);
+  std::array<NearPoint, SparseAsked> found;
+  std::vector<bool> result(samples.size(), false);
+  for (std::size_t i = 0; i < sparse.size(); ++i)
+  {
+    const std::size_t count = nearestSparse.find(places[i], found);
+    float sum = 0.f;
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      sum += parts[found[k].index];
+    }
+    result[sparse[i]] = sum < LeastPartInLayer * float(count);
+  }
+  const auto scattered = double(std::count(result.begin(), result.end(), true));
+  return scattered >
+      std::min(MostSparseScattered * double(sparse.size()), MostScattered * double(samples.size()))
+    ? result
+    : std::vector<bool>(samples.size(), false);
+}
+
 /// Without those of points that are scattered in space.
 std::vector<LayerSample> withoutScattered(std::vector<LayerSample> samples)
 {
+  if (samples.empty())
+  {
+    return samples;
+  }
   std::vector<float> radii, noises;
   for (const LayerSample& sample : samples)
   {
@@ -355,12 +437,19 @@ std::vector<LayerSample> withoutScattered(std::vector<LayerSample> samples)
     noises.push_back(sample.noise);
   }
   const float radius = medianOf(std::move(radii)), noise = medianOf(std::move(noises));
+  const auto isNoisy = [&](const LayerSample& sample)
+  {
+    return sample.radius > VerySparseAgainstUsual * radius &&
+      sample.noise > NoisyAgainstUsual * noise && sample.noise > NoisyAgainstRadius * sample.radius;
+  };
+  const std::vector<bool> isScattered = findScattered(samples, SparseAgainstUsual * radius);
+  std::size_t i = 0;
   std::erase_if(samples,
     [&](const LayerSample& sample)
     {
-      return sample.radius > SparseAgainstUsual * radius &&
-        sample.noise > NoisyAgainstUsual * noise &&
-        sample.noise > NoisyAgainstRadius * sample.radius;
+      const bool isErased = isScattered[i] || isNoisy(sample);
+      ++i;
+      return isErased;
     });
   return samples;
 }
@@ -453,11 +542,7 @@ LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layer
       ++inNoLayer;
     }
   }
-  if (!samples.empty())
-  {
-    samples = withoutScattered(std::move(samples));
-  }
-  samples = apart(std::move(samples), layers, seed);
+  samples = apart(sorted(withoutScattered(sorted(samples))), layers, seed);
   return { layers == Layers::Apart ? withoutStrays(std::move(samples)) : std::move(samples),
     inNoLayer, double(inOneOfTwo) / double(std::max<std::size_t>(1, asked)) };
 }

@@ -64,7 +64,7 @@ const Values Published = {
   { "AreaWeight", 1 },
   { "VolumeWeight", 1 },
   { "ListVertices", 1000 },
-  { "FitRounds", 3 },
+  { "FitRounds", 2 },
   { "FitSmoothness", 0 },
   { "FitSamples", 10 },
   { "BatchSize", 65536 },

@@ -331,7 +331,7 @@ TEST_F(Checkpoints, StayWhereTheBeginningIsCutShort)
   ASSERT_FALSE(this->run(hardCloud(), parameters, 3));
   const std::string before = this->contents();
   Parameters unchosen = parameters;
-  unchosen.fitRounds = 2;
+  unchosen.fidelity = Fidelity::High;
   const Mesh other = Mesh::tetrahedron(Vector4(0.1f, 0.f, 0.f), 0.2f);
   const auto stop = [](double) { return false; };
   EXPECT_THROW(reconstruct(hardCloud(), unchosen, stop, {}, {}, this->plan()), std::runtime_error);

@@ -297,4 +297,35 @@ TEST(Warnings, BetweenLayers)
   result.warnings = warningsOf(result, cloud);
   EXPECT_FALSE(hasWarning(result, "between two layers"));
 }
+
+// Promise: surface without points is told, with how much of it there is; where the cloud is sparse there are
+// points, and where gaps were to be closed none are expected.
+TEST(Warnings, BareArea)
+{
+  const auto made = [](double sparse, const Parameters& parameters)
+  {
+    std::mt19937 engine(3);
+    std::vector<Eigen::Vector3d> points = sphere(100000);
+    std::erase_if(points,
+      [&](const Eigen::Vector3d& point)
+      { return point.x() > 0.5 && double(engine()) >= sparse * 4294967295.; });
+    const PointCloud cloud(points);
+    Reconstruction result;
+    result.mesh = makeSphere(16);
+    result.support = supportOf(buildMesh(result.mesh, cloud), cloud, All);
+    result.warnings = warningsOf(result, cloud, parameters);
+    return result;
+  };
+  Parameters closing, filling;
+  closing.boundaries = Boundaries::Close;
+  filling.closeHolesBelow = 1.;
+  // A cap of a sphere has the area of its height; at its rim vertices rest on points beyond.
+  const Reconstruction bare = made(0., {});
+  ASSERT_EQ(bare.warnings.size(), 1u);
+  EXPECT_NEAR(std::stod(bare.warnings.front()), 22., 3.);
+  EXPECT_TRUE(hasWarning(bare, "hardly any points"));
+  EXPECT_TRUE(made(0.05, {}).warnings.empty());
+  EXPECT_TRUE(made(0., closing).warnings.empty());
+  EXPECT_TRUE(made(0., filling).warnings.empty());
+}
 }

@@ -11,10 +11,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <map>
 #include <numeric>
+#include <utility>
 
 namespace neuralmesh::testing
 {
@@ -38,6 +42,47 @@ double meanOf(const std::vector<double>& values)
   return std::accumulate(values.begin(), values.end(), 0.) / double(values.size());
 }
 
+/// The edges of one triangle.
+std::vector<std::array<Eigen::Vector3d, 2>> rimOf(const TriangleMesh& mesh)
+{
+  std::map<std::pair<std::size_t, std::size_t>, int> triangles;
+  for (const auto& [a, b, c] : mesh.triangles)
+  {
+    for (const auto& edge : { std::minmax(a, b), std::minmax(b, c), std::minmax(c, a) })
+    {
+      ++triangles[{ edge.first, edge.second }];
+    }
+  }
+  std::vector<std::array<Eigen::Vector3d, 2>> rim;
+  for (const auto& [edge, count] : triangles)
+  {
+    if (count == 1)
+    {
+      rim.push_back({ mesh.points[edge.first], mesh.points[edge.second] });
+    }
+  }
+  return rim;
+}
+
+/// How far the rim of a mesh has any of its vertices from that of another one.
+double farthestFromRim(const TriangleMesh& mesh, const TriangleMesh& other)
+{
+  const auto rim = rimOf(other);
+  double farthest = 0.;
+  for (const auto& [point, next] : rimOf(mesh))
+  {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& [from, to] : rim)
+    {
+      const Eigen::Vector3d along = to - from;
+      const double place = std::clamp((point - from).dot(along) / along.squaredNorm(), 0., 1.);
+      nearest = std::min(nearest, (from + place * along - point).norm());
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
 /// A mesh whose vertices lie on the unit sphere, or off it by `roughness`, some in, some out.
 Mesh sphereMesh(double roughness)
 {
@@ -57,19 +102,19 @@ TEST(Tuning, ChoicesFollowFromTrials)
   const PointCloud cloud = cubeCloud();
   const Tuning tuning = tune(cloud, fiveThousand(), goOn).value();
   ASSERT_FALSE(tuning.trials.empty());
-  int rounds = fiveThousand().fitRounds;
+  auto fidelity = double(fiveThousand().fidelity);
   for (const TuningTrial& trial : tuning.trials)
   {
     EXPECT_GT(trial.error, 0.);
     EXPECT_TRUE(std::isfinite(trial.gain) && std::isfinite(trial.doubt));
     EXPECT_EQ(trial.isTaken, trial.gain > std::max(0.01, 3. * trial.doubt));
-    if (trial.parameter == "FitRounds")
+    if (trial.parameter == "Fidelity")
     {
-      EXPECT_EQ(trial.before, rounds);
-      rounds = trial.isTaken ? int(trial.value) : rounds;
+      EXPECT_EQ(trial.before, fidelity);
+      fidelity = trial.isTaken ? trial.value : fidelity;
     }
   }
-  EXPECT_EQ(tuning.parameters.fitRounds, rounds);
+  EXPECT_EQ(double(tuning.parameters.fidelity), fidelity);
   EXPECT_EQ(tuning.reasons().size(), tuning.trials.size() + tuning.remarks.size());
   for (const TuningChoice& choice : tuning.choices)
   {
@@ -77,14 +122,43 @@ TEST(Tuning, ChoicesFollowFromTrials)
   }
 }
 
-// A clean cloud that bends everywhere is worth more rounds of the fit.
-TEST(Tuning, MoreRoundsForCleanClouds)
+// A clean cloud that bends everywhere is worth a higher fidelity, from whichever the search begins.
+TEST(Tuning, HigherFidelityForCleanClouds)
 {
   CloudOptions options;
-  options.count = 40000;
-  const Tuning tuning = tune(PointCloud(sphereCloud(options)), fiveThousand(), goOn).value();
-  EXPECT_GT(tuning.parameters.fitRounds, fiveThousand().fitRounds);
-  EXPECT_EQ(tuning.parameters.curvatureDensity, fiveThousand().curvatureDensity);
+  options.count = 100000;
+  const PointCloud cloud(generateCloud(makeTorus(), options));
+  for (const Fidelity fidelity : { Fidelity::Draft, Fidelity::Default })
+  {
+    Parameters wanted = fiveThousand();
+    wanted.fidelity = fidelity;
+    const Tuning tuning = tune(cloud, wanted, goOn).value();
+    EXPECT_EQ(tuning.parameters.fidelity, Fidelity::High);
+    EXPECT_EQ(tuning.parameters.fitRounds, wanted.fitRounds);
+    EXPECT_EQ(tuning.parameters.curvatureDensity, wanted.curvatureDensity);
+    ASSERT_FALSE(tuning.choices.empty());
+    EXPECT_EQ(tuning.choices[0].assignment(), "Fidelity=high");
+    EXPECT_EQ(tuning.choices[0].before, double(fidelity));
+  }
+}
+
+// Under noise, high does what the default does, so it is not tried; and that is told.
+TEST(Tuning, FidelityStaysUnderNoise)
+{
+  CloudOptions options;
+  options.noise = 0.01;
+  const PointCloud cloud = cubeCloud(options, 50000);
+  Parameters wanted = fiveThousand();
+  const Tuning tuning = tune(cloud, wanted, goOn).value();
+  EXPECT_EQ(tuning.parameters.fidelity, Fidelity::Default);
+  EXPECT_TRUE(std::none_of(tuning.trials.begin(), tuning.trials.end(),
+    [](const TuningTrial& trial) { return trial.parameter == "Fidelity"; }));
+  EXPECT_EQ(std::count(tuning.remarks.begin(), tuning.remarks.end(),
+              "Fidelity high instead of default was not tried, as under noise it does the same"),
+    1);
+  const Reconstruction usual = reconstruct(cloud, wanted, goOn);
+  wanted.fidelity = Fidelity::High;
+  EXPECT_EQ(reconstruct(cloud, wanted, goOn).mesh.points, usual.mesh.points);
 }
 
 // Where noise hides bends, samples are drawn alike.
@@ -97,17 +171,35 @@ TEST(Tuning, NoDensityByCurvatureUnderNoise)
   EXPECT_FALSE(tuning.remarks.empty());
 }
 
-// Rims of gaps are left where the defaults draw them.
-TEST(Tuning, NoMoreRoundsWhereThereAreGaps)
+// Gaps are no reason against a higher fidelity: it leaves their rims where they are.
+TEST(Tuning, RimsStayWhereThereAreGaps)
 {
   CloudOptions options;
+  options.count = 40000;
   options.holes = 5;
   options.holeRadius = 0.06;
-  const PointCloud cloud = cubeCloud(options);
+  const PointCloud cloud(sphereCloud(options));
   Parameters wanted = fiveThousand();
-  EXPECT_EQ(tune(cloud, wanted, goOn)->parameters.fitRounds, wanted.fitRounds);
-  wanted.boundaries = Boundaries::Close;
-  EXPECT_GT(tune(cloud, wanted, goOn)->parameters.fitRounds, wanted.fitRounds);
+  wanted.fidelity = Fidelity::Draft;
+  for (const Boundaries boundaries : { Boundaries::Keep, Boundaries::Close })
+  {
+    wanted.boundaries = boundaries;
+    EXPECT_GT(tune(cloud, wanted, goOn)->parameters.fidelity, wanted.fidelity);
+  }
+  wanted.boundaries = Boundaries::Keep;
+  const Reconstruction draft = reconstruct(cloud, wanted, goOn);
+  ASSERT_GT(draft.quality->surface.boundaryLoops, 0u);
+  for (const Fidelity fidelity : { Fidelity::Default, Fidelity::High })
+  {
+    wanted.fidelity = fidelity;
+    const Reconstruction result = reconstruct(cloud, wanted, goOn);
+    EXPECT_EQ(result.quality->surface.boundaryLoops, draft.quality->surface.boundaryLoops);
+    EXPECT_LT(farthestFromRim(result.mesh, draft.mesh), 0.01 * result.surface.meanEdge());
+  }
+  // More rounds of the fit draw them back.
+  wanted.fitRounds = 10;
+  const Reconstruction more = reconstruct(cloud, wanted, goOn);
+  EXPECT_GT(farthestFromRim(more.mesh, draft.mesh), 0.1 * more.surface.meanEdge());
 }
 
 // The same cloud and seed, the same choice, on any number of threads.
@@ -138,11 +230,13 @@ TEST(Tuning, OtherParametersStay)
   wanted.timeLimit = 5.;
   wanted.maximumIterations = 123456;
   wanted.fitSmoothness = 0.7;
+  wanted.fitRounds = 3;
   const Tuning tuning = tune(cubeCloud(), wanted, goOn).value();
   EXPECT_EQ(tuning.parameters.numberOfVertices, wanted.numberOfVertices);
   EXPECT_EQ(tuning.parameters.timeLimit, wanted.timeLimit);
   EXPECT_EQ(tuning.parameters.maximumIterations, wanted.maximumIterations);
   EXPECT_EQ(tuning.parameters.fitSmoothness, wanted.fitSmoothness);
+  EXPECT_EQ(tuning.parameters.fitRounds, wanted.fitRounds);
 }
 
 // Whoever ends it gets nothing, whenever that is.
@@ -290,9 +384,9 @@ TEST(TuningPatch, LearnsAsAWholeRunDoes)
   {
     parameters.curvatureDensity = density;
     patches[0].learn(parameters, progress);
-    for (const int rounds : { 3, 6 })
+    for (const Fidelity fidelity : { Fidelity::Default, Fidelity::High })
     {
-      parameters.fitRounds = rounds;
+      parameters.fidelity = fidelity;
       const auto trial = patches[0].finish(parameters, progress);
       const Reconstruction whole = reconstruct(patches[0].cloud(), parameters, progress);
       ASSERT_TRUE(trial && whole.finish);
@@ -370,6 +464,6 @@ TEST(Tuning, AutomaticReconstruction)
   const auto ended = reconstructAutomatically(cloud, parameters, [](double) { return false; });
   EXPECT_EQ(ended.reconstruction.stopReason, StopReason::Cancelled);
   EXPECT_TRUE(ended.tuning.choices.empty());
-  EXPECT_EQ(ended.tuning.parameters.fitRounds, parameters.fitRounds);
+  EXPECT_EQ(ended.tuning.parameters.fidelity, parameters.fidelity);
 }
 }

@@ -116,6 +116,7 @@ def _filter_of(options: argparse.Namespace) -> Any:
         mesh.SetTopologyLearning(options.topology)
     mesh.SetBoundaries(options.boundaries)
     mesh.SetCloseHolesBelow(options.close_holes_below)
+    mesh.SetFidelity(options.fidelity)
     mesh.SetKeepPieces(options.keep_pieces)
     mesh.SetComputeFeatureStrength(options.features)
     mesh.SetPreset(options.preset)

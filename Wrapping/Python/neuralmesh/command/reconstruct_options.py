@@ -23,6 +23,11 @@ _PRESETS = {
 }
 _ORDERS = {"exact": "counters", "list": "the activity list"}
 _BOUNDARIES = {"keep": "the mesh ends where the data ends", "close": "it is watertight"}
+_FIDELITIES = {
+    "draft": "the first rounds of the fit alone",
+    "default": "creases, tips and noise, too",
+    "high": "until hardly anything is gained",
+}
 _TOPOLOGIES = {
     "off": "the surface keeps the topology of its start",
     "on": "learn handles and openings",
@@ -153,6 +158,11 @@ def _add_sides(result: Parser) -> None:
 
 
 def _add_run(result: Parser) -> None:
+    result.add_choice(
+        "--fidelity", list(_FIDELITIES), int(property_of("Fidelity").default),
+        "How much is done to come close to the points; "
+        + described_words(_FIDELITIES, "default"),
+    )  # fmt: skip
     result.add_number(
         "--close-holes-below", "CloseHolesBelow",
         "Fill holes whose outline, the sum of its edges, is shorter than LENGTH, in units of INPUT; "
@@ -170,7 +180,7 @@ def _add_run(result: Parser) -> None:
     )  # fmt: skip
     result.add_flag(
         "--automatic",
-        "Choose FitRounds, FitSmoothness and CurvatureDensity for INPUT by some seconds of short runs",
+        "Choose Fidelity, FitSmoothness and CurvatureDensity for INPUT by some seconds of short runs",
     )
     result.add_flag(
         "--features",

@@ -50,9 +50,9 @@ def run(arguments: Sequence[str]) -> int:
 def _print(options: Any, tuning: dict[str, Any]) -> None:
     assignments = ""
     for choice in tuning["choices"]:
-        name, value, before = (choice[key] for key in ("parameter", "value", "before"))
-        print(f"{name:17} {value:.3g} instead of {before:.3g}")
-        assignments += f" --set {name}={value:.3g}"
+        name, value, before = choice["parameter"], _text(choice["value"]), _text(choice["before"])
+        print(f"{name:17} {value} instead of {before}")
+        assignments += f" --fidelity {value}" if name == "Fidelity" else f" --set {name}={value}"
     if not tuning["choices"]:
         print("nothing better than the defaults was found")
     for reason in tuning["reasons"]:
@@ -62,6 +62,10 @@ def _print(options: Any, tuning: dict[str, Any]) -> None:
         f"neuralmesh reconstruct {options.input} OUTPUT --vertices {options.vertices}{boundaries}"
         f"{assignments}"
     )
+
+
+def _text(value: float | str) -> str:
+    return value if isinstance(value, str) else f"{value:.3g}"
 
 
 def _parser() -> Parser:

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/FidelityRounds.h"
+
+#include "fit/CreaseSnapping.h"
+#include "fit/DataFlips.h"
+#include "fit/Redistribution.h"
+#include "mesh/Refinement.h"
+
+#include <algorithm>
+
+namespace neuralmesh
+{
+namespace
+{
+struct RoundsOf
+{
+  int clean;
+  int distributing; ///< of the clean ones, the first
+  int noisy;
+};
+
+RoundsOf roundsOf(Fidelity fidelity)
+{
+  switch (fidelity)
+  {
+    case Fidelity::Draft:
+      return { 0, 0, 0 };
+    case Fidelity::High:
+      return { 10, 6, 2 };
+    default:
+      return { 4, 3, 2 };
+  }
+}
+
+/// Vertices, at most, that a round takes to other places.
+constexpr double MostDistributed = 0.1;
+/// Of lambda, on a clean cloud: creases no longer need so much of it.
+constexpr double PartOnCleanClouds = 0.5;
+/// Beyond so many deviations of the usual bend it is a crease.
+constexpr double DeviationsOfCreaseIfClean = 2.;
+constexpr double DeviationsOfCreaseIfNoisy = 3.;
+/// The mesh on which places are found first is so much smoother than that of the rounds before, but with a
+/// lambda between these, for each sample of a vertex ...
+constexpr double FirstTimesSmoother = 2.;
+constexpr double LeastFirstLambda = 5.;
+constexpr double MostFirstLambda = 40.;
+/// ... and so much smoother than the one that comes out, later.
+constexpr double TimesSmoother = 4.;
+
+bool isClean(double lambda) { return lambda < SurfaceFit::CleanSmoothness; }
+}
+
+int FidelityRounds::count(Fidelity fidelity, double lambda)
+{
+  const RoundsOf rounds = roundsOf(fidelity);
+  return isClean(lambda) ? rounds.clean : rounds.noisy;
+}
+
+bool FidelityRounds::run(Fidelity fidelity, double lambda, bool isFixed, const Progress& progress)
+{
+  const int rounds = count(fidelity, lambda);
+  const bool sharpens = isClean(lambda);
+  lambda_ = sharpens && !isFixed ? PartOnCleanClouds * lambda : lambda;
+  fit_.findExactly();
+  fit_.keepBoundaries();
+  if (sharpens)
+  {
+    fit_.settle();
+  }
+  for (int round = 0; round < rounds; ++round)
+  {
+    const Progress part = partOf(progress, double(round) / rounds, double(round + 1) / rounds);
+    const bool isDone = sharpens ? sharpen(round < roundsOf(fidelity).distributing, part)
+                                 : smooth(round == 0, isFixed, part);
+    if (!isDone)
+    {
+      return false;
+    }
+  }
+  return mesh_.vertexCount() >= vertexCount_ ||
+    refine(mesh_, vertexCount_, partOf(progress, 1., 1.));
+}
+
+bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
+{
+  if (!fit_.findPlaces(partOf(progress, 0., 0.3)))
+  {
+    return false;
+  }
+  if (!keepsPlaces_)
+  {
+    fit_.follow(snapToCreases(mesh_, fit_.placedSamples(), fit_.variance()));
+  }
+  const std::size_t missing = vertexCount_ - std::min(vertexCount_, mesh_.vertexCount());
+  const double most = distributes && !keepsPlaces_ ? MostDistributed : 0.;
+  if (most > 0. || missing > 0)
+  {
+    fit_.follow(redistribute(mesh_, fit_.placedSamples(), fit_.variance(), most, missing));
+  }
+  fit_.follow(flipToSamples(mesh_, fit_.placedSamples(), fit_.variance()));
+  fit_.relaxCreases(DeviationsOfCreaseIfClean);
+  return move(lambda_, partOf(progress, 0.7, 1.));
+}
+
+bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress)
+{
+  const double perVertex = double(fit_.placedSamples().points.size()) / double(mesh_.vertexCount());
+  const double smoother = !isFirst ? TimesSmoother * lambda_
+    : isFixed                      ? lambda_
+              : std::clamp(FirstTimesSmoother * lambda_, LeastFirstLambda * perVertex,
+                  MostFirstLambda * perVertex);
+  // Later the places are those for which lambda was chosen.
+  if ((isFirst && !fit_.findPlaces(partOf(progress, 0., 0.1))) ||
+    !move(smoother, partOf(progress, 0.1, 0.2)) || !fit_.findPlaces(partOf(progress, 0.2, 0.3)))
+  {
+    return false;
+  }
+  const double variance = fit_.noise() * fit_.noise();
+  fit_.shiftAgainstNoise(variance);
+  fit_.turnToNormals(variance);
+  fit_.relaxCreases(DeviationsOfCreaseIfNoisy);
+  if (!isFirst || isFixed)
+  {
+    return move(lambda_, partOf(progress, 0.3, 1.));
+  }
+  if (!fit_.chooseSmoothnessByRisk(lambda_, partOf(progress, 0.3, 1.)))
+  {
+    return false;
+  }
+  lambda_ = fit_.smoothness();
+  fit_.relaxCreases(DeviationsOfCreaseIfNoisy);
+  return true;
+}
+
+bool FidelityRounds::move(double lambda, const Progress& progress)
+{
+  if (!fit_.moveVertices(lambda, progress))
+  {
+    return false;
+  }
+  heldVertices_ += fit_.heldCount();
+  return true;
+}
+}

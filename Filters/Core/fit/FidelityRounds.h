@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Choices.h"
+#include "base/Progress.h"
+#include "fit/SurfaceFit.h"
+#include "mesh/Mesh.h"
+
+#include <cstddef>
+
+namespace neuralmesh
+{
+/// Rounds of the fit that come after the first ones, when places have settled; what they do depends on
+/// whether the cloud is clean.
+///
+/// Of a clean cloud, edges are flipped to the samples, vertices go to creases and corners and from where the
+/// surface is flat to where samples are far from it, and then all move, with creases held less smooth.
+///
+/// Of a noisy one, places are found on a smoother mesh, where they do not follow the noise, samples are
+/// moved against what noise does in bends, and lambda is chosen anew, by the risk and for each part of the
+/// surface. Boundaries stay where they are.
+class FidelityRounds
+{
+public:
+  /// `vertexCount` is that of the mesh in the end, which may be missing some now. With `keepsPlaces` vertices
+  /// do not go to creases, nor to where they are needed more.
+  FidelityRounds(Mesh& mesh, SurfaceFit& fit, std::size_t vertexCount, bool keepsPlaces)
+    : mesh_(mesh)
+    , fit_(fit)
+    , vertexCount_(vertexCount)
+    , keepsPlaces_(keepsPlaces)
+  {
+  }
+
+  /// How many rounds there are.
+  static int count(Fidelity fidelity, double lambda);
+
+  /// `lambda` is that of the rounds before; where it is fixed, it is not chosen anew. Returns false if it was
+  /// ended before.
+  bool run(Fidelity fidelity, double lambda, bool isFixed, const Progress& progress);
+
+  double lambda() const { return lambda_; }
+  std::size_t heldVertices() const { return heldVertices_; }
+
+private:
+  bool sharpen(bool distributes, const Progress& progress);
+  bool smooth(bool isFirst, bool isFixed, const Progress& progress);
+  bool move(double lambda, const Progress& progress);
+
+  Mesh& mesh_;
+  SurfaceFit& fit_;
+  std::size_t vertexCount_;
+  bool keepsPlaces_;
+  double lambda_ = 0.;
+  std::size_t heldVertices_ = 0;
+};
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where samples would be lost, vertices stay.
+#include "fit/SurfaceFit.h"
+
+#include <algorithm>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Beyond so many median distances, and distances between samples around it, a sample is lost. Points
+/// whose own neighbours are three times their usual distance away count as missed; samples are told
+/// earlier.
+constexpr float LostMedians = 10.f;
+constexpr float LostSpacings = 2.5f;
+/// A vertex stays if more than this part of the samples around it would be lost, and, where samples are
+/// not sparse, more than so many: single ones are outliers to which the mesh has been drawn.
+constexpr float LeastLostPart = 0.05f;
+constexpr float LeastLost = 2.f;
+constexpr int MostHolds = 4;
+}
+
+/// Whether the mesh was near to a sample, and is not now.
+bool SurfaceFit::isLost(std::size_t sample, float squaredBefore) const
+{
+  const PlaceOnMesh& place = places_[sample];
+  const float toPlace = squaredNorm(samples_[sample] - pointAt(place, mesh_.positions()));
+  const float usual = LostMedians * medianDistance_;
+  // Most are still near to the same place: only the others are looked for.
+  if (squaredBefore < 0.f || toPlace <= usual * usual)
+  {
+    return false;
+  }
+  const float limit = std::max(usual, LostSpacings * spacing_->samplesAt(place));
+  const auto isBeyond = [limit](float squared) { return squared > limit * limit; };
+  return !isBeyond(squaredBefore) && isBeyond(toPlace) &&
+    isBeyond(closestPlaceFrom(samples_[sample], mesh_, place.triangle[0]).squaredDistance);
+}
+
+/// The vertices around which samples are lost. `squaredBefore(i)` is the distance of sample i if that
+/// was used, else less than 0.
+template <typename Distance>
+std::vector<std::uint8_t> SurfaceFit::lostPlaces(const Distance& squaredBefore) const
+{
+  std::vector<std::uint8_t> lostSamples(samples_.size());
+  executor_.forEachRange(samples_.size(), SamplesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        lostSamples[i] = isLost(i, squaredBefore(i)) ? 1 : 0;
+      }
+    });
+  std::vector<std::uint8_t> result(mesh_.indexEnd());
+  if (std::find(lostSamples.begin(), lostSamples.end(), 1) == lostSamples.end())
+  {
+    return result;
+  }
+  std::vector<float> all(mesh_.indexEnd()), lost(mesh_.indexEnd());
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+  {
+    for (const VertexIndex v : places_[i].triangle)
+    {
+      all[v] += squaredBefore(i) >= 0.f ? 1.f : 0.f;
+      lost[v] += float(lostSamples[i]);
+    }
+  }
+  const float sparse = SparseSpacings * spacing_->usual();
+  for (VertexIndex v = 0; v < result.size(); ++v)
+  {
+    const float least = spacing_->samplesAt(v) > sparse
+      ? LeastLostPart * all[v]
+      : std::max(LeastLost, LeastLostPart * all[v]);
+    result[v] = lost[v] > least ? 1 : 0;
+  }
+  return result;
+}
+
+/// Vertices around which samples are lost go back.
+template <typename Distance>
+std::size_t SurfaceFit::hold(std::span<const Vector4> before, const Distance& squaredBefore)
+{
+  std::size_t held = 0;
+  for (int i = 0; i < MostHolds; ++i)
+  {
+    const std::vector<std::uint8_t> isLostAt = lostPlaces(squaredBefore);
+    const std::size_t heldBefore = held;
+    for (VertexIndex v = 0; v < before.size(); ++v)
+    {
+      if (isLostAt[v] != 0 && squaredNorm(mesh_.position(v) - before[v]) > 0.f)
+      {
+        mesh_.setPosition(v, before[v]);
+        ++held;
+      }
+    }
+    if (held == heldBefore)
+    {
+      break;
+    }
+  }
+  return held;
+}
+
+std::size_t SurfaceFit::holdLost(std::span<const Vector4> before)
+{
+  return hold(
+    before, [this](std::size_t i) { return isUsed(i) ? places_[i].squaredDistance : -1.f; });
+}
+
+std::size_t SurfaceFit::holdAgainst(const Mesh& before)
+{
+  std::vector<float> squaredBefore(samples_.size(), -1.f);
+  const auto hasMoved = [&](VertexIndex v)
+  { return squaredNorm(mesh_.position(v) - before.position(v)) > 0.f; };
+  executor_.forEachRange(samples_.size(), SamplesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Triangle& triangle = places_[i].triangle;
+        if (isUsed(i) && std::any_of(triangle.begin(), triangle.end(), hasMoved))
+        {
+          squaredBefore[i] = closestPlaceFrom(samples_[i], before, triangle[0]).squaredDistance;
+        }
+      }
+    });
+  return hold(before.positions(), [&](std::size_t i) { return squaredBefore[i]; });
+}
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cloud/PlaceOnMesh.h"
+#include "mesh/Mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// Samples, their places on a mesh, and which of them count.
+struct PlacedSamples
+{
+  std::span<const Vector4> points;
+  std::span<const PlaceOnMesh> places;
+  std::span<const std::uint8_t> isUsed;
+  std::span<const float> weights; ///< empty: all weigh alike
+
+  float weight(std::size_t sample) const { return weights.empty() ? 1.f : weights[sample]; }
+};
+
+/// The samples that lie on a triangle: how many, and the sum of their squared distances to it.
+struct SampleLoad
+{
+  double count = 0.;
+  double squares = 0.;
+
+  SampleLoad& operator+=(const SampleLoad& b)
+  {
+    count += b.count;
+    squares += b.squares;
+    return *this;
+  }
+  friend SampleLoad operator+(SampleLoad a, const SampleLoad& b) { return a += b; }
+
+  /// How much larger the squares are than those of samples with this variance about the surface are but
+  /// for chance: by two deviations of it.
+  double excess(double variance) const;
+};
+
+/// Which samples lie on which triangle of a mesh: a triangle is named by its corners, in any order. Each
+/// sample is in a list of the least corner of its triangle, so that edges can be flipped, and nothing is
+/// allocated.
+class TriangleSamples
+{
+public:
+  TriangleSamples(const PlacedSamples& samples, std::size_t indexEnd);
+
+  SampleLoad load(VertexIndex a, VertexIndex b, VertexIndex c) const;
+  /// Adds the samples on a triangle to `found`.
+  void collect(
+    VertexIndex a, VertexIndex b, VertexIndex c, std::vector<std::uint32_t>& found) const;
+  /// The same, and takes them from there.
+  void take(VertexIndex a, VertexIndex b, VertexIndex c, std::vector<std::uint32_t>& found);
+  /// Puts a sample that was taken on a triangle.
+  void put(
+    std::uint32_t sample, VertexIndex a, VertexIndex b, VertexIndex c, float squaredDistance);
+
+  Vector4 point(std::uint32_t sample) const { return samples_.points[sample]; }
+  float weight(std::uint32_t sample) const { return samples_.weight(sample); }
+  float squaredDistance(std::uint32_t sample) const { return squaredDistances_[sample]; }
+
+  /// Of all samples in use.
+  const SampleLoad& total() const { return total_; }
+
+private:
+  static constexpr std::uint32_t NoSample = 0xffffffffu;
+
+  PlacedSamples samples_;
+  std::vector<std::uint32_t> first_;                ///< of the list of each vertex
+  std::vector<std::uint32_t> next_;                 ///< in the list, of each sample
+  std::vector<std::array<VertexIndex, 2>> corners_; ///< other two of the triangle of each sample
+  std::vector<float> squaredDistances_;
+  SampleLoad total_;
+};
+}

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/FidelityRounds.h"
+
+#include "cloud/MeshBuilder.h"
+#include "fit/CreaseSnapping.h"
+#include "fit/DataFlips.h"
+#include "fit/HeldOutPoints.h"
+#include "fit/Redistribution.h"
+#include "fit/SmoothnessByRisk.h"
+#include "mesh/Refinement.h"
+#include "mesh/SurfaceReport.h"
+#include "MeshTools.h"
+#include "run/Reconstruction.h"
+#include "SphereRuns.h"
+#include "TrueSurfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+std::vector<Eigen::Vector3d> pointsOf(
+  const TrueSurface& surface, std::size_t count, double noise = 0.)
+{
+  CloudOptions options;
+  options.count = count;
+  options.noise = noise;
+  return generateCloud(surface.triangles, options);
+}
+
+Reconstruction made(const std::vector<Eigen::Vector3d>& points, std::uint64_t vertices,
+  Fidelity fidelity, std::uint64_t seed = 1)
+{
+  Parameters parameters;
+  parameters.numberOfVertices = vertices;
+  parameters.fidelity = fidelity;
+  parameters.seed = seed;
+  return reconstruct(PointCloud(points), parameters, goOn);
+}
+
+/// Root of the mean squared distance of points of the surface to the mesh, in units of the points.
+double error(const TrueSurface& surface, const Reconstruction& run)
+{
+  const PointCloud cloud(pointsOf(surface, 20000));
+  std::vector<std::size_t> all(cloud.points().size());
+  std::iota(all.begin(), all.end(), std::size_t(0));
+  const std::vector<float> squared = squaredDistances(cloud, all, buildMesh(run.mesh, cloud));
+  return cloud.unit() *
+    std::sqrt(std::accumulate(squared.begin(), squared.end(), 0.) / double(squared.size()));
+}
+
+double squaresOf(const PointCloud& cloud, const Mesh& mesh)
+{
+  const VertexGrid grid = gridOf(mesh, cloud);
+  double sum = 0.;
+  for (const Vector4& point : cloud.points())
+  {
+    sum += double(closestPlace(point, mesh, grid).squaredDistance);
+  }
+  return sum;
+}
+
+/// All points of a cloud, with their places on a mesh.
+struct PlacedCloud
+{
+  PlacedCloud(const PointCloud& cloud, const Mesh& mesh)
+    : isUsed(cloud.points().size(), 1)
+  {
+    const VertexGrid grid = gridOf(mesh, cloud);
+    for (const Vector4& point : cloud.points())
+    {
+      places.push_back(closestPlace(point, mesh, grid));
+    }
+    samples = { cloud.points(), places, isUsed, {} };
+  }
+
+  std::vector<PlaceOnMesh> places;
+  std::vector<std::uint8_t> isUsed;
+  PlacedSamples samples;
+};
+
+/// A sphere of the cloud whose points are moved at random.
+Mesh roughSphere(const PointCloud& cloud)
+{
+  TriangleMesh sphere = makeSphere(14);
+  Random random(4);
+  for (Eigen::Vector3d& point : sphere.points)
+  {
+    point += randomPoint(random, 0.03f).toDouble();
+  }
+  return buildMesh(std::move(sphere), cloud);
+}
+}
+
+// A cube has edges and corners, and the rounds of the fidelity bring the mesh there: over some seeds it is at
+// most half as far off as a draft, and high is no worse.
+TEST(Fidelity, SharpensACube)
+{
+  const TrueSurface cube = trueCube();
+  const std::vector<Eigen::Vector3d> points = pointsOf(cube, 40000);
+  double errorOfDraft = 0., errorOfUsual = 0., errorOfHigh = 0.;
+  for (const std::uint64_t seed : { 1u, 2u, 3u, 4u, 5u, 6u })
+  {
+    SCOPED_TRACE(seed);
+    const Reconstruction draft = made(points, 3000, Fidelity::Draft, seed);
+    const Reconstruction usual = made(points, 3000, Fidelity::Default, seed);
+    const Reconstruction high = made(points, 3000, Fidelity::High, seed);
+    for (const Reconstruction* run : { &usual, &high })
+    {
+      EXPECT_EQ(run->mesh.points.size(), 3000u);
+      EXPECT_EQ(defectOf(run->surface), "");
+      const SurfaceReport report = reportSurface(run->mesh);
+      EXPECT_EQ(report.genus, 0);
+      EXPECT_TRUE(report.isClosed());
+      EXPECT_EQ(run->finish->roundsTakenBack, 0);
+    }
+    errorOfDraft += error(cube, draft);
+    errorOfUsual += error(cube, usual);
+    errorOfHigh += error(cube, high);
+  }
+  EXPECT_LT(errorOfUsual, 0.5 * errorOfDraft);
+  EXPECT_LE(errorOfHigh, 1.02 * errorOfUsual);
+}
+
+// Noise is averaged out better than by a draft on a torus, and beside the edges of a cube; on a sphere, which is
+// bent alike everywhere, it is hardly worse to choose lambda for each place.
+TEST(Fidelity, AveragesNoise)
+{
+  struct Case
+  {
+    TrueSurface surface;
+    double noise, most;
+  };
+  for (const auto& [surface, noise, most] :
+    { Case{ trueTorus(), 0.004, 0.9 }, { trueCube(), 0.003, 0.8 }, { trueSphere(), 0.005, 1.1 } })
+  {
+    SCOPED_TRACE(surface.name);
+    const std::vector<Eigen::Vector3d> points = pointsOf(surface, 60000, noise);
+    const Reconstruction draft = made(points, 4000, Fidelity::Draft);
+    const Reconstruction usual = made(points, 4000, Fidelity::Default);
+    EXPECT_LT(error(surface, usual), most * error(surface, draft));
+    EXPECT_EQ(usual.finish->roundsTakenBack, 0);
+  }
+}
+
+// A mesh with more vertices is hardly worse than one with less, up to one for two points: lambda belongs to the
+// place, not to the number of vertices.
+TEST(Fidelity, MoreVerticesDoNotHarm)
+{
+  const TrueSurface sphere = trueSphere();
+  const std::vector<Eigen::Vector3d> points = pointsOf(sphere, 40000, 0.005);
+  double least = error(sphere, made(points, 2000, Fidelity::Default));
+  for (const std::uint64_t vertices : { 5000u, 10000u })
+  {
+    const double now = error(sphere, made(points, vertices, Fidelity::Default));
+    EXPECT_LE(now, 1.05 * least) << vertices;
+    least = std::min(least, now);
+  }
+}
+
+// What they know of vertices follows the mesh, and flips bring samples closer.
+TEST(DataFlips, BringSamplesCloser)
+{
+  const PointCloud& cloud = cleanSphere();
+  Mesh mesh = roughSphere(cloud);
+  const PlacedCloud placed(cloud, mesh);
+  const double before = squaresOf(cloud, mesh);
+  const ChangedVertices changed = flipToSamples(mesh, placed.samples, 0.);
+  EXPECT_TRUE(changed.any);
+  EXPECT_EQ(defectOf(mesh), "");
+  EXPECT_LT(squaresOf(cloud, mesh), before);
+}
+
+// Vertices go where they are needed, and there are as many as before; those that are missing come in.
+TEST(Redistribution, KeepsTheCount)
+{
+  const PointCloud cloud(pointsOf(trueCube(), 20000));
+  Mesh mesh = made(pointsOf(trueCube(), 20000), 1200, Fidelity::Draft).surface;
+  for (const std::size_t missing : { 0u, 7u })
+  {
+    const std::size_t count = mesh.vertexCount();
+    const PlacedCloud placed(cloud, mesh);
+    const double before = squaresOf(cloud, mesh);
+    const ChangedVertices changed = redistribute(mesh, placed.samples, 0., 0.1, missing);
+    EXPECT_TRUE(changed.any);
+    EXPECT_EQ(mesh.vertexCount(), count + missing);
+    EXPECT_EQ(defectOf(mesh), "");
+    mesh.dropErased();
+    EXPECT_LT(squaresOf(cloud, mesh), before * 1.001);
+  }
+}
+
+// Vertices beside the edges of a cube go onto them.
+TEST(CreaseSnapping, FindsTheEdgesOfACube)
+{
+  const std::vector<Eigen::Vector3d> points = pointsOf(trueCube(), 20000);
+  const PointCloud cloud(points);
+  Mesh mesh = made(points, 1200, Fidelity::Draft).surface;
+  const PlacedCloud placed(cloud, mesh);
+  const double before = squaresOf(cloud, mesh);
+  const ChangedVertices changed = snapToCreases(mesh, placed.samples, 0.);
+  EXPECT_TRUE(changed.any);
+  EXPECT_EQ(defectOf(mesh), "");
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    EXPECT_TRUE(mesh.isAlive(changed.alive(mesh, v)));
+  }
+  mesh.dropErased();
+  EXPECT_LT(squaresOf(cloud, mesh), 0.7 * before);
+}
+
+// Samples are taken from a triangle and put on another, and the loads tell.
+TEST(TriangleSamples, FollowTheirTriangles)
+{
+  const PointCloud& cloud = cleanSphere();
+  const Mesh mesh = roughSphere(cloud);
+  const PlacedCloud placed(cloud, mesh);
+  TriangleSamples samples(placed.samples, mesh.indexEnd());
+  EXPECT_EQ(samples.total().count, double(cloud.points().size()));
+  double count = 0., squares = 0.;
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    {
+      const SampleLoad load = samples.load(c, a, b);
+      count += load.count;
+      squares += load.squares;
+    });
+  EXPECT_EQ(count, samples.total().count);
+  EXPECT_NEAR(squares, samples.total().squares, 1e-9 * squares);
+  const auto& [a, b, c] = placed.places[0].triangle;
+  std::vector<std::uint32_t> found, taken;
+  samples.collect(a, b, c, found);
+  samples.take(b, c, a, taken);
+  EXPECT_EQ(found, taken);
+  EXPECT_NE(std::find(found.begin(), found.end(), 0u), found.end());
+  EXPECT_EQ(samples.load(a, b, c).count, 0.);
+  for (const std::uint32_t sample : taken)
+  {
+    samples.put(sample, c, a, b, 2.f);
+  }
+  EXPECT_EQ(samples.load(a, b, c).squares, 2. * double(taken.size()));
+}
+
+// Normals that came with noisy points bring the mesh closer; signs do not count. Those that are random, zero or all
+// alike change nothing, and those that are turned together from the surface do not, either.
+TEST(GivenNormals, HelpOrAreLeftOut)
+{
+  const std::vector<Eigen::Vector3d> points = pointsOf(trueSphere(), 40000, 0.006);
+  const PointCloud cloud(points, {}, true);
+  Parameters parameters;
+  parameters.numberOfVertices = 3000;
+  const auto errorWith = [&](const std::function<Eigen::Vector3d(std::uint32_t)>& normalOf)
+  {
+    OrientationHints hints;
+    hints.normalOf = normalOf;
+    return error(trueSphere(),
+      reconstruct(cloud, parameters, goOn, {}, {}, {}, Executor::sequential(), hints));
+  };
+  const double without = errorWith({});
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()).matrix();
+  EXPECT_LT(errorWith([&](std::uint32_t i) { return points[i]; }), 0.9 * without);
+  EXPECT_LT(
+    errorWith([&](std::uint32_t i) { return Eigen::Vector3d(i % 3 ? points[i] : -points[i]); }),
+    0.9 * without);
+  EXPECT_EQ(
+    errorWith([&](std::uint32_t i) { return points[(i * 7919u) % points.size()]; }), without);
+  EXPECT_EQ(errorWith([](std::uint32_t) { return Eigen::Vector3d(0., 0., 0.); }), without);
+  EXPECT_EQ(errorWith([](std::uint32_t) { return Eigen::Vector3d(0., 0., 1.); }), without);
+  EXPECT_EQ(errorWith([&](std::uint32_t i) { return Eigen::Vector3d(turn * points[i]); }), without);
+}
+
+// Few samples a vertex, one point a vertex, all points in one place or none that weighs anything: the mesh is a
+// manifold of finite points.
+TEST(Fidelity, BadInput)
+{
+  Random random(3);
+  std::vector<Eigen::Vector3d> few = pointsOf(trueCube(), 3000), pile;
+  for (int cube = 0; cube < 5; ++cube)
+  {
+    for (const Eigen::Vector3d& point : pointsOf(trueCube(), 3000))
+    {
+      pile.emplace_back(point + 0.3 * randomPoint(random, 1.f).toDouble());
+    }
+  }
+  std::vector<Eigen::Vector3d> speck = few;
+  for (std::size_t i = 300; i < speck.size(); ++i)
+  {
+    speck[i] = Eigen::Vector3d(0.5, 0.1, 0.1) + 1e-6 * speck[i];
+  }
+  for (const auto* points : { &few, &pile, &speck })
+  {
+    for (const std::uint64_t vertices : { 1000u, 3000u })
+    {
+      for (const Fidelity fidelity : { Fidelity::Default, Fidelity::High })
+      {
+        const Reconstruction run = made(*points, vertices, fidelity);
+        EXPECT_EQ(defectOf(run.surface), "");
+        for (const Eigen::Vector3d& point : run.mesh.points)
+        {
+          EXPECT_TRUE(point.allFinite());
+        }
+      }
+    }
+  }
+}
+}
