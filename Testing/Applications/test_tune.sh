@@ -111,9 +111,10 @@ CASES
   grep -q 'Exit status: 0' out || fail "the help does not tell the exit statuses"
 }
 
-# A clean one, and one that is so noisy that bends cannot be told from it.
-awk 'BEGIN { srand(1); for (i = 0; i < 40000; ++i) { z = 2 * rand() - 1; r = sqrt(1 - z * z); a = 6.283185 * rand()
-  printf "%.9f %.9f %.9f\n", r * cos(a), r * sin(a), z } }' > cloud.xyz
+# A clean torus, of which a finer fit makes more, and a sphere that is so noisy that bends cannot be told from it.
+awk 'BEGIN { srand(1); for (i = 0; i < 100000;) { a = 6.283185 * rand(); b = 6.283185 * rand(); r = 1 + 0.4 * cos(b)
+  if (1.4 * rand() < r) { printf "%.9f %.9f %.9f\n", r * cos(a), r * sin(a), 0.4 * sin(b); ++i } } }' > cloud.xyz
 awk 'function noise() { return 0.05 * (rand() + rand() + rand() - 1.5) }
-  BEGIN { srand(1) } { print $1 + noise(), $2 + noise(), $3 + noise() }' cloud.xyz > noisy.xyz
+  BEGIN { srand(1); for (i = 0; i < 40000; ++i) { z = 2 * rand() - 1; r = sqrt(1 - z * z); a = 6.283185 * rand()
+  print r * cos(a) + noise(), r * sin(a) + noise(), z + noise() } }' > noisy.xyz
 "test_$2"

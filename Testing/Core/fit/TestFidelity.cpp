@@ -60,7 +60,8 @@ double squaresOf(const PointCloud& cloud, const Mesh& mesh)
   double sum = 0.;
   for (const Vector4& point : cloud.points())
   {
-    sum += double(closestPlace(point, mesh, grid).squaredDistance);
+    sum += double(
+      closestPlaceAround(point, mesh, grid.closest(point, mesh.positions())).squaredDistance);
   }
   return sum;
 }
@@ -74,7 +75,7 @@ struct PlacedCloud
     const VertexGrid grid = gridOf(mesh, cloud);
     for (const Vector4& point : cloud.points())
     {
-      places.push_back(closestPlace(point, mesh, grid));
+      places.push_back(closestPlaceAround(point, mesh, grid.closest(point, mesh.positions())));
     }
     samples = { cloud.points(), places, isUsed, {} };
   }
