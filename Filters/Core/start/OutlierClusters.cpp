@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/OutlierClusters.h"
 
+#include "base/Median.h"
+#include "cloud/NearestPoints.h"
+#include "start/LocalLayer.h"
 #include "start/OccupiedSolid.h"
 #include "start/OccupiedVoxels.h"
 #include "start/VoxelMajority.h"
@@ -26,6 +29,12 @@ constexpr unsigned CoarseResolution = 32;
 /// long as so much of all is left that is no core: then there is noise.
 constexpr double MostPartOfNoise = 0.02;
 constexpr int MostLayers = 3;
+/// Noise fills the inside of limbs up to a half thickness of so many deviations, its tails included, and a voxel.
+constexpr double DeviationsInLimb = 5.;
+/// It is told around so many points, by so many others at least, as close as so many voxels.
+constexpr std::size_t PointsOfNoise = 200;
+constexpr std::size_t LeastPointsOfLayer = 16;
+constexpr double VoxelsOfNoise = 2.;
 /// It has so many voxels, and of the cube around it fills this part: thin sheets and rods do not.
 constexpr std::size_t LeastVoxelsOfCore = 6;
 constexpr double LeastPartOfCube = 0.15;
@@ -119,7 +128,40 @@ bool holds(const Ball& ball, const Ball& other)
   return (other.center - ball.center).norm() < ball.radius;
 }
 
-std::vector<Ball> findClusters(const OccupiedVoxels& voxels)
+/// Standard deviation of the points across the surface, as far as balls of this radius show it.
+double noiseOf(const PointCloud& cloud, float radius)
+{
+  const NearestPoints nearest(cloud.points());
+  const std::size_t all = cloud.points().size(), asked = std::min(all, PointsOfNoise);
+  std::vector<float> scatters;
+  std::vector<NearPoint> around, some;
+  for (std::size_t i = 0; i < asked; ++i)
+  {
+    const Vector4 place = cloud.points()[i * all / asked];
+    around.clear();
+    nearest.forEachWithin(place, radius,
+      [&](std::uint32_t index, float squared) {
+        around.push_back({ squared, index });
+      });
+    if (around.size() < LeastPointsOfLayer)
+    {
+      continue;
+    }
+    // Many would all lie within the noise.
+    const std::size_t count = std::min(around.size(), MostPointsOfLayer);
+    some.clear();
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      some.push_back(around[k * around.size() / count]);
+    }
+    std::sort(some.begin(), some.end());
+    scatters.push_back(localLayer(place, cloud.points(), some).scatter);
+  }
+  return scatters.empty() ? 0. : double(medianOf(std::move(scatters)));
+}
+
+/// Those that are compact after `leastLayers` were taken off.
+std::vector<Ball> findClusters(const OccupiedVoxels& voxels, int leastLayers = 1)
 {
   const double most =
     MostPartOfNoise * double(std::count(voxels.isOccupied.begin(), voxels.isOccupied.end(), 1));
@@ -134,6 +176,10 @@ std::vector<Ball> findClusters(const OccupiedVoxels& voxels)
       clusters.clear();
     }
     growVoxels(voxels.grid, cores, 0);
+    if (layers < leastLayers)
+    {
+      continue;
+    }
     noise = 0.;
     for (const auto& core : connectedPieces(voxels.grid, cores))
     {
@@ -256,7 +302,14 @@ std::optional<PointCloud> withoutClusters(const PointCloud& cloud)
     return {};
   }
   const OccupiedVoxels voxels = occupiedVoxels(cloud, Resolution);
-  const std::vector<Ball> clusters = findClusters(voxels);
+  std::vector<Ball> clusters = findClusters(voxels);
+  if (!clusters.empty())
+  {
+    // What may be a limb that is full of noise is none.
+    const int layersOfLimb = int(DeviationsInLimb *
+      noiseOf(cloud, float(VoxelsOfNoise * voxels.grid.width)) / voxels.grid.width);
+    clusters = layersOfLimb > 0 ? findClusters(voxels, layersOfLimb + 1) : clusters;
+  }
   if (clusters.empty())
   {
     return {};

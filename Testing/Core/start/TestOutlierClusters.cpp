@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace neuralmesh::testing
 {
 namespace
@@ -45,6 +48,34 @@ TEST(OutlierClusters, SurfacesAreNoClusters)
     }
   }
   EXPECT_FALSE(withoutClusters(PointCloud({})));
+}
+
+// A hand with fingers so thin that noise fills their inside, and what is between them, is no cluster: it stays.
+TEST(OutlierClusters, LimbsFullOfNoiseStay)
+{
+  constexpr double Diagonal = 3.5, Noise = 0.005 * Diagonal;
+  for (const double radius : { 0.03, 0.04, 0.05 })
+  {
+    SCOPED_TRACE(radius);
+    CloudOptions options;
+    options.noise = 0.005;
+    std::vector<Eigen::Vector3d> points = pointsOf(makeSphere(), options);
+    // As dense as on the sphere of radius 1.
+    constexpr double Length = 0.2;
+    constexpr std::size_t Fingers = 4;
+    const auto count = Fingers * std::size_t(double(Count) * radius * Length / 2.);
+    Random random(1);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const double angle = 2. * std::numbers::pi * random.uniform();
+      const double along = 1. + Length * random.uniform();
+      const double left = i % Fingers < 2 ? 1. : -1., up = i % 2 == 0 ? 1. : -1.;
+      addCluster(points,
+        { along, radius * (1.4 * left + std::cos(angle)), radius * (1.4 * up + std::sin(angle)) },
+        Noise, 1, random);
+    }
+    EXPECT_FALSE(withoutClusters(PointCloud(points)));
+  }
 }
 
 // Clusters beside a shape and inside it go, all but a few points; the shape keeps all of its own.
