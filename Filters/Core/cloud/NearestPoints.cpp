@@ -12,28 +12,34 @@ constexpr std::size_t MoreForPlaces = 4;
 constexpr std::size_t MostForPlaces = 256;
 }
 
+void NearestPoints::Boxes::set(std::size_t i, const Box& box)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    low[axis][i / 4][i % 4] = box.low[int(axis)];
+    high[axis][i / 4][i % 4] = box.high[int(axis)];
+  }
+}
+
 NearestPoints::NearestPoints(std::span<const Vector4> points)
   : points_(points)
 {
-  if (points.empty())
-  {
-    return;
-  }
   std::vector<Box> boxes((points.size() + Fan - 1) / Fan);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     boxes[i / Fan].extend(points[i]);
   }
-  levels_.push_back(std::move(boxes));
-  while (levels_.back().size() > Fan)
+  while (!boxes.empty())
   {
-    const std::vector<Box>& finer = levels_.back();
-    std::vector<Box> coarser((finer.size() + Fan - 1) / Fan);
-    for (std::size_t i = 0; i < finer.size(); ++i)
+    std::vector<Boxes> groups((boxes.size() + Fan - 1) / Fan);
+    std::vector<Box> coarser(groups.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
     {
-      coarser[i / Fan].extend(finer[i]);
+      groups[i / Fan].set(i % Fan, boxes[i]);
+      coarser[i / Fan].extend(boxes[i]);
     }
-    levels_.push_back(std::move(coarser));
+    levels_.push_back(std::move(groups));
+    boxes = coarser.size() > 1 ? std::move(coarser) : std::vector<Box>();
   }
 }
 
@@ -62,17 +68,21 @@ struct NearestPoints::Search
   }
 };
 
-void NearestPoints::visit(
-  Search& search, std::size_t level, std::size_t begin, std::size_t end) const
+void NearestPoints::visit(Search& search, std::size_t level, std::size_t group) const
 {
-  // At most Fan of them; the nearest first.
+  // Those that may hold something nearer, the nearest first.
   std::array<NearPoint, Fan> order;
-  const std::size_t count = end - begin;
-  for (std::size_t i = 0; i < count; ++i)
+  std::size_t count = 0;
+  const std::array<float, Fan> distances = levels_[level][group].squaredDistances(search.point);
+  const std::size_t boxes = boxCount(level, group);
+  for (std::size_t i = 0; i < boxes; ++i)
   {
-    NearPoint box{ squaredDistance(levels_[level][begin + i], search.point),
-      std::uint32_t(begin + i) };
-    std::size_t at = i;
+    const NearPoint box{ distances[i], std::uint32_t(Fan * group + i) };
+    if (!search.takes(firstPointIn(box, level)))
+    {
+      continue;
+    }
+    std::size_t at = count++;
     for (; at > 0 && box < order[at - 1]; --at)
     {
       order[at] = order[at - 1];
@@ -81,21 +91,19 @@ void NearestPoints::visit(
   }
   for (std::size_t i = 0; i < count; ++i)
   {
-    const auto [squared, index] = order[i];
     // Of many points on one spot, only the first are looked at.
-    const auto firstPoint = std::uint32_t(std::size_t(index) << BitsPerLevel * (level + 1));
-    if (!search.takes({ squared, firstPoint }))
+    if (!search.takes(firstPointIn(order[i], level)))
     {
       return;
     }
+    const std::size_t box = order[i].index;
     if (level > 0)
     {
-      visit(search, level - 1, Fan * index,
-        std::min(Fan * (index + std::size_t(1)), levels_[level - 1].size()));
+      visit(search, level - 1, box);
       continue;
     }
-    const std::size_t last = std::min(Fan * (index + std::size_t(1)), points_.size());
-    for (std::size_t p = Fan * index; p < last; ++p)
+    const std::size_t last = std::min(Fan * (box + 1), points_.size());
+    for (std::size_t p = Fan * box; p < last; ++p)
     {
       search.take({ squaredNorm(points_[p] - search.point), std::uint32_t(p) });
     }
@@ -107,19 +115,54 @@ std::size_t NearestPoints::find(Vector4 point, std::span<NearPoint> nearest) con
   Search search{ point, nearest };
   if (!levels_.empty() && !nearest.empty())
   {
-    visit(search, levels_.size() - 1, 0, levels_.back().size());
+    visit(search, levels_.size() - 1, 0);
   }
   return search.count;
 }
 
+std::size_t NearestPoints::findOf(std::uint32_t index, std::span<NearPoint> nearest) const
+{
+  const Vector4 point = points_[index];
+  const std::size_t wanted = std::min(nearest.size(), points_.size());
+  const std::size_t begin = index - std::min<std::size_t>(index, wanted);
+  const auto around = points_.subspan(begin, std::min(2 * wanted + 1, points_.size() - begin));
+  std::vector<float> squares(around.size());
+  std::transform(around.begin(), around.end(), squares.begin(),
+    [point](Vector4 other) { return squaredNorm(other - point); });
+  const auto last = squares.begin() + std::ptrdiff_t(wanted - 1);
+  std::nth_element(squares.begin(), last, squares.end());
+  if (*last == 0.f)
+  {
+    // Many on one spot, of which only the first are to be looked at.
+    return find(point, nearest);
+  }
+  Search search{ point, nearest };
+  const auto take = [&search](std::uint32_t other, float squared) {
+    search.take({ squared, other });
+  };
+  visitWithin(point, *last, levels_.size() - 1, 0, take);
+  return search.count;
+}
+
 std::size_t NearestPoints::findPlaces(Vector4 point, std::span<NearPoint> nearest) const
+{
+  return findPlacesBy([&](std::span<NearPoint> found) { return find(point, found); }, nearest);
+}
+
+std::size_t NearestPoints::findPlaces(std::uint32_t index, std::span<NearPoint> nearest) const
+{
+  return findPlacesBy([&](std::span<NearPoint> found) { return findOf(index, found); }, nearest);
+}
+
+template <typename Find>
+std::size_t NearestPoints::findPlacesBy(const Find& find, std::span<NearPoint> nearest) const
 {
   std::vector<NearPoint> found;
   std::size_t places = 0;
   for (std::size_t wanted = nearest.size() + 1; places < nearest.size(); wanted *= MoreForPlaces)
   {
     found.resize(std::min(wanted, points_.size()));
-    found.resize(find(point, found));
+    found.resize(find(found));
     places = 0;
     for (std::size_t i = 0; i < found.size() && places < nearest.size(); ++i)
     {

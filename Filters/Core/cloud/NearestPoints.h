@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 #include <vector>
@@ -20,12 +23,20 @@ struct NearPoint
   float squaredDistance = std::numeric_limits<float>::infinity();
   std::uint32_t index = 0;
 
-  auto operator<=>(const NearPoint&) const = default;
+  bool operator==(const NearPoint&) const = default;
+  std::strong_ordering operator<=>(const NearPoint& other) const { return key() <=> other.key(); }
+
+private:
+  /// The bits of numbers that are not negative are in their order: one comparison tells of both.
+  std::uint64_t key() const
+  {
+    return std::uint64_t(std::bit_cast<std::uint32_t>(squaredDistance)) << 32 | index;
+  }
 };
 
 /// The nearest of many points, by boxes around eight that follow each other, around eight such boxes,
 /// and so on: right for any order of the points, fast if it is that of a Morton curve. The points are
-/// not copied and must outlive it; the boxes take 5 bytes a point. However uneven the density is, the
+/// not copied and must outlive it; the boxes take 4 bytes a point. However uneven the density is, the
 /// boxes follow it.
 class NearestPoints
 {
@@ -41,6 +52,8 @@ public:
   /// The same for places other than `point`, each once, though many points may lie there. Of places at which
   /// very many points are it may find fewer than there are.
   std::size_t findPlaces(Vector4 point, std::span<NearPoint> nearest) const;
+  /// The same for the place of one of the points, faster: those before and behind it tell how far off they may be.
+  std::size_t findPlaces(std::uint32_t index, std::span<NearPoint> nearest) const;
 
   /// The same as find() for many, faster where they are expected within about `radius`.
   std::size_t findWithin(Vector4 point, float radius, std::span<NearPoint> nearest,
@@ -53,7 +66,7 @@ public:
     if (!levels_.empty())
     {
       const std::size_t top = levels_.size() - 1;
-      visitWithin(point, radius * radius, top, 0, levels_[top].size(), use);
+      visitWithin(point, radius * radius, top, 0, use);
     }
   }
 
@@ -61,30 +74,65 @@ private:
   static constexpr unsigned BitsPerLevel = 3;
   static constexpr std::size_t Fan = std::size_t(1) << BitsPerLevel;
 
-  static float squaredDistance(const Box& box, Vector4 point)
+  /// Boxes that follow each other, axis by axis, for one instruction to tell the distances of four.
+  struct Boxes
   {
-    const Vector4 outside = max(max(box.low - point, point - box.high), Vector4());
-    return squaredNorm(outside);
+    using Four = Vector4::Lanes;
+
+    std::array<std::array<Four, Fan / 4>, 3> low;
+    std::array<std::array<Four, Fan / 4>, 3> high;
+
+    void set(std::size_t i, const Box& box);
+
+    /// From a point.
+    std::array<float, Fan> squaredDistances(Vector4 point) const
+    {
+      std::array<float, Fan> result;
+      for (std::size_t half = 0; half < Fan / 4; ++half)
+      {
+        Four sum{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          const float at = point[int(axis)];
+          const Four under = low[axis][half] - at, over = at - high[axis][half];
+          const Four beside = under > over ? under : over;
+          const Four outside = beside > 0.f ? beside : Four{};
+          sum += outside * outside;
+        }
+        std::memcpy(result.data() + 4 * half, &sum, sizeof(sum));
+      }
+      return result;
+    }
+  };
+
+  /// How many boxes there are in a group: all but the last of a level are full.
+  std::size_t boxCount(std::size_t level, std::size_t group) const
+  {
+    const std::size_t all =
+      level > 0 ? levels_[level - 1].size() : (points_.size() + Fan - 1) / Fan;
+    return std::min(Fan, all - Fan * group);
   }
 
   template <typename Use>
-  void visitWithin(Vector4 point, float squaredRadius, std::size_t level, std::size_t begin,
-    std::size_t end, Use& use) const
+  void visitWithin(
+    Vector4 point, float squaredRadius, std::size_t level, std::size_t group, Use& use) const
   {
-    for (std::size_t i = begin; i < end; ++i)
+    const std::array<float, Fan> distances = levels_[level][group].squaredDistances(point);
+    const std::size_t boxes = boxCount(level, group);
+    for (std::size_t i = 0; i < boxes; ++i)
     {
-      if (squaredDistance(levels_[level][i], point) > squaredRadius)
+      if (distances[i] > squaredRadius)
       {
         continue;
       }
+      const std::size_t box = Fan * group + i;
       if (level > 0)
       {
-        visitWithin(point, squaredRadius, level - 1, Fan * i,
-          std::min(Fan * (i + 1), levels_[level - 1].size()), use);
+        visitWithin(point, squaredRadius, level - 1, box, use);
         continue;
       }
-      const std::size_t last = std::min(Fan * (i + 1), points_.size());
-      for (std::size_t p = Fan * i; p < last; ++p)
+      const std::size_t last = std::min(Fan * (box + 1), points_.size());
+      for (std::size_t p = Fan * box; p < last; ++p)
       {
         const float squared = squaredNorm(points_[p] - point);
         if (squared <= squaredRadius)
@@ -95,10 +143,23 @@ private:
     }
   }
 
+  /// A box, as if its first point were as near as can be.
+  static NearPoint firstPointIn(NearPoint box, std::size_t level)
+  {
+    return { box.squaredDistance,
+      std::uint32_t(std::size_t(box.index) << BitsPerLevel * (level + 1)) };
+  }
+
+  std::size_t findOf(std::uint32_t index, std::span<NearPoint> nearest) const;
+
+  /// `find(nearest)` finds as many as there is room for.
+  template <typename Find>
+  std::size_t findPlacesBy(const Find& find, std::span<NearPoint> nearest) const;
+
   struct Search;
-  void visit(Search& search, std::size_t level, std::size_t begin, std::size_t end) const;
+  void visit(Search& search, std::size_t level, std::size_t group) const;
 
   std::span<const Vector4> points_;
-  std::vector<std::vector<Box>> levels_; ///< the finest first
+  std::vector<std::vector<Boxes>> levels_; ///< the finest first; one group is the coarsest
 };
 }

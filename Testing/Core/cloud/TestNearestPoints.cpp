@@ -91,6 +91,23 @@ TEST(NearestPoints, PlacesCountOnce)
   EXPECT_EQ(nearest.findPlaces(places[0], {}), 0u);
 }
 
+// Keeps the promise: of a point the places are the same as of where it lies.
+TEST(NearestPoints, PlacesOfAPointAreThoseOfItsPlace)
+{
+  for (const std::size_t count : { 1, 7, 9, 65, 3000 })
+  {
+    const std::vector<Vector4> points = unevenPoints(count);
+    const NearestPoints nearest(points);
+    for (std::uint32_t i = 0; i < points.size(); ++i)
+    {
+      std::vector<NearPoint> found(7), expected(7);
+      found.resize(nearest.findPlaces(i, found));
+      expected.resize(nearest.findPlaces(points[i], expected));
+      ASSERT_EQ(found, expected);
+    }
+  }
+}
+
 // Keeps the promise: all points within a radius, each once.
 TEST(NearestPoints, WithinARadiusAreAll)
 {
