@@ -287,8 +287,7 @@ bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& pro
   {
   }
   // A mesh that is open anyway may have a small hole more.
-  while (mesh_.isOpen() &&
-    mendsBy([this] { replaceCrossings(mesh_, Crossings::Fewest); }, guard, progress))
+  while (mesh_.isOpen() && mendsBy([this] { replaceFewestCrossings(mesh_); }, guard, progress))
   {
   }
   return true;

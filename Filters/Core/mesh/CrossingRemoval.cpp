@@ -2,8 +2,8 @@
 #include "mesh/CrossingRemoval.h"
 
 #include "mesh/BoundaryFilling.h"
-#include "mesh/SelfIntersections.h"
 
+#include <algorithm>
 #include <map>
 #include <queue>
 #include <utility>
@@ -54,40 +54,62 @@ std::vector<Triangle> withoutWhichNonePairs(const std::vector<TrianglePair>& pai
   return result;
 }
 
-template <typename Find>
-void removeWhileAny(Mesh& mesh, const Find& find)
+std::vector<Triangle> trianglesOf(const std::vector<TrianglePair>& pairs)
+{
+  std::vector<Triangle> triangles;
+  triangles.reserve(2 * pairs.size());
+  for (const TrianglePair& pair : pairs)
+  {
+    triangles.insert(triangles.end(), pair.begin(), pair.end());
+  }
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  return triangles;
+}
+
+/// Of triangles that touch it may depend on what else is there whether they are found.
+void removeFewest(Mesh& mesh)
 {
   for (int round = 0; round < MostRoundsOfRemoval; ++round)
   {
-    const std::vector<Triangle> found = find(mesh);
-    if (found.empty())
+    const std::vector<TrianglePair> pairs = intersectingPairs(mesh);
+    if (pairs.empty())
     {
       break;
     }
-    mesh.removeTriangles(found);
+    mesh.removeTriangles(withoutWhichNonePairs(pairs));
   }
 }
 }
 
-void removeCrossings(Mesh& mesh)
+std::vector<bool> findBoundaryVertices(const Mesh& mesh)
 {
-  removeWhileAny(mesh, [](const Mesh& crossed) { return intersectingTriangles(crossed); });
+  std::vector<bool> result(mesh.indexEnd(), false);
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    result[v] = mesh.isAlive(v) && mesh.isBoundary(v);
+  }
+  return result;
 }
 
-void replaceCrossings(Mesh& mesh, Crossings crossings)
+void removeCrossings(Mesh& mesh, const std::vector<bool>& isAsked)
 {
-  const auto remove = [&]
-  {
-    if (crossings == Crossings::All)
-    {
-      removeCrossings(mesh);
-      return;
-    }
-    removeWhileAny(
-      mesh, [](const Mesh& crossed) { return withoutWhichNonePairs(intersectingPairs(crossed)); });
-  };
-  remove();
+  mesh.removeTriangles(intersectingTriangles(mesh, isAsked));
+}
+
+void replaceCrossings(Mesh& mesh, const std::vector<TrianglePair>& pairs)
+{
+  mesh.removeTriangles(trianglesOf(pairs));
+  // What is left intersects nothing but what fills the gaps.
+  const std::vector<bool> isAsked = findBoundaryVertices(mesh);
   fillSmallGaps(mesh);
-  remove();
+  removeCrossings(mesh, isAsked);
+}
+
+void replaceFewestCrossings(Mesh& mesh)
+{
+  removeFewest(mesh);
+  fillSmallGaps(mesh);
+  removeFewest(mesh);
 }
 }

@@ -2,20 +2,23 @@
 #pragma once
 
 #include "mesh/Mesh.h"
+#include "mesh/SelfIntersections.h"
+
+#include <vector>
 
 namespace neuralmesh
 {
-/// Takes away the triangles that intersect others. Vertices without triangles are erased. Not in the thesis.
-void removeCrossings(Mesh& mesh);
+/// Takes away the triangles that intersect others, of those that have a corner v with `isAsked[v]`, and of those
+/// that these intersect. Vertices without triangles are erased. Not in the thesis.
+void removeCrossings(Mesh& mesh, const std::vector<bool>& isAsked);
 
-/// Which triangles are taken away.
-enum class Crossings
-{
-  All,   ///< where any may be wrong
-  Fewest ///< about as few as will do: where points lie on all of them
-};
+/// Takes away the triangles of `pairs`, which are all that intersect, and fills the small gaps that are left where
+/// what fills them intersects nothing.
+void replaceCrossings(Mesh& mesh, const std::vector<TrianglePair>& pairs);
 
-/// Takes triangles away until none intersects another, and fills the small gaps that are left where what
-/// fills them intersects nothing.
-void replaceCrossings(Mesh& mesh, Crossings crossings);
+/// The same with about as few triangles taken away as will do: where points lie on all of them.
+void replaceFewestCrossings(Mesh& mesh);
+
+/// The vertices on boundaries: what fills gaps has its corners there.
+std::vector<bool> findBoundaryVertices(const Mesh& mesh);
 }

@@ -106,12 +106,15 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestP
   result.inOneOfTwo = inOneOfTwo;
   result.scatter = double(inNoLayer) / double(samples.size() + inNoLayer);
   result.filledLoops = fillSmallGaps(result.mesh);
-  result.crossings = intersectingPairs(result.mesh).size();
+  const std::vector<TrianglePair> pairs = intersectingPairs(result.mesh);
+  result.crossings = pairs.size();
   if (result.crossings > 0)
   {
-    replaceCrossings(result.mesh, Crossings::All);
+    replaceCrossings(result.mesh, pairs);
   }
   result.mesh.removeTriangles(findWideTriangles(result.mesh, samples));
+  // What is left intersects nothing but what is filled from here on.
+  const std::vector<bool> isOnBoundary = findBoundaryVertices(result.mesh);
   fillSmallGaps(result.mesh);
   if (turnedParts > 0)
   {
@@ -122,7 +125,7 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestP
     // Along the rims of plates.
     fillSlits(result.mesh, samples);
   }
-  removeCrossings(result.mesh);
+  removeCrossings(result.mesh, isOnBoundary);
   // What it has opened: a few triangles that intersect come apart in learning, a hole would stay.
   fillSmallGaps(result.mesh);
   result.mesh.dropErased();

@@ -37,9 +37,9 @@ TEST(CrossingRemoval, NothingIntersects)
   const std::size_t crossing = intersectingTriangles(before).size();
   ASSERT_GT(crossing, 0u);
   Mesh removed = before, replaced = before, fewest = before;
-  removeCrossings(removed);
-  replaceCrossings(replaced, Crossings::All);
-  replaceCrossings(fewest, Crossings::Fewest);
+  removeCrossings(removed, std::vector<bool>(removed.indexEnd(), true));
+  replaceCrossings(replaced, intersectingPairs(replaced));
+  replaceFewestCrossings(fewest);
   for (Mesh* mesh : { &removed, &replaced, &fewest })
   {
     mesh->dropErased();
@@ -53,13 +53,27 @@ TEST(CrossingRemoval, NothingIntersects)
   EXPECT_EQ(fewest.triangleCount() + 1, before.triangleCount());
 }
 
+// Of what intersects only that is taken away that is asked for, or meets what is.
+TEST(CrossingRemoval, TakesWhatIsAskedFor)
+{
+  Mesh mesh = crossedSheet();
+  const Mesh before = mesh;
+  std::vector<bool> isAsked(mesh.indexEnd(), false);
+  isAsked[0] = true;
+  removeCrossings(mesh, isAsked);
+  EXPECT_EQ(trianglesOf(mesh), trianglesOf(before));
+  // What fills a gap has its corners on a boundary: so has the triangle that stands in the sheet.
+  removeCrossings(mesh, findBoundaryVertices(mesh));
+  EXPECT_TRUE(intersectingTriangles(mesh).empty());
+}
+
 // A mesh in which nothing intersects stays as it is.
 TEST(CrossingRemoval, LeavesOthersAlone)
 {
   const Mesh before = meshOf(makeGrid(20));
   Mesh mesh = before;
-  replaceCrossings(mesh, Crossings::All);
-  replaceCrossings(mesh, Crossings::Fewest);
+  replaceCrossings(mesh, intersectingPairs(mesh));
+  replaceFewestCrossings(mesh);
   EXPECT_EQ(trianglesOf(mesh), trianglesOf(before));
 }
 }
