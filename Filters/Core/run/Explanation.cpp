@@ -6,7 +6,7 @@
 #include "cloud/CloudDistance.h"
 #include "cloud/NearestPoints.h"
 #include "cloud/PlaceOnMesh.h"
-#include "start/LayerSamples.h"
+#include "start/LayerSearch.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -3,7 +3,7 @@
 
 #include "base/Median.h"
 #include "cloud/CloudDistance.h"
-#include "start/LayerSamples.h"
+#include "start/LayerSearch.h"
 
 #include <algorithm>
 #include <array>

@@ -415,12 +415,12 @@ std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const Neares
   std::size_t mostVertices, Boundaries boundaries, const Progress& progress, double leastPiece,
   bool mustBeCertain)
 {
-  const std::size_t samples = std::clamp(mostVertices, LeastSamples, MostSamples);
+  PointLayers pointLayers(nearest, std::clamp(mostVertices, LeastSamples, MostSamples));
   std::optional<FrontSurface> best;
   double at = 0.;
   for (const Layers layers : { Layers::Joined, Layers::Apart })
   {
-    auto front = frontSurface(cloud, nearest, samples, layers, SeedOfFront,
+    auto front = frontSurface(cloud, pointLayers, layers, SeedOfFront,
       partOf(progress, at, at + 0.5), leastPiece, mustBeCertain ? MostScatter : 1.);
     const auto isBetter = [&]
     {

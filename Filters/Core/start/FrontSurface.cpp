@@ -68,12 +68,12 @@ void fillCuts(Mesh& mesh, const NearestPoints& nearest)
 }
 }
 
-std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestPoints& nearest,
-  std::size_t count, Layers layers, std::uint64_t seed, const Progress& progress, double leastPiece,
+std::optional<FrontSurface> frontSurface(const PointCloud& cloud, PointLayers& pointLayers,
+  Layers layers, std::uint64_t seed, const Progress& progress, double leastPiece,
   double mostScatter)
 {
   const auto [samples, inNoLayer, inOneOfTwo] =
-    layerSamples(nearest, count, layers, seed, partOf(progress, 0., PartOfSamples), mostScatter);
+    layerSamples(pointLayers, layers, seed, partOf(progress, 0., PartOfSamples), mostScatter);
   if (samples.empty() || !progress(PartOfSamples))
   {
     return {};
@@ -118,7 +118,7 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestP
   fillSmallGaps(result.mesh);
   if (turnedParts > 0)
   {
-    fillCuts(result.mesh, nearest);
+    fillCuts(result.mesh, pointLayers.nearest());
   }
   if (layers == Layers::Apart)
   {

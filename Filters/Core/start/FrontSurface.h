@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/Progress.h"
-#include "cloud/NearestPoints.h"
 #include "cloud/PointCloud.h"
 #include "mesh/Mesh.h"
 #include "start/LayerSamples.h"
@@ -34,11 +33,11 @@ struct FrontSurface
 /// Of all triangles; smaller pieces are left over from points that lie on no surface.
 inline constexpr double LeastPiece = 0.0005;
 
-/// The surface of about `count` samples on the layers of the cloud: with boundaries where the cloud ends,
+/// The surface of samples on the layers of the cloud, as many as there is to be: with boundaries where the cloud ends,
 /// and as many pieces as that has. Without pieces of less than `leastPiece` of the triangles. Nothing if
 /// there are too few points, it was ended before, or it is sure while samples are taken that more than the
 /// part `mostScatter` of them lies in no layer.
-std::optional<FrontSurface> frontSurface(const PointCloud& cloud, const NearestPoints& nearest,
-  std::size_t count, Layers layers, std::uint64_t seed, const Progress& progress,
-  double leastPiece = LeastPiece, double mostScatter = 1.);
+std::optional<FrontSurface> frontSurface(const PointCloud& cloud, PointLayers& pointLayers,
+  Layers layers, std::uint64_t seed, const Progress& progress, double leastPiece = LeastPiece,
+  double mostScatter = 1.);
 }

@@ -4,7 +4,6 @@
 #include "base/Median.h"
 #include "base/Morton.h"
 #include "base/Random.h"
-#include "start/LocalLayer.h"
 
 #include <algorithm>
 #include <array>
@@ -16,40 +15,6 @@ namespace neuralmesh
 {
 namespace
 {
-/// Neighbours that tell the distance between points.
-constexpr std::size_t Neighbors = 7;
-/// Points that tell how it is distributed.
-constexpr std::size_t SurveyPoints = 2000;
-/// Of the distance to the last neighbour, at least, is the radius: a sample stands for more points
-/// than itself where there are so few.
-constexpr float LeastRadius = 0.5f;
-/// Samples for each disk of the radius that points fill, as chance packs them.
-constexpr double Packing = 0.41;
-/// Points that a layer is told by, the fewest that make the error small against the radius; and the part
-/// of their scatter that is left where a quadric is fitted to so few.
-struct LayerPoints
-{
-  std::size_t count;
-  float scatterLeft;
-};
-constexpr std::array<LayerPoints, 3> LayerPointsTried{ { { 16, 0.44f }, { 32, 0.63f },
-  { 64, 0.79f } } };
-/// Of two layers that are almost as far apart as points that tell; fewer where a layer ends.
-constexpr LayerPoints PointsOfTwoLayers{ MostPointsOfLayer, 0.86f };
-constexpr std::array<LayerPoints, 3> PointsOfTwoLayersTried{ { PointsOfTwoLayers, { 48, 0.73f },
-  { 24, 0.55f } } };
-constexpr float SmallError = 0.04f;
-/// About, of as many points of a surface, for the root of their number and the distance to the nearest
-/// seven.
-constexpr float RadiusOfPoints = 0.62f;
-/// With less, points lie along a line of the scanner, and the layer may turn about it.
-constexpr float LeastBreadth = 0.15f;
-/// A layer that is told anew from where the sample was moved to.
-constexpr float NoticeableError = 0.02f;
-/// A move farther than this part of the radius of the points that tell is none onto a surface.
-constexpr float FarthestMove = 0.7f;
-/// Points that spread so much of their radius across are in no layer.
-constexpr float ScatterOfNoLayer = 0.25f;
 /// Samples that are so much farther apart than usual are scattered in space, if on average over so many of them
 /// less than a part of those around lie in one layer with them: by chance hardly two do.
 constexpr float SparseAgainstUsual = 2.f;
@@ -86,69 +51,6 @@ constexpr double MostInNoLayer = 0.25;
 /// It is sure that there are more than are allowed beyond so many deviations of chance.
 constexpr double DeviationsOfSure = 4.;
 
-/// How far points are from each other around one; those that coincide count as one.
-struct Spacing
-{
-  float mean;
-  float farthest;
-};
-
-Spacing spacingAt(const NearestPoints& nearest, std::uint32_t point)
-{
-  std::array<NearPoint, Neighbors> found;
-  const std::size_t count = nearest.findPlaces(nearest.points()[point], found);
-  float sum = 0.f;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    sum += std::sqrt(found[i].squaredDistance);
-  }
-  return { count > 0 ? sum / float(count) : 0.f,
-    count > 0 ? std::sqrt(found[count - 1].squaredDistance) : 0.f };
-}
-
-/// The radius of the disk that a sample has to itself.
-class DiskRadius
-{
-public:
-  /// Such that about `count` samples come of all points.
-  DiskRadius(const NearestPoints& nearest, std::size_t count)
-  {
-    const std::size_t points = nearest.points().size();
-    const std::size_t asked = std::min(points, SurveyPoints);
-    std::vector<Spacing> survey(asked);
-    std::vector<float> means(asked);
-    for (std::size_t i = 0; i < asked; ++i)
-    {
-      survey[i] = spacingAt(nearest, std::uint32_t(i * points / asked));
-      means[i] = survey[i].mean;
-    }
-    usual_ = std::max(medianOf(std::move(means)), std::numeric_limits<float>::min());
-    // Bisection: the number falls with the factor.
-    double low = 1e-6, high = 1e6;
-    for (int i = 0; i < 60; ++i)
-    {
-      const double middle = std::sqrt(low * high);
-      factor_ = float(middle) * usual_;
-      double disks = 0.;
-      for (const Spacing& spacing : survey)
-      {
-        const double part = double(spacing.mean) / std::max(double(of(spacing)), 1e-30);
-        disks += std::min(1., Packing * part * part);
-      }
-      (disks * double(points) / double(asked) > double(count) ? low : high) = middle;
-    }
-  }
-
-  float of(const Spacing& spacing) const
-  {
-    return std::max(factor_ * std::sqrt(spacing.mean / usual_), LeastRadius * spacing.farthest);
-  }
-
-private:
-  float usual_;
-  float factor_ = 0.f;
-};
-
 /// The numbers below `count`, shuffled.
 std::vector<std::uint32_t> shuffled(std::size_t count, std::uint64_t seed)
 {
@@ -160,108 +62,6 @@ std::vector<std::uint32_t> shuffled(std::size_t count, std::uint64_t seed)
     std::swap(order[i - 1], order[random.below(std::uint32_t(i))]);
   }
   return order;
-}
-
-struct Told
-{
-  LocalLayer layer;
-  float noise = 0.f;
-  float error = 0.f;
-  LayerPoints points{}; ///< that tell; 0 = none yet
-};
-
-/// What it takes to look for the layer of a sample.
-struct Search
-{
-  const NearestPoints& nearest;
-  float spacing = 0.f; ///< about, of the points around
-  std::vector<NearPoint> buffer = {};
-};
-
-Told tell(Search& search, Vector4 place, LayerPoints points, Layers layers = Layers::Joined)
-{
-  std::array<NearPoint, MostPointsOfLayer> found;
-  const NearestPoints& nearest = search.nearest;
-  const float radius = RadiusOfPoints * search.spacing * std::sqrt(float(points.count));
-  const std::size_t there =
-    nearest.findWithin(place, radius, std::span(found).first(points.count), search.buffer);
-  if (there < 6)
-  {
-    return {};
-  }
-  Told result{ localLayer(place, nearest.points(), std::span(found).first(there), layers), 0.f, 0.f,
-    points };
-  result.noise = result.layer.scatter / points.scatterLeft;
-  result.error = result.noise * std::sqrt(6.f / float(points.count));
-  return result;
-}
-
-/// By as few points as the noise needs.
-Told tellByFew(Search& search, const LayerSample& sample)
-{
-  Told best;
-  for (const LayerPoints points : LayerPointsTried)
-  {
-    const Told told = tell(search, sample.position, points);
-    if (told.points.count > 0 &&
-      (best.points.count == 0 || best.layer.breadth < LeastBreadth || told.error < best.error))
-    {
-      best = told;
-    }
-    if (best.points.count > 0 && best.error <= SmallError * sample.radius &&
-      best.layer.breadth >= LeastBreadth)
-    {
-      break;
-    }
-  }
-  return best;
-}
-
-/// Moves a sample onto its layer. Returns whether it lies in one.
-bool moveOntoLayer(Search& search, LayerSample& sample, Layers layers)
-{
-  Told best;
-  if (layers == Layers::Apart)
-  {
-    for (const LayerPoints points : PointsOfTwoLayersTried)
-    {
-      best = tell(search, sample.position, points, layers);
-      if (best.layer.isOneOfTwo)
-      {
-        break;
-      }
-    }
-  }
-  const bool isOneOfTwo = best.layer.isOneOfTwo;
-  if (!isOneOfTwo)
-  {
-    best = tellByFew(search, sample);
-  }
-  if (best.points.count == 0)
-  {
-    return false;
-  }
-  const auto take = [&](const LocalLayer& layer)
-  {
-    if (layer.distance < FarthestMove * layer.radius)
-    {
-      sample.position = layer.position;
-    }
-    sample.normal = layer.breadth >= LeastBreadth ? layer.normal : Vector4();
-  };
-  take(best.layer);
-  sample.noise = best.noise;
-  sample.error = best.error;
-  if (best.error > NoticeableError * sample.radius)
-  {
-    const Told again =
-      tell(search, sample.position, best.points, isOneOfTwo ? Layers::Apart : Layers::Joined);
-    if (again.layer.distance < FarthestMove * again.layer.radius)
-    {
-      take(again.layer);
-    }
-  }
-  return best.noise < ScatterOfNoLayer * best.layer.radius;
 }
 
 /// Whether a place within the radius of a sample lies in its layer, not in another one beside it.
@@ -463,33 +263,16 @@ bool areTooMany(std::size_t inNoLayer, std::size_t tried, double most)
 }
 }
 
-float pointSpacing(const NearestPoints& nearest, std::uint32_t point)
+LayerSamples layerSamples(PointLayers& pointLayers, Layers layers, std::uint64_t seed,
+  const Progress& progress, double mostInNoLayer)
 {
-  return spacingAt(nearest, point).mean;
-}
-
-std::optional<Vector4> placeInLayer(const NearestPoints& nearest, std::uint32_t point)
-{
-  LayerSample sample;
-  sample.position = nearest.points()[point];
-  const Spacing spacing = spacingAt(nearest, point);
-  sample.radius = spacing.farthest;
-  Search search{ nearest, spacing.mean };
-  return moveOntoLayer(search, sample, Layers::Joined) ? std::optional(sample.position)
-                                                       : std::nullopt;
-}
-
-LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layers layers,
-  std::uint64_t seed, const Progress& progress, double mostInNoLayer)
-{
-  const DiskRadius diskRadius(nearest, count);
+  const NearestPoints& nearest = pointLayers.nearest();
   const std::span<const Vector4> points = nearest.points();
   std::vector<bool> isCovered(points.size(), false);
   // Of each point, the last sample in whose reach it is.
   std::vector<std::uint32_t> reachedBy(points.size(), NoSample);
   std::vector<LayerSample> samples;
   std::size_t inNoLayer = 0, asked = 0, inOneOfTwo = 0;
-  Search search{ nearest };
   for (const std::uint32_t point : shuffled(points.size(), seed))
   {
     if (isCovered[point])
@@ -499,32 +282,27 @@ LayerSamples layerSamples(const NearestPoints& nearest, std::size_t count, Layer
     const std::size_t tried = samples.size() + inNoLayer;
     if (tried > 0 && tried % LayersPerCheck == 0 &&
       (areTooMany(inNoLayer, tried, mostInNoLayer) ||
-        !progress(std::min(1., double(samples.size()) / double(count)))))
+        !progress(std::min(1., double(samples.size()) / double(pointLayers.count())))))
     {
       return {};
     }
-    LayerSample sample;
-    sample.position = points[point];
-    const Spacing spacing = spacingAt(nearest, point);
-    sample.radius = diskRadius.of(spacing);
-    search.spacing = spacing.mean;
     if (layers == Layers::Joined && tried % SamplesPerProbe == 0)
     {
       ++asked;
-      inOneOfTwo +=
-        tell(search, sample.position, PointsOfTwoLayers, Layers::Apart).layer.isOneOfTwo ? 1 : 0;
+      inOneOfTwo += pointLayers.isInOneOfTwo(point) ? 1 : 0;
     }
-    const bool isInLayer = moveOntoLayer(search, sample, layers);
+    const auto [sample, isInLayer] = pointLayers.at(point, layers);
     // Noise had it look as if it were in another layer than what is there.
     if (isInLayer && reachedBy[point] != NoSample &&
       isOnDisk(samples[reachedBy[point]], sample.position))
     {
       continue;
     }
+    const bool coversAll = layers == Layers::Joined || !isInLayer;
     nearest.forEachWithin(points[point], sample.radius,
-      [&](std::uint32_t other, float)
+      [&, &sample = sample](std::uint32_t other, float)
       {
-        if (layers == Layers::Joined || !isInLayer || isOnDisk(sample, points[other]))
+        if (coversAll || isOnDisk(sample, points[other]))
         {
           isCovered[other] = true;
         }

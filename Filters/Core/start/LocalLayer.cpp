@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/LocalLayer.h"
 
+#include "start/PrincipalAxes.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <optional>
 
 namespace neuralmesh
@@ -27,6 +31,8 @@ constexpr double ThickLayersApart = 5.;
 /// To find the plane of two layers.
 constexpr int RoundsOfGroups = 3;
 constexpr std::size_t LeastPoints = 6;
+/// Of heights in no order.
+constexpr std::size_t LargeStep = 7;
 /// Keeps sums of weights above 0.
 constexpr double LeastWeight = 1e-12;
 /// Of the curvatures, against the other equations, where the points do not tell them.
@@ -36,51 +42,63 @@ constexpr double CurvatureTerm = 1e-3;
 double bell(double x)
 {
   const double part = 1. - 0.25 * x * x;
-  return part > 0. ? part * part : 0.;
+  // The same as the larger of it and 0, without a comparison: compilers take two at once then.
+  const double above = 0.5 * (part + std::abs(part));
+  return above * above;
 }
 
-/// Principal axes of a symmetric matrix by Jacobi's rotations, the one of the least variance first.
-/// Without functions that differ between systems, for the same bits everywhere.
-Eigen::Matrix3d principalAxes(Eigen::Matrix3d matrix)
+/// A number for each point.
+using Values = std::array<double, MostPointsOfLayer>;
+
+/// The sums of which the equations of a quadric are: of the products of its six terms, 1, u, v, u^2, uv and
+/// v^2, of which the lower half is enough, and of these with the heights.
+class QuadricSums
 {
-  constexpr int Sweeps = 6;
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  for (int sweep = 0; sweep < Sweeps; ++sweep)
+public:
+  void add(double weight, double u, double v, double height)
   {
-    for (const auto& [p, q] : { std::pair(0, 1), std::pair(0, 2), std::pair(1, 2) })
+    const std::array<double, 6> terms{ 1., u, v, u * u, u * v, v * v };
+    for (std::size_t pair = 0; pair < 3; ++pair)
     {
-      if (std::abs(matrix(p, q)) <= 1e-18 * (std::abs(matrix(p, p)) + std::abs(matrix(q, q))))
+      const DoubleLanes two{ terms[2 * pair], terms[2 * pair + 1] };
+      const DoubleLanes weighted = weight * two;
+      for (std::size_t column = 0; column <= 2 * pair + 1; ++column)
       {
-        continue;
+        products_[column][pair] += weighted * terms[column];
       }
-      const double theta = (matrix(q, q) - matrix(p, p)) / (2. * matrix(p, q));
-      const double t = (theta >= 0. ? 1. : -1.) / (std::abs(theta) + std::sqrt(theta * theta + 1.));
-      const double c = 1. / std::sqrt(t * t + 1.), s = t * c;
-      for (int k = 0; k < 3; ++k)
-      {
-        const double a = matrix(k, p), b = matrix(k, q);
-        matrix(k, p) = c * a - s * b;
-        matrix(k, q) = s * a + c * b;
-      }
-      for (int k = 0; k < 3; ++k)
-      {
-        const double a = matrix(p, k), b = matrix(q, k);
-        matrix(p, k) = c * a - s * b;
-        matrix(q, k) = s * a + c * b;
-      }
-      for (int k = 0; k < 3; ++k)
-      {
-        const double a = axes(k, p), b = axes(k, q);
-        axes(k, p) = c * a - s * b;
-        axes(k, q) = s * a + c * b;
-      }
+      heights_[pair] += (weight * height) * two;
     }
+    weight_ += weight;
   }
-  std::array<int, 3> order{ 0, 1, 2 };
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return matrix(a, a) < matrix(b, b); });
-  Eigen::Matrix3d sorted;
-  sorted << axes.col(order[0]), axes.col(order[1]), axes.col(order[2]);
-  return sorted;
+
+  Vector6 solve() const
+  {
+    Matrix6 left = Matrix6::Zero();
+    Vector6 right;
+    for (int row = 0; row < 6; ++row)
+    {
+      for (int column = 0; column <= row; ++column)
+      {
+        left(row, column) = products_[std::size_t(column)][std::size_t(row / 2)][row % 2];
+      }
+      right[row] = heights_[std::size_t(row / 2)][row % 2];
+    }
+    left.diagonal().array() += 1e-9 * weight_;
+    left.diagonal().tail<3>().array() += CurvatureTerm * weight_;
+    return left.ldlt().solve(right);
+  }
+
+private:
+  std::array<std::array<DoubleLanes, 3>, 6> products_{}; ///< in columns
+  std::array<DoubleLanes, 3> heights_{};
+  double weight_ = 0.;
+};
+
+/// In the order in which a sum of pairs comes out.
+double quadricAt(const Vector6& terms, double u, double v)
+{
+  return (terms[0] + (terms[2] * v + terms[4] * (u * v))) +
+    (terms[1] * u + (terms[3] * (u * u) + terms[5] * (v * v)));
 }
 
 /// The points around a place, which is the origin, with a radius of 1.
@@ -95,17 +113,16 @@ public:
     for (std::size_t i = 0; i < count_; ++i)
     {
       const Vector4 offset = points[nearest[i].index] - place;
-      offsets_[i] = scale * offset.toDouble();
+      x_[i] = scale * double(offset[0]);
+      y_[i] = scale * double(offset[1]);
+      z_[i] = scale * double(offset[2]);
       nearness_[i] = bell(1.6 * std::sqrt(double(nearest[i].squaredDistance)) * scale);
     }
+    forgetOrder();
   }
 
-  LocalLayer layer(Vector4 place, Layers layers)
+  LocalLayer layer(Vector4 place)
   {
-    if (layers == Layers::Apart)
-    {
-      keepOneOfTwo();
-    }
     findPlane(nearness_);
     findHeights(Eigen::Vector3d::Zero());
     if (keepOwnLayer())
@@ -143,40 +160,105 @@ public:
     result.scatter = float(radius_ * scatter_);
     result.distance = float(radius_ * move.norm());
     result.breadth = float(breadth_);
-    result.isOneOfTwo = isOneOfTwo_;
     return result;
   }
 
-private:
-  using Values = std::array<double, MostPointsOfLayer>;
+  /// Where two layers are almost as far apart as the points that tell, leaves out the one that the place does not
+  /// lie in: the plane follows from what lies within each of two groups, which follow from the plane. Returns
+  /// whether there are two.
+  bool keepOneOfTwo()
+  {
+    Values alike;
+    alike.fill(1.);
+    findPlane(alike);
+    findHeights(Eigen::Vector3d::Zero());
+    auto found = groups();
+    for (int i = 0; i < RoundsOfGroups && found && !found->areApart(ThickLayersApart); ++i)
+    {
+      findPlaneOf(*found);
+      findHeights(Eigen::Vector3d::Zero());
+      found = groups();
+    }
+    return found && found->areApart(ThickLayersApart) && keepOwn(*found);
+  }
 
+private:
   void findPlane(const Values& weights)
   {
-    double sum = 0.;
-    center_.setZero();
+    double sum = 0., x = 0., y = 0., z = 0.;
     for (std::size_t i = 0; i < count_; ++i)
     {
-      center_ += weights[i] * offsets_[i];
+      x += weights[i] * x_[i];
+      y += weights[i] * y_[i];
+      z += weights[i] * z_[i];
       sum += weights[i];
     }
-    center_ /= std::max(sum, LeastWeight);
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    center_ = Eigen::Vector3d(x, y, z) / std::max(sum, LeastWeight);
+    SecondMoments moments;
     for (std::size_t i = 0; i < count_; ++i)
     {
-      const Eigen::Vector3d d = offsets_[i] - center_;
-      moments += weights[i] * d * d.transpose();
+      moments.add(weights[i], x_[i] - center_[0], y_[i] - center_[1], z_[i] - center_[2]);
     }
-    axes_ = principalAxes(moments);
+    axes_ = principalAxes(moments.matrix());
     breadth_ = std::sqrt(
-      std::max(0., axes_.col(1).dot(moments * axes_.col(1))) / std::max(sum, LeastWeight));
+      std::max(0., axes_.col(1).dot(moments.matrix() * axes_.col(1))) / std::max(sum, LeastWeight));
+  }
+
+  /// How far the points are from an origin along an axis.
+  void project(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, Values& result) const
+  {
+    const double originX = origin[0], originY = origin[1], originZ = origin[2];
+    const double axisX = axis[0], axisY = axis[1], axisZ = axis[2];
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      result[i] = (x_[i] - originX) * axisX + (y_[i] - originY) * axisY + (z_[i] - originZ) * axisZ;
+    }
   }
 
   void findHeights(const Eigen::Vector3d& origin)
   {
+    project(origin, axes_.col(0), heights_);
+    sortHeights(heights_);
+  }
+
+  /// Planes change little from one to the next, and so does the order of the heights: to put each where it
+  /// belongs, from the last order on, takes hardly more than a look at each. The first time large steps come
+  /// first (D. L. Shell, 1959).
+  void sortHeights(const Values& heights)
+  {
     for (std::size_t i = 0; i < count_; ++i)
     {
-      heights_[i] = (offsets_[i] - origin).dot(axes_.col(0));
+      sorted_[i] = heights[order_[i]];
     }
+    if (!isOrdered_)
+    {
+      sortBySteps(LargeStep);
+      isOrdered_ = true;
+    }
+    sortBySteps(1);
+  }
+
+  void sortBySteps(std::size_t step)
+  {
+    for (std::size_t i = step; i < count_; ++i)
+    {
+      const double height = sorted_[i];
+      const std::uint8_t point = order_[i];
+      std::size_t at = i;
+      for (; at >= step && height < sorted_[at - step]; at -= step)
+      {
+        sorted_[at] = sorted_[at - step];
+        order_[at] = order_[at - step];
+      }
+      sorted_[at] = height;
+      order_[at] = point;
+    }
+  }
+
+  void forgetOrder()
+  {
+    std::iota(order_.begin(), order_.begin() + std::ptrdiff_t(count_), std::uint8_t(0));
+    isOrdered_ = false;
   }
 
   /// Two groups of heights, with the least variance within them.
@@ -195,29 +277,32 @@ private:
 
   std::optional<Groups> groups() const
   {
-    Values sorted = heights_;
-    std::sort(sorted.begin(), sorted.begin() + std::ptrdiff_t(count_));
     double sum = 0., squares = 0.;
+    Values lower; // sum of those below
     for (std::size_t i = 0; i < count_; ++i)
     {
-      sum += sorted[i];
-      squares += sorted[i] * sorted[i];
+      lower[i] = sum;
+      sum += sorted_[i];
+      squares += sorted_[i] * sorted_[i];
     }
-    Groups result;
-    double lower = 0., best = 0.;
     const auto count = double(count_);
+    Values apart, between;
     for (std::size_t i = 1; i < count_; ++i)
     {
-      lower += sorted[i - 1];
-      const auto below = double(i);
-      const double apart = (sum - lower) / (count - below) - lower / below;
-      const double between = below * (count - below) * apart * apart;
-      if (between > best && sorted[i - 1] < sorted[i])
+      const auto below = double(std::int32_t(i));
+      apart[i] = (sum - lower[i]) / (count - below) - lower[i] / below;
+      between[i] = below * (count - below) * apart[i] * apart[i];
+    }
+    Groups result;
+    double best = 0.;
+    for (std::size_t i = 1; i < count_; ++i)
+    {
+      if (between[i] > best && sorted_[i - 1] < sorted_[i])
       {
-        best = between;
-        result.threshold = 0.5 * (sorted[i - 1] + sorted[i]);
+        best = between[i];
+        result.threshold = 0.5 * (sorted_[i - 1] + sorted_[i]);
         result.below = i;
-        result.apart = apart;
+        result.apart = apart[i];
       }
     }
     result.within = std::max(0., (squares - sum * sum / count - best / count) / count);
@@ -237,12 +322,15 @@ private:
     {
       if ((heights_[i] < groups.threshold) == isBelow)
       {
-        offsets_[kept] = offsets_[i];
+        x_[kept] = x_[i];
+        y_[kept] = y_[i];
+        z_[kept] = z_[i];
         nearness_[kept] = nearness_[i];
         ++kept;
       }
     }
     count_ = kept;
+    forgetOrder();
     return true;
   }
 
@@ -254,24 +342,6 @@ private:
     return found && found->areApart(LayersApart) && keepOwn(*found);
   }
 
-  /// The same where two layers are almost as far apart as the points that tell: then the plane follows
-  /// from what lies within each of two groups, which follow from the plane.
-  void keepOneOfTwo()
-  {
-    Values alike;
-    alike.fill(1.);
-    findPlane(alike);
-    findHeights(Eigen::Vector3d::Zero());
-    auto found = groups();
-    for (int i = 0; i < RoundsOfGroups && found && !found->areApart(ThickLayersApart); ++i)
-    {
-      findPlaneOf(*found);
-      findHeights(Eigen::Vector3d::Zero());
-      found = groups();
-    }
-    isOneOfTwo_ = found && found->areApart(ThickLayersApart) && keepOwn(*found);
-  }
-
   void findPlaneOf(const Groups& groups)
   {
     std::array<Eigen::Vector3d, 2> means{ Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero() };
@@ -279,40 +349,38 @@ private:
     { return heights_[i] < groups.threshold ? std::size_t(0) : std::size_t(1); };
     for (std::size_t i = 0; i < count_; ++i)
     {
-      means[groupOf(i)] += offsets_[i];
+      means[groupOf(i)] += Eigen::Vector3d(x_[i], y_[i], z_[i]);
     }
     means[0] /= double(groups.below);
     means[1] /= double(count_ - groups.below);
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    SecondMoments moments;
     for (std::size_t i = 0; i < count_; ++i)
     {
-      const Eigen::Vector3d d = offsets_[i] - means[groupOf(i)];
-      moments += d * d.transpose();
+      const Eigen::Vector3d& mean = means[groupOf(i)];
+      moments.add(1., x_[i] - mean[0], y_[i] - mean[1], z_[i] - mean[2]);
     }
-    axes_ = principalAxes(moments);
+    axes_ = principalAxes(moments.matrix());
   }
 
   /// Standard deviation of the heights where they are the densest.
   double spread() const
   {
-    Values sorted = heights_;
-    const auto end = sorted.begin() + std::ptrdiff_t(count_);
-    std::sort(sorted.begin(), end);
     const auto held =
       std::max<std::size_t>(std::size_t(std::ceil(PartOfHalfWidth * double(count_))), 3);
-    double least = sorted[count_ - 1] - sorted[0];
+    double least = sorted_[count_ - 1] - sorted_[0];
     for (std::size_t i = held - 1; i < count_; ++i)
     {
-      least = std::min(least, sorted[i] - sorted[i + 1 - held]);
+      least = std::min(least, sorted_[i] - sorted_[i + 1 - held]);
     }
     return 0.5 * least / HalfWidth + LeastWeight;
   }
 
-  void weigh(double height, double deviation)
+  void weigh(double height, double deviation) { weigh(heights_, height, deviation); }
+  void weigh(const Values& heights, double height, double deviation)
   {
     for (std::size_t i = 0; i < count_; ++i)
     {
-      weights_[i] = nearness_[i] * bell((heights_[i] - height) / deviation) + LeastWeight;
+      weights_[i] = nearness_[i] * bell((heights[i] - height) / deviation) + LeastWeight;
     }
   }
 
@@ -327,43 +395,31 @@ private:
     return sum / weight;
   }
 
-  static Vector6 terms(double u, double v)
-  {
-    return (Vector6() << 1., u, v, u * u, u * v, v * v).finished();
-  }
-
   /// Returns the way from the origin onto the quadric, along the axis; sets its normal there.
   Eigen::Vector3d fitQuadric()
   {
+    Values us, vs, left;
+    project(center_, axes_.col(1), us);
+    project(center_, axes_.col(2), vs);
     Vector6 solution = Vector6::Zero();
-    for (int i = 0; i < 2; ++i)
+    for (int round = 0; round < 2; ++round)
     {
-      Matrix6 left = Matrix6::Zero();
-      Vector6 right = Vector6::Zero();
-      double sum = 0.;
-      for (std::size_t p = 0; p < count_; ++p)
+      QuadricSums sums;
+      for (std::size_t i = 0; i < count_; ++i)
       {
-        const Eigen::Vector3d d = offsets_[p] - center_;
-        const Vector6 t = terms(d.dot(axes_.col(1)), d.dot(axes_.col(2)));
-        left.noalias() += (weights_[p] * t) * t.transpose();
-        right += (weights_[p] * heights_[p]) * t;
-        sum += weights_[p];
+        sums.add(weights_[i], us[i], vs[i], heights_[i]);
       }
-      left.diagonal().array() += 1e-9 * sum;
-      left.diagonal().tail<3>().array() += CurvatureTerm * sum;
-      solution = left.ldlt().solve(right);
-      const Values original = heights_;
-      for (std::size_t p = 0; p < count_; ++p)
+      solution = sums.solve();
+      for (std::size_t i = 0; i < count_; ++i)
       {
-        const Eigen::Vector3d d = offsets_[p] - center_;
-        heights_[p] -= solution.dot(terms(d.dot(axes_.col(1)), d.dot(axes_.col(2))));
+        left[i] = heights_[i] - quadricAt(solution, us[i], vs[i]);
       }
+      sortHeights(left);
       scatter_ = spread();
-      weigh(0., 2.5 * scatter_);
-      heights_ = original;
+      weigh(left, 0., 2.5 * scatter_);
     }
     const double u = -center_.dot(axes_.col(1)), v = -center_.dot(axes_.col(2));
-    const double height = solution.dot(terms(u, v)) + center_.dot(axes_.col(0));
+    const double height = quadricAt(solution, u, v) + center_.dot(axes_.col(0));
     normal_ =
       (axes_.col(0) - (solution[1] + 2. * solution[3] * u + solution[4] * v) * axes_.col(1) -
         (solution[2] + 2. * solution[5] * v + solution[4] * u) * axes_.col(2))
@@ -373,22 +429,31 @@ private:
 
   std::size_t count_;
   double radius_;
-  std::array<Eigen::Vector3d, MostPointsOfLayer> offsets_;
+  Values x_, y_, z_;
   Values nearness_;
   Values weights_;
   Values heights_;
+  Values sorted_; ///< the heights, or what a quadric leaves of them
+  std::array<std::uint8_t, MostPointsOfLayer> order_; ///< of the points, by their height at last
+  bool isOrdered_ = false;
   Eigen::Vector3d center_;
   Eigen::Matrix3d axes_; ///< in columns, the normal first
   Eigen::Vector3d normal_;
   double scatter_ = 0.;
   double breadth_ = 0.;
-  bool isOneOfTwo_ = false;
 };
 }
 
 LocalLayer localLayer(
-  Vector4 place, std::span<const Vector4> points, std::span<const NearPoint> nearest, Layers layers)
+  Vector4 place, std::span<const Vector4> points, std::span<const NearPoint> nearest)
 {
-  return Neighborhood(place, points, nearest).layer(place, layers);
+  return Neighborhood(place, points, nearest).layer(place);
+}
+
+std::optional<LocalLayer> layerOfTwo(
+  Vector4 place, std::span<const Vector4> points, std::span<const NearPoint> nearest)
+{
+  Neighborhood neighborhood(place, points, nearest);
+  return neighborhood.keepOneOfTwo() ? std::optional(neighborhood.layer(place)) : std::nullopt;
 }
 }

@@ -4,6 +4,7 @@
 #include "cloud/NearestPoints.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace neuralmesh
@@ -18,14 +19,6 @@ struct LocalLayer
   float distance = 0.f; ///< by which the place was moved
   float breadth =
     0.f; ///< of the points: standard deviation where they are narrowest, over the radius
-  bool isOneOfTwo = false; ///< whether points of another layer were left out
-};
-
-/// What is taken for one surface.
-enum class Layers
-{
-  Joined, ///< all that is closer than samples are: right where scatter is wider than it seems
-  Apart   ///< points in one plane, as of the two sides of a plate that is thinner than that
 };
 
 /// Most points that can tell of one layer.
@@ -33,9 +26,13 @@ inline constexpr std::size_t MostPointsOfLayer = 96;
 
 /// Finds the layer next to `place` by its nearest points: a plane by principal components, of those
 /// points alone that lie in one layer with the place, as another side of a plate may be closer than
-/// they are; then a quadric of the heights, with less and less weight to what lies off it. With
-/// Layers::Apart, two layers are looked for that are almost as far apart as the points that tell: these
-/// should be many. `nearest` must be in order, at least 6 and at most MostPointsOfLayer.
-LocalLayer localLayer(Vector4 place, std::span<const Vector4> points,
-  std::span<const NearPoint> nearest, Layers layers = Layers::Joined);
+/// they are; then a quadric of the heights, with less and less weight to what lies off it. `nearest` must be
+/// in order, at least 6 and at most MostPointsOfLayer.
+LocalLayer localLayer(
+  Vector4 place, std::span<const Vector4> points, std::span<const NearPoint> nearest);
+
+/// The same of two layers that are almost as far apart as the points that tell, which should be many: of the
+/// one that the place lies in. Nothing if there are not two.
+std::optional<LocalLayer> layerOfTwo(
+  Vector4 place, std::span<const Vector4> points, std::span<const NearPoint> nearest);
 }

@@ -55,8 +55,9 @@ SurfaceReport reportOf(const FrontSurface& front, const PointCloud& cloud)
 std::optional<FrontSurface> front(
   const PointCloud& cloud, std::size_t samples, Layers layers = Layers::Joined)
 {
-  return frontSurface(
-    cloud, NearestPoints(cloud.points()), samples, layers, 1, [](double) { return true; });
+  const NearestPoints nearest(cloud.points());
+  PointLayers pointLayers(nearest, samples);
+  return frontSurface(cloud, pointLayers, layers, 1, [](double) { return true; });
 }
 }
 
@@ -212,6 +213,22 @@ TEST(FrontSurface, IsTheSameEachTime)
     neuralmesh::trianglesOf(second->mesh, cloud).points);
 }
 
+// Keeps the promise: what points told when a front was tried before changes nothing when it is tried once more.
+TEST(FrontSurface, IsTheSameAfterAnother)
+{
+  const PointCloud cloud = scanOf(makeTorus(), 0.003, 10000);
+  const NearestPoints nearest(cloud.points());
+  PointLayers pointLayers(nearest, 2000);
+  for (const Layers layers : { Layers::Joined, Layers::Apart, Layers::Apart, Layers::Joined })
+  {
+    const auto again = frontSurface(cloud, pointLayers, layers, 1, [](double) { return true; });
+    const auto fresh = front(cloud, 2000, layers);
+    ASSERT_TRUE(again && fresh);
+    EXPECT_EQ(neuralmesh::trianglesOf(again->mesh, cloud).points,
+      neuralmesh::trianglesOf(fresh->mesh, cloud).points);
+  }
+}
+
 // Keeps the promise: it can be ended at any time.
 TEST(FrontSurface, CanBeEnded)
 {
@@ -221,8 +238,9 @@ TEST(FrontSurface, CanBeEnded)
   const auto surfaceAfter = [&](int last)
   {
     calls = 0;
+    PointLayers pointLayers(nearest, 2000);
     return frontSurface(
-      cloud, nearest, 2000, Layers::Joined, 1, [&](double) { return calls++ < last; });
+      cloud, pointLayers, Layers::Joined, 1, [&](double) { return calls++ < last; });
   };
   ASSERT_TRUE(surfaceAfter(1000));
   const int all = calls;

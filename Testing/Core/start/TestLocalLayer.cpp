@@ -90,6 +90,29 @@ TEST(LocalLayer, KeepsToItsOwnLayer)
   EXPECT_GE(right, 95);
 }
 
+// Keeps the promise: two layers are told as such where they are almost as far apart as the points that tell, and
+// one is not taken for two.
+TEST(LocalLayer, TellsTwoFromOne)
+{
+  Random random(4);
+  int two = 0, one = 0;
+  for (int i = 0; i < 50; ++i)
+  {
+    std::vector<Vector4> points = disk(random, 48, 0., 0.05);
+    std::vector<NearPoint> found(48);
+    NearestPoints(points).find({}, found);
+    one += layerOfTwo({}, points, found) ? 0 : 1;
+    const std::vector<Vector4> other = disk(random, 48, 0.6, 0.05);
+    points.insert(points.end(), other.begin(), other.end());
+    found.resize(points.size());
+    NearestPoints(points).find({}, found);
+    const auto layer = layerOfTwo({}, points, found);
+    two += layer && std::abs(layer->position[2]) < 0.05f ? 1 : 0;
+  }
+  EXPECT_GE(one, 48);
+  EXPECT_GE(two, 48);
+}
+
 // Keeps the promise: points on a line are told by their breadth.
 TEST(LocalLayer, TellsLines)
 {
