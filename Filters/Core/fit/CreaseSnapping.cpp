@@ -151,26 +151,37 @@ private:
       longest_ = std::max(longest_, squaredNorm(mesh_.position(neighbor) - from));
     }
     double before = 0.;
+    std::uint32_t farthest = onFan_.front();
     for (const std::uint32_t sample : onFan_)
     {
       before += double(samples_.weight(sample)) * double(samples_.squaredDistance(sample));
+      farthest =
+        samples_.squaredDistance(sample) > samples_.squaredDistance(farthest) ? sample : farthest;
     }
     double least = (1. - LeastPartOfSnapGain) * before;
-    const Vector4 target = planesMeetAt(from);
     Vector4 place = from;
-    for (const float step : StepsOfMove)
+    const auto goTo = [&](Vector4 target, double most)
     {
-      const Vector4 tried = from + step * (target - from);
-      if (squaredNorm(tried - from) <= longest_ && keepsShape(tried, true))
+      for (const float step : StepsOfMove)
       {
-        const double after = squaresAt(tried, least);
-        if (after < least)
+        const Vector4 tried = from + step * (target - from);
+        if (squaredNorm(tried - from) <= longest_ && keepsShape(tried, true))
         {
-          least = after;
-          place = tried;
+          const double after = squaresAt(tried, std::min(least, most));
+          if (after < std::min(least, most))
+          {
+            least = after;
+            place = tried;
+          }
         }
       }
-    }
+    };
+    goTo(planesMeetAt(from), before);
+    // Where a corner is cut off, no triangles lie in the planes that meet there, but samples are near it: more than
+    // one, which may be an outlier.
+    const double ofOthers =
+      before - double(samples_.weight(farthest)) * double(samples_.squaredDistance(farthest));
+    goTo(samples_.point(farthest), (1. - LeastPartOfSnapGain) * ofOthers);
     const Collapse collapse = bestCollapse(v, before - least);
     if (collapse.partner != NoVertex)
     {

@@ -3,8 +3,10 @@
 
 #include "fit/CreaseSnapping.h"
 #include "fit/DataFlips.h"
+#include "fit/IntersectionRepair.h"
 #include "fit/Redistribution.h"
 #include "mesh/Refinement.h"
+#include "mesh/SelfIntersections.h"
 
 #include <algorithm>
 
@@ -34,44 +36,43 @@ RoundsOf roundsOf(Fidelity fidelity)
 
 /// Vertices, at most, that a round takes to other places.
 constexpr double MostDistributed = 0.1;
+/// Of what breaks in a round: some of it hangs together.
+constexpr int MostTakingsBack = 8;
 /// Of lambda, on a clean cloud: creases no longer need so much of it.
 constexpr double PartOnCleanClouds = 0.5;
 /// Beyond so many deviations of the usual bend it is a crease.
 constexpr double DeviationsOfCreaseIfClean = 2.;
 constexpr double DeviationsOfCreaseIfNoisy = 3.;
-/// The mesh on which places are found first is so much smoother than that of the rounds before, but with a
-/// lambda between these, for each sample of a vertex ...
+/// The mesh on which places are found first is so much smoother than that of the rounds before, but its lambda is at
+/// least that, and at most the one for which each place of it follows so many samples ...
 constexpr double FirstTimesSmoother = 2.;
-constexpr double LeastFirstLambda = 5.;
-constexpr double MostFirstLambda = 40.;
+constexpr double LeastFirstLambda = 50.;
+constexpr double MostFollowed = 60.;
 /// ... and so much smoother than the one that comes out, later.
-constexpr double TimesSmoother = 4.;
-
-bool isClean(double lambda) { return lambda < SurfaceFit::CleanSmoothness; }
+constexpr double TimesSmoother = 2.;
 }
 
-int FidelityRounds::count(Fidelity fidelity, double lambda)
+int FidelityRounds::count(Fidelity fidelity, bool isClean)
 {
   const RoundsOf rounds = roundsOf(fidelity);
-  return isClean(lambda) ? rounds.clean : rounds.noisy;
+  return isClean ? rounds.clean : rounds.noisy;
 }
 
-bool FidelityRounds::run(Fidelity fidelity, double lambda, bool isFixed, const Progress& progress)
+bool FidelityRounds::run(Fidelity fidelity, bool isClean, bool isFixed, const Progress& progress)
 {
-  const int rounds = count(fidelity, lambda);
-  const bool sharpens = isClean(lambda);
-  lambda_ = sharpens && !isFixed ? PartOnCleanClouds * lambda : lambda;
+  const int rounds = count(fidelity, isClean);
+  lambda_ = fit_.smoothness() * (isClean && !isFixed ? PartOnCleanClouds : 1.);
   fit_.findExactly();
   fit_.keepBoundaries();
-  if (sharpens)
+  if (isClean)
   {
     fit_.settle();
   }
   for (int round = 0; round < rounds; ++round)
   {
     const Progress part = partOf(progress, double(round) / rounds, double(round + 1) / rounds);
-    const bool isDone = sharpens ? sharpen(round < roundsOf(fidelity).distributing, part)
-                                 : smooth(round == 0, isFixed, part);
+    const bool isDone = isClean ? sharpen(round < roundsOf(fidelity).distributing, part)
+                                : smooth(round == 0, isFixed, part);
     if (!isDone)
     {
       return false;
@@ -83,6 +84,11 @@ bool FidelityRounds::run(Fidelity fidelity, double lambda, bool isFixed, const P
 
 bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
 {
+  if (mayBeBroken_)
+  {
+    // As long as a round follows that brings back what it rounds off.
+    repairIntersections(mesh_);
+  }
   if (!fit_.findPlaces(partOf(progress, 0., 0.3)))
   {
     return false;
@@ -99,16 +105,22 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   }
   fit_.follow(flipToSamples(mesh_, fit_.placedSamples(), fit_.variance()));
   fit_.relaxCreases(DeviationsOfCreaseIfClean);
-  return move(lambda_, partOf(progress, 0.7, 1.));
+  const std::vector<Vector4> before(mesh_.positions().begin(), mesh_.positions().end());
+  if (!move(lambda_, partOf(progress, 0.7, 1.)))
+  {
+    return false;
+  }
+  takeBackBroken(before);
+  return true;
 }
 
 bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress)
 {
   const double perVertex = double(fit_.placedSamples().points.size()) / double(mesh_.vertexCount());
+  const double most = SurfaceFit::smoothnessThatFollows(MostFollowed, perVertex);
   const double smoother = !isFirst ? TimesSmoother * lambda_
     : isFixed                      ? lambda_
-              : std::clamp(FirstTimesSmoother * lambda_, LeastFirstLambda * perVertex,
-                  MostFirstLambda * perVertex);
+              : std::clamp(FirstTimesSmoother * lambda_, std::min(LeastFirstLambda, most), most);
   // Later the places are those for which lambda was chosen.
   if ((isFirst && !fit_.findPlaces(partOf(progress, 0., 0.1))) ||
     !move(smoother, partOf(progress, 0.1, 0.2)) || !fit_.findPlaces(partOf(progress, 0.2, 0.3)))
@@ -140,5 +152,31 @@ bool FidelityRounds::move(double lambda, const Progress& progress)
   }
   heldVertices_ += fit_.heldCount();
   return true;
+}
+
+/// Vertices where the surface folds or intersects since it had these positions go back: what would mend it in the
+/// end rounds off creases.
+void FidelityRounds::takeBackBroken(std::span<const Vector4> before)
+{
+  std::vector<bool> isAsked(mesh_.indexEnd(), true);
+  for (int time = 0; time < MostTakingsBack; ++time)
+  {
+    const std::vector<VertexIndex> broken = brokenVertices(mesh_, isAsked);
+    isAsked.assign(isAsked.size(), false);
+    bool hasMoved = false;
+    for (const VertexIndex v : broken)
+    {
+      if (squaredNorm(mesh_.position(v) - before[v]) > 0.f)
+      {
+        mesh_.setPosition(v, before[v]);
+        isAsked[v] = hasMoved = true;
+      }
+    }
+    mayBeBroken_ = !broken.empty();
+    if (!hasMoved)
+    {
+      break;
+    }
+  }
 }
 }

@@ -7,6 +7,7 @@
 #include "mesh/Mesh.h"
 
 #include <cstddef>
+#include <span>
 
 namespace neuralmesh
 {
@@ -33,11 +34,11 @@ public:
   }
 
   /// How many rounds there are.
-  static int count(Fidelity fidelity, double lambda);
+  static int count(Fidelity fidelity, bool isClean);
 
-  /// `lambda` is that of the rounds before; where it is fixed, it is not chosen anew. Returns false if it was
-  /// ended before.
-  bool run(Fidelity fidelity, double lambda, bool isFixed, const Progress& progress);
+  /// Of a clean or a noisy cloud. Begins with the lambda of the rounds before; where it is fixed, it is not chosen
+  /// anew. Returns false if it was ended before.
+  bool run(Fidelity fidelity, bool isClean, bool isFixed, const Progress& progress);
 
   double lambda() const { return lambda_; }
   std::size_t heldVertices() const { return heldVertices_; }
@@ -46,11 +47,13 @@ private:
   bool sharpen(bool distributes, const Progress& progress);
   bool smooth(bool isFirst, bool isFixed, const Progress& progress);
   bool move(double lambda, const Progress& progress);
+  void takeBackBroken(std::span<const Vector4> before);
 
   Mesh& mesh_;
   SurfaceFit& fit_;
   std::size_t vertexCount_;
   bool keepsPlaces_;
+  bool mayBeBroken_ = true; ///< by intersections or folds
   double lambda_ = 0.;
   std::size_t heldVertices_ = 0;
 };

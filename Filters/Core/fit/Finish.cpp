@@ -38,24 +38,6 @@ DefectCount countDefects(const Mesh& mesh)
   return { intersectingTriangles(mesh).size(), foldedEdges(mesh).size() };
 }
 
-/// The corners of triangles that intersect and those around folds, of what has a corner v with
-/// `isAsked[v]`.
-std::vector<VertexIndex> brokenVertices(const Mesh& mesh, const std::vector<bool>& isAsked)
-{
-  std::vector<VertexIndex> broken;
-  for (const Triangle& triangle : intersectingTriangles(mesh, isAsked))
-  {
-    broken.insert(broken.end(), triangle.begin(), triangle.end());
-  }
-  for (const Edge& edge : foldedEdges(mesh, isAsked))
-  {
-    const Edge opposite = oppositeTo(mesh, edge);
-    broken.insert(broken.end(), edge.begin(), edge.end());
-    broken.insert(broken.end(), opposite.begin(), opposite.end());
-  }
-  return broken;
-}
-
 VertexIndex nearestToCollapseInto(const Mesh& mesh, VertexIndex v)
 {
   VertexIndex nearest = NoVertex;
@@ -114,9 +96,9 @@ bool Finish::run(const Progress& progress)
 bool Finish::isWorseThan(const Mesh& before, FitGuard& guard) const
 {
   // Whoever asks for a smoothness gets it.
-  const ResidualRule rule = plan_.smoothness > 0.      ? ResidualRule::MayGrow
-    : report_.smoothness < SurfaceFit::CleanSmoothness ? ResidualRule::MayNotGrow
-                                                       : ResidualRule::MayBeNoise;
+  const ResidualRule rule = plan_.smoothness > 0. ? ResidualRule::MayGrow
+    : report_.isClean                             ? ResidualRule::MayNotGrow
+                                                  : ResidualRule::MayBeNoise;
   if (guard.isWorse(mesh_, rule, report_.repaired.total() > 0))
   {
     return true;
@@ -346,6 +328,7 @@ bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& prog
   }
   report_.noise = surfaceFit.noise();
   report_.smoothness = surfaceFit.smoothness();
+  report_.isClean = surfaceFit.isClean();
   report_.outlierShare = surfaceFit.outlierShare();
   report_.heldVertices += surfaceFit.heldCount();
   return true;
@@ -354,9 +337,9 @@ bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& prog
 /// The rounds that come after the first ones.
 bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
 {
-  report_.fidelityRounds = FidelityRounds::count(plan_.fidelity, report_.smoothness);
+  report_.fidelityRounds = FidelityRounds::count(plan_.fidelity, report_.isClean);
   FidelityRounds rounds(mesh_, surfaceFit, plan_.vertexCount, plan_.keepsPlaces);
-  if (!rounds.run(plan_.fidelity, report_.smoothness, plan_.smoothness > 0., progress))
+  if (!rounds.run(plan_.fidelity, report_.isClean, plan_.smoothness > 0., progress))
   {
     return false;
   }

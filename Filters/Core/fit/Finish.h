@@ -21,6 +21,7 @@ struct FinishReport
 {
   double noise = 0.;            ///< of the cloud, see SurfaceFit::noise(), in units of the cloud
   double smoothness = 0.;       ///< lambda of the fit
+  bool isClean = false;         ///< whether it is that of a cloud without noise to speak of
   double outlierShare = 0.;     ///< of the samples
   std::size_t gapTriangles = 0; ///< taken away where there is no data
   DefectCount repaired;         ///< intersections and folds that were there ...

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/GivenNormals.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,8 @@ constexpr double MostDeviation = 0.5;
 /// The same of their mean over some rings, by which they are turned together.
 constexpr double MostTurn = 0.12;
 constexpr int RingsOfTurn = 3;
+/// Of a normal: without an area there is none.
+constexpr float LeastSquaredFacet = 1e-30f;
 /// Three edges of a triangle tell two directions, each of two times: so much less is for each.
 constexpr double PartOfEdge = 2. / 3.;
 /// ... and less again: triangles are flat, and the surface is not.
@@ -107,7 +110,10 @@ double GivenNormals::weight(const Mesh& mesh, const PlacedSamples& samples, doub
     }
     const float along = dot(normals_[i], ofMesh) / squared;
     const Vector4 turn = (along < 0.f ? -1.f : 1.f) * (normals_[i] - along * ofMesh);
-    squares += 0.5 * double(squaredNorm(turn));
+    // What is asked of the triangle is less than what a bend within it turns normals by.
+    const Vector4 facet = normalAt(place, mesh.positions());
+    const float onFacet = dot(normals_[i], facet) / std::max(squaredNorm(facet), LeastSquaredFacet);
+    squares += 0.5 * double(squaredNorm(normals_[i] - onFacet * facet));
     edges += meanSquaredEdge(mesh, place.triangle);
     ++count;
     for (const VertexIndex v : place.triangle)

@@ -20,7 +20,7 @@ constexpr int RisesOfRisk = 3;
 /// smoother surface than this: so many samples for what follows them.
 constexpr double StepUp = 4.;
 constexpr double LeastShareToGoUp = 0.1;
-constexpr double MostLambdaPerSample = 300.;
+constexpr double MostSamplesFollowed = 165.;
 /// Of the residual of the equations, against that at the start.
 constexpr double ToleranceOfLadder = 3e-2;
 
@@ -32,8 +32,9 @@ constexpr double FollowersFactor = 1.4;
 constexpr double LeastUnfollowed = 0.1;
 
 // The risk around a vertex
-/// Averaged over so many rings, and so are the lambdas by it.
-constexpr int RingsOfRisk = 12;
+/// Averaged over so many rings, and so are the lambdas by it; over more where there are less samples a vertex.
+constexpr double RingsOfRisk = 12.;
+constexpr double SamplesOfRings = 9.5;
 /// How sharply the least risk is chosen, in variances of the noise; and how far from the lambda of all,
 /// in powers of two.
 constexpr double SharpnessOfRisk = 100.;
@@ -69,6 +70,8 @@ SmoothnessByRisk::SmoothnessByRisk(const Mesh& mesh, const FitSystem& system,
     attention_.push_back(std::min(1.f, part * part));
   }
   attention_.resize(mesh.indexEnd(), 1.f);
+  const double perVertex = double(samples.points.size()) / double(mesh.vertexCount());
+  rings_ = int(std::lround(RingsOfRisk * std::max(1., SamplesOfRings / perVertex)));
   spreadAttention(loads_);
 }
 
@@ -76,8 +79,8 @@ bool SmoothnessByRisk::run(double first, const Progress& progress)
 {
   const std::vector<Vector4> start(mesh_.positions().begin(), mesh_.positions().end());
   std::vector<Vector4> positions = start;
-  const double most =
-    MostLambdaPerSample * double(samples_.points.size()) / double(mesh_.vertexCount());
+  const double most = MostSamplesFollowed * MostSamplesFollowed * double(mesh_.vertexCount()) /
+    double(samples_.points.size());
   double lambda = std::min(FirstOfLadder * first, most);
   int rises = 0;
   for (int step = 0; step < MostStepsDown && rises < RisesOfRisk; ++step, lambda *= StepDown)
@@ -254,7 +257,7 @@ void SmoothnessByRisk::spreadOverRings(std::vector<float>& values) const
 {
   constexpr std::size_t VerticesPerRange = 4096;
   std::vector<float> next(values.size());
-  for (int ring = 0; ring < RingsOfRisk; ++ring)
+  for (int ring = 0; ring < rings_; ++ring)
   {
     executor_.forEachRange(values.size(), VerticesPerRange,
       [&](std::size_t begin, std::size_t end)

@@ -63,6 +63,7 @@ private:
   std::vector<float> attention_;      ///< of each vertex: less at creases
   std::vector<float> loads_;          ///< of samples around each vertex
   std::vector<Candidate> candidates_; ///< from smooth to rough
+  int rings_ = 0;                     ///< over which the risk is averaged
   double scale_ = 0.;                 ///< of the residual of the equations
   double lambda_ = 0.;
   std::vector<float> localParts_;

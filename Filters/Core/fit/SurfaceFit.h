@@ -36,6 +36,12 @@ public:
   static constexpr double LeastSmoothness = 0.03;
   /// With a lambda by the data below this one, the cloud counts as clean.
   static constexpr double CleanSmoothness = 0.2;
+  /// The lambda for which each place of the surface follows about so many samples, with so many of them a vertex:
+  /// it bends over a length of the fourth root of lambda over their density and that of the vertices.
+  static constexpr double smoothnessThatFollows(double samples, double perVertex)
+  {
+    return samples * samples / perVertex;
+  }
 
   /// Takes so many points of the cloud, evenly picked but for those held out, as samples. No vertex
   /// may be erased. `normalOf` gives the normal that came with a point of the cloud, if there are some. Cloud,
@@ -78,6 +84,8 @@ public:
   void keepBoundaries();
   /// The lambda of the last moveVertices().
   double smoothness() const { return smoothness_; }
+  /// Whether it is that of a cloud without noise to speak of.
+  bool isClean() const { return smoothness_ < CleanSmoothness * partOfUsualSamples(); }
 
   /// Of samples in use, to the planes of their triangles, root of the mean square, with what the
   /// vertices have followed of it added: the noise of the cloud, and what the triangles are too
@@ -143,6 +151,7 @@ private:
     return shifts_.empty() ? samples_[sample]
                            : samples_[sample] + pointAt(places_[sample], shifts_);
   }
+  double partOfUsualSamples() const;
   double meanSquaredDistance() const;
   double residualVariance(std::span<const Vector4> positions, double lambda) const;
   double roughness(std::span<const Vector4> positions) const;

@@ -21,10 +21,15 @@ constexpr double SmoothnessFactor = 1.1;
 constexpr int MostChoices = 8;
 /// It is found if it changes by no more than that.
 constexpr double NearPart = 0.85;
-/// A learnt mesh follows noise, so the surface is farther from the samples, but not so many times. Beyond,
-/// what is narrow has shrunk, and passes for noise: then lambda is a tenth at most.
-constexpr double MostGrowthByNoise = 2.;
+/// A learnt mesh follows noise: of its variance it leaves q / (q + 7) where there are q points a vertex
+/// (measured for 2 to 10). So the surface is farther from the samples, but not much more than that, or than so many
+/// times. Beyond, what is narrow has shrunk, and passes for noise: then lambda is a tenth at most.
+constexpr double PointsOfHalf = 7.;
+constexpr double MarginOfGrowth = 2.3;
+constexpr double LeastMostGrowth = 4.;
 constexpr double PartIfShrunk = 0.1;
+/// With fewer samples a vertex the bends of neighbours are the more alike, and lambda comes out too large.
+constexpr double UsualSamples = 10.;
 /// Of the residual of the equations, against that at the start.
 constexpr double ToleranceOfChoice = 1e-2;
 /// Where the surface bends most, this part of lambda is left.
@@ -44,7 +49,10 @@ bool SurfaceFit::chooseSmoothness(const Progress& progress)
 {
   smoothness_ = FirstSmoothness;
   double most = MostSmoothness;
-  const double mostVariance = MostGrowthByNoise * MostGrowthByNoise * meanSquaredDistance();
+  const double points = double(cloud_.points().size()) / double(mesh_.vertexCount());
+  const double growth = std::max(LeastMostGrowth, MarginOfGrowth * (1. + PointsOfHalf / points));
+  const double mostVariance = growth * meanSquaredDistance();
+  const double factor = SmoothnessFactor * partOfUsualSamples();
   std::vector<Vector4> positions(mesh_.positions().begin(), mesh_.positions().end());
   for (int i = 0; i < MostChoices; ++i)
   {
@@ -58,7 +66,7 @@ bool SurfaceFit::chooseSmoothness(const Progress& progress)
     const double variance = residualVariance(positions, smoothness_);
     const double ratio = rough > 0. ? variance / rough : MostSmoothness;
     const double before = smoothness_;
-    const double next = SmoothnessFactor * ratio;
+    const double next = factor * ratio;
     const bool isNear = next > NearPart * before;
     const bool isShrunk = isNear && variance > mostVariance && before > LeastSmoothness;
     most = isShrunk ? std::max(PartIfShrunk * before, LeastSmoothness) : most;
@@ -71,6 +79,12 @@ bool SurfaceFit::chooseSmoothness(const Progress& progress)
     }
   }
   return true;
+}
+
+/// Of samples a vertex, at most 1.
+double SurfaceFit::partOfUsualSamples() const
+{
+  return std::min(1., double(samples_.size()) / (UsualSamples * double(mesh_.vertexCount())));
 }
 
 double SurfaceFit::meanSquaredDistance() const

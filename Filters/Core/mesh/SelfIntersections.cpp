@@ -198,4 +198,20 @@ std::vector<Edge> foldedEdges(const Mesh& mesh, const std::vector<bool>& isAsked
   std::sort(edges.begin(), edges.end());
   return edges;
 }
+
+std::vector<VertexIndex> brokenVertices(const Mesh& mesh, const std::vector<bool>& isAsked)
+{
+  std::vector<VertexIndex> broken;
+  for (const Triangle& triangle : intersectingTriangles(mesh, isAsked))
+  {
+    broken.insert(broken.end(), triangle.begin(), triangle.end());
+  }
+  for (const Edge& edge : foldedEdges(mesh, isAsked))
+  {
+    const Edge opposite = oppositeTo(mesh, edge);
+    broken.insert(broken.end(), edge.begin(), edge.end());
+    broken.insert(broken.end(), opposite.begin(), opposite.end());
+  }
+  return broken;
+}
 }

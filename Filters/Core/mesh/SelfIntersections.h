@@ -39,4 +39,8 @@ bool isFolded(const Mesh& mesh, const Edge& edge);
 /// `isAsked[v]`.
 std::vector<Edge> foldedEdges(const Mesh& mesh);
 std::vector<Edge> foldedEdges(const Mesh& mesh, const std::vector<bool>& isAsked);
+
+/// The corners of triangles that intersect and those around folds, of what has a corner v with `isAsked[v]`; some
+/// more than once.
+std::vector<VertexIndex> brokenVertices(const Mesh& mesh, const std::vector<bool>& isAsked);
 }

@@ -139,14 +139,14 @@ void CreaseGraph::closeGaps()
 /// The fewest edges that lead from the end of a line to any line, away from it; none if there are too many.
 std::vector<std::uint32_t> CreaseGraph::shortestWay(VertexIndex from) const
 {
-  struct Step
+  struct Stop
   {
     VertexIndex vertex;
     std::uint32_t edge;
     std::size_t before;
     std::size_t length;
   };
-  std::vector<Step> steps{ { from, edgesAt_[from][0], 0, 0 } };
+  std::vector<Stop> steps{ { from, edgesAt_[from][0], 0, 0 } };
   const VertexIndex behind = otherEnd(edgesAt_[from][0], from);
   for (std::size_t i = 0; i < steps.size() && steps[i].length < LongestGap; ++i)
   {
@@ -154,7 +154,7 @@ std::vector<std::uint32_t> CreaseGraph::shortestWay(VertexIndex from) const
     {
       const VertexIndex v = otherEnd(e, steps[i].vertex);
       if (isThere_[e] || v == behind ||
-        std::any_of(steps.begin(), steps.end(), [v](const Step& step) { return step.vertex == v; }))
+        std::any_of(steps.begin(), steps.end(), [v](const Stop& step) { return step.vertex == v; }))
       {
         continue;
       }

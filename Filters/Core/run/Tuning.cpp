@@ -139,6 +139,7 @@ public:
     , executor_(executor)
     , patches_(TuningPatch::patchesOf(cloud, learnable(wanted, cloud)))
     , smoothness_(patches_.size())
+    , isClean_(patches_.size())
   {
     result_.parameters = wanted;
   }
@@ -240,9 +241,9 @@ private:
   /// Whether there is a patch for which the one does something else than the other.
   bool hasOtherRounds(Fidelity one, Fidelity other) const
   {
-    return std::any_of(smoothness_.begin(), smoothness_.end(),
-      [&](double lambda)
-      { return FidelityRounds::count(one, lambda) != FidelityRounds::count(other, lambda); });
+    return std::any_of(isClean_.begin(), isClean_.end(),
+      [&](bool isClean)
+      { return FidelityRounds::count(one, isClean) != FidelityRounds::count(other, isClean); });
   }
 
   /// Less than lambda by the data, or more.
@@ -325,6 +326,7 @@ private:
     for (std::size_t i = 0; i < meshes.size(); ++i)
     {
       smoothness_[i] = meshes[i]->report.smoothness;
+      isClean_[i] = meshes[i]->report.isClean;
     }
   }
 
@@ -402,6 +404,7 @@ private:
   const Executor& executor_;
   std::vector<TuningPatch> patches_;
   std::vector<double> smoothness_; ///< lambda by the data, of each patch
+  std::vector<bool> isClean_;      ///< whether it has no noise to speak of
   std::vector<double> best_;       ///< squared distances with the best parameters so far
   double noise_ = 0.;              ///< of mean edges
   int runCount_ = 0;
