@@ -17,7 +17,7 @@ constexpr int RingsOfTurn = 3;
 /// Of a normal: without an area there is none.
 constexpr float LeastSquaredFacet = 1e-30f;
 /// Three edges of a triangle tell two directions, each of two times: so much less is for each.
-constexpr double PartOfEdge = 2. / 3.;
+constexpr double PartOfEachEdge = 2. / 3.;
 /// ... and less again: triangles are flat, and the surface is not.
 constexpr double PartOfNormal = 0.3;
 
@@ -126,6 +126,7 @@ double GivenNormals::weight(const Mesh& mesh, const PlacedSamples& samples, doub
   {
     return 0.;
   }
-  return PartOfNormal * PartOfEdge * variance * double(count) * double(count) / (edges * squares);
+  return PartOfNormal * PartOfEachEdge * variance * double(count) * double(count) /
+    (edges * squares);
 }
 }

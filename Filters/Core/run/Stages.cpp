@@ -39,7 +39,7 @@ std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& l
 }
 
 /// Of length 1; 0 if it tells nothing.
-Vector4 directionOf(const Eigen::Vector3d& vector)
+Vector4 givenDirection(const Eigen::Vector3d& vector)
 {
   const double length = vector.stableNorm();
   return length > 0. && vector.allFinite() ? Vector4(Eigen::Vector3d(vector / length)) : Vector4();
@@ -126,7 +126,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
   const PointCloud& fitted = once ? *once : cloud;
   const PointNormals normalOf = hints.normalOf && !fitted.origins().empty() ? [&](std::size_t point)
-  { return directionOf(hints.normalOf(fitted.origins()[point])); }
+  { return givenDirection(hints.normalOf(fitted.origins()[point])); }
                                                                             : PointNormals();
   Finish finish(fitted, learnt.mesh, plan, executor, normalOf);
   if (!finish.run(partOf(progress, 0., endOfFirst)))

@@ -30,7 +30,7 @@ constexpr double LayersApart = 4.5;
 constexpr double ThickLayersApart = 5.;
 /// To find the plane of two layers.
 constexpr int RoundsOfGroups = 3;
-constexpr std::size_t LeastPoints = 6;
+constexpr std::size_t LeastPointsOfPlane = 6;
 /// Of heights in no order.
 constexpr std::size_t LargeStep = 7;
 /// Keeps sums of weights above 0.
@@ -48,7 +48,7 @@ double bell(double x)
 }
 
 /// A number for each point.
-using Values = std::array<double, MostPointsOfLayer>;
+using ValuesOfLayer = std::array<double, MostPointsOfLayer>;
 
 /// The sums of which the equations of a quadric are: of the products of its six terms, 1, u, v, u^2, uv and
 /// v^2, of which the lower half is enough, and of these with the heights.
@@ -168,7 +168,7 @@ public:
   /// whether there are two.
   bool keepOneOfTwo()
   {
-    Values alike;
+    ValuesOfLayer alike;
     alike.fill(1.);
     findPlane(alike);
     findHeights(Eigen::Vector3d::Zero());
@@ -183,7 +183,7 @@ public:
   }
 
 private:
-  void findPlane(const Values& weights)
+  void findPlane(const ValuesOfLayer& weights)
   {
     double sum = 0., x = 0., y = 0., z = 0.;
     for (std::size_t i = 0; i < count_; ++i)
@@ -205,7 +205,8 @@ private:
   }
 
   /// How far the points are from an origin along an axis.
-  void project(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, Values& result) const
+  void project(
+    const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, ValuesOfLayer& result) const
   {
     const double originX = origin[0], originY = origin[1], originZ = origin[2];
     const double axisX = axis[0], axisY = axis[1], axisZ = axis[2];
@@ -224,7 +225,7 @@ private:
   /// Planes change little from one to the next, and so does the order of the heights: to put each where it
   /// belongs, from the last order on, takes hardly more than a look at each. The first time large steps come
   /// first (D. L. Shell, 1959).
-  void sortHeights(const Values& heights)
+  void sortHeights(const ValuesOfLayer& heights)
   {
     for (std::size_t i = 0; i < count_; ++i)
     {
@@ -278,7 +279,7 @@ private:
   std::optional<Groups> groups() const
   {
     double sum = 0., squares = 0.;
-    Values lower; // sum of those below
+    ValuesOfLayer lower; // sum of those below
     for (std::size_t i = 0; i < count_; ++i)
     {
       lower[i] = sum;
@@ -286,7 +287,7 @@ private:
       squares += sorted_[i] * sorted_[i];
     }
     const auto count = double(count_);
-    Values apart, between;
+    ValuesOfLayer apart, between;
     for (std::size_t i = 1; i < count_; ++i)
     {
       const auto below = double(std::int32_t(i));
@@ -313,7 +314,7 @@ private:
   bool keepOwn(const Groups& groups)
   {
     const bool isBelow = groups.threshold > 0.;
-    if ((isBelow ? groups.below : count_ - groups.below) < LeastPoints)
+    if ((isBelow ? groups.below : count_ - groups.below) < LeastPointsOfPlane)
     {
       return false;
     }
@@ -376,7 +377,7 @@ private:
   }
 
   void weigh(double height, double deviation) { weigh(heights_, height, deviation); }
-  void weigh(const Values& heights, double height, double deviation)
+  void weigh(const ValuesOfLayer& heights, double height, double deviation)
   {
     for (std::size_t i = 0; i < count_; ++i)
     {
@@ -398,7 +399,7 @@ private:
   /// Returns the way from the origin onto the quadric, along the axis; sets its normal there.
   Eigen::Vector3d fitQuadric()
   {
-    Values us, vs, left;
+    ValuesOfLayer us, vs, left;
     project(center_, axes_.col(1), us);
     project(center_, axes_.col(2), vs);
     Vector6 solution = Vector6::Zero();
@@ -429,11 +430,11 @@ private:
 
   std::size_t count_;
   double radius_;
-  Values x_, y_, z_;
-  Values nearness_;
-  Values weights_;
-  Values heights_;
-  Values sorted_; ///< the heights, or what a quadric leaves of them
+  ValuesOfLayer x_, y_, z_;
+  ValuesOfLayer nearness_;
+  ValuesOfLayer weights_;
+  ValuesOfLayer heights_;
+  ValuesOfLayer sorted_; ///< the heights, or what a quadric leaves of them
   std::array<std::uint8_t, MostPointsOfLayer> order_; ///< of the points, by their height at last
   bool isOrdered_ = false;
   Eigen::Vector3d center_;

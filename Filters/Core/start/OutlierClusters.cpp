@@ -51,7 +51,7 @@ constexpr double RimWidth = 1.5;
 constexpr double LeastPartOfRim = 0.03;
 
 constexpr int MostSteps = 200;
-constexpr float LeastChange = 1e-3f;
+constexpr float LeastChangeOfFill = 1e-3f;
 
 /// Lengths in voxels.
 struct Ball
@@ -228,7 +228,7 @@ void fillSmoothly(const VoxelGrid& grid, Voxels& inside, const Voxels& isHidden)
   }
   const auto [sx, sy, sz] = grid.strides();
   float change = 1.f;
-  for (int step = 0; step < MostSteps && change > LeastChange; ++step)
+  for (int step = 0; step < MostSteps && change > LeastChangeOfFill; ++step)
   {
     change = 0.f;
     for (const std::size_t voxel : hidden)

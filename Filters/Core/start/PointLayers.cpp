@@ -20,13 +20,13 @@ constexpr float LeastRadius = 0.5f;
 /// Samples for each disk of the radius that points fill, as chance packs them.
 constexpr double Packing = 0.41;
 
-constexpr std::uint32_t None = ~0u;
+constexpr std::uint32_t NoPlace = ~0u;
 }
 
 PointLayers::PointLayers(const NearestPoints& nearest, std::size_t count)
   : search_(nearest)
   , count_(count)
-  , numbers_(nearest.points().size(), None)
+  , numbers_(nearest.points().size(), NoPlace)
 {
   const std::size_t points = nearest.points().size();
   const std::size_t asked = std::min(points, SurveyPoints);
@@ -63,7 +63,7 @@ float PointLayers::radius(const Spacing& spacing) const
 PointLayers::Known& PointLayers::known(std::uint32_t point)
 {
   std::uint32_t& number = numbers_[point];
-  if (number == None)
+  if (number == NoPlace)
   {
     number = std::uint32_t(known_.size());
     Known& added = known_.emplace_back();
