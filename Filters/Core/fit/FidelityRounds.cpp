@@ -87,7 +87,7 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   if (mayBeBroken_)
   {
     // As long as a round follows that brings back what it rounds off.
-    repairIntersections(mesh_);
+    repairIntersections(mesh_, partOf(progress, 0., 0.));
   }
   if (!fit_.findPlaces(partOf(progress, 0., 0.3)))
   {
@@ -110,14 +110,13 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   {
     return false;
   }
-  takeBackBroken(before);
-  return true;
+  return takeBackBroken(before, partOf(progress, 1., 1.));
 }
 
 bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress)
 {
   const double perVertex = double(fit_.placedSamples().points.size()) / double(mesh_.vertexCount());
-  const double most = SurfaceFit::smoothnessThatFollows(MostFollowed, perVertex);
+  const double most = FitSystem::smoothnessThatFollows(MostFollowed, perVertex);
   const double smoother = !isFirst ? TimesSmoother * lambda_
     : isFixed                      ? lambda_
               : std::clamp(FirstTimesSmoother * lambda_, std::min(LeastFirstLambda, most), most);
@@ -155,12 +154,16 @@ bool FidelityRounds::move(double lambda, const Progress& progress)
 }
 
 /// Vertices where the surface folds or intersects since it had these positions go back: what would mend it in the
-/// end rounds off creases.
-void FidelityRounds::takeBackBroken(std::span<const Vector4> before)
+/// end rounds off creases. Returns false if it was ended before.
+bool FidelityRounds::takeBackBroken(std::span<const Vector4> before, const Progress& progress)
 {
   std::vector<bool> isAsked(mesh_.indexEnd(), true);
   for (int time = 0; time < MostTakingsBack; ++time)
   {
+    if (!progress(0.))
+    {
+      return false;
+    }
     const std::vector<VertexIndex> broken = brokenVertices(mesh_, isAsked);
     isAsked.assign(isAsked.size(), false);
     bool hasMoved = false;
@@ -178,5 +181,6 @@ void FidelityRounds::takeBackBroken(std::span<const Vector4> before)
       break;
     }
   }
+  return true;
 }
 }

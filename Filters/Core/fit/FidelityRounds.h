@@ -47,7 +47,7 @@ private:
   bool sharpen(bool distributes, const Progress& progress);
   bool smooth(bool isFirst, bool isFixed, const Progress& progress);
   bool move(double lambda, const Progress& progress);
-  void takeBackBroken(std::span<const Vector4> before);
+  bool takeBackBroken(std::span<const Vector4> before, const Progress& progress);
 
   Mesh& mesh_;
   SurfaceFit& fit_;

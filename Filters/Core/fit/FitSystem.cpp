@@ -89,13 +89,6 @@ void FitSystem::addNormal(
   }
 }
 
-void FitSystem::applyLaplacian(std::span<const Vector4> x, std::span<Vector4> result) const
-{
-  executor_.forEachRange(x.size(), RowsPerRange,
-    [&](std::size_t begin, std::size_t end)
-    { applyUmbrella<float>(mesh_, x, result, begin, end); });
-}
-
 float FitSystem::weight(VertexIndex vertex, VertexIndex neighbor) const
 {
   const float inner = innerWeights_[vertex];

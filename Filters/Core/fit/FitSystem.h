@@ -64,8 +64,12 @@ public:
   bool solve(double lambda, double tolerance, double& scale, std::span<Vector4> x,
     const Progress& progress) const;
 
-  /// L x.
-  void applyLaplacian(std::span<const Vector4> x, std::span<Vector4> result) const;
+  /// The lambda for which each place of the surface follows about so many samples, with so many of them a vertex:
+  /// it bends over a length of the fourth root of lambda over their density and that of the vertices.
+  static constexpr double smoothnessThatFollows(double samples, double perVertex)
+  {
+    return samples * samples / perVertex;
+  }
 
 private:
   /// A symmetric matrix of 3 x 3.

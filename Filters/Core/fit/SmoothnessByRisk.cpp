@@ -79,8 +79,8 @@ bool SmoothnessByRisk::run(double first, const Progress& progress)
 {
   const std::vector<Vector4> start(mesh_.positions().begin(), mesh_.positions().end());
   std::vector<Vector4> positions = start;
-  const double most = MostSamplesFollowed * MostSamplesFollowed * double(mesh_.vertexCount()) /
-    double(samples_.points.size());
+  const double most = FitSystem::smoothnessThatFollows(
+    MostSamplesFollowed, double(samples_.points.size()) / double(mesh_.vertexCount()));
   double lambda = std::min(FirstOfLadder * first, most);
   int rises = 0;
   for (int step = 0; step < MostStepsDown && rises < RisesOfRisk; ++step, lambda *= StepDown)

@@ -36,12 +36,6 @@ public:
   static constexpr double LeastSmoothness = 0.03;
   /// With a lambda by the data below this one, the cloud counts as clean.
   static constexpr double CleanSmoothness = 0.2;
-  /// The lambda for which each place of the surface follows about so many samples, with so many of them a vertex:
-  /// it bends over a length of the fourth root of lambda over their density and that of the vertices.
-  static constexpr double smoothnessThatFollows(double samples, double perVertex)
-  {
-    return samples * samples / perVertex;
-  }
 
   /// Takes so many points of the cloud, evenly picked but for those held out, as samples. No vertex
   /// may be erased. `normalOf` gives the normal that came with a point of the cloud, if there are some. Cloud,
@@ -64,7 +58,7 @@ public:
   /// what has changed get new places near by.
   void follow(const ChangedVertices& changed);
   /// Vertices at creases, where the surface bends more sharply than usual by some `deviations`, are held less
-  /// smooth from the next moveVertices() on, but for those with few samples. With 0 all are held alike.
+  /// smooth from the next moveVertices() on, but for those with few samples.
   void relaxCreases(double deviations);
   /// From the next moveVertices() on, samples count as moved against what noise of this variance does where the
   /// surface bends: more of it lies on the outer side there. The bends are those of the mesh as it is.

@@ -182,11 +182,6 @@ std::vector<float> SurfaceFit::supports() const
 
 void SurfaceFit::relaxCreases(double deviations)
 {
-  smoothnessParts_.clear();
-  if (!(deviations > 0.))
-  {
-    return;
-  }
   smoothnessParts_ = squaredBends(mesh_.positions());
   const double mean = executor_.sum(smoothnessParts_.size(), VerticesPerRange,
                         [&](std::size_t v) { return double(smoothnessParts_[v]); }) /
@@ -207,6 +202,7 @@ void SurfaceFit::relaxCreases(double deviations)
     }
   }
 }
+
 bool SurfaceFit::chooseSmoothnessByRisk(double first, const Progress& progress)
 {
   fillSystem();

@@ -117,11 +117,12 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const bool isSimplified = plan.vertexCount > vertexCount;
   if (isSimplified)
   {
-    // The rounds of the fidelity would be of the larger mesh: one more of the first takes their place.
+    // The rounds of the fidelity would be of the larger mesh.
     plan.fidelity = Fidelity::Draft;
-    plan.rounds += plan.rounds > 0 ? 1 : 0;
     plan.residualTo = DistanceTo::ClosestVertex;
   }
+  // Where no vertices go to creases afterwards, one more brings them there that lie near.
+  plan.rounds += plan.rounds > 0 && (isSimplified || plan.keepsPlaces) ? 1 : 0;
   const double endOfFirst = isSimplified ? 0.5 : 1.;
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
   const PointCloud& fitted = once ? *once : cloud;

@@ -56,7 +56,7 @@ private:
   std::size_t count_;
   float usualSpacing_;
   float factor_ = 0.f;                 ///< of the radius
-  std::vector<std::uint32_t> numbers_; ///< of what is known of a point; None = nothing
+  std::vector<std::uint32_t> numbers_; ///< of what is known of a point; its maximum: nothing
   std::vector<Known> known_;
 };
 }
