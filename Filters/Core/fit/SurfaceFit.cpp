@@ -25,9 +25,8 @@ constexpr int KeptRings = 2;
 /// In the first round samples are no outliers up to so many edges: the mesh does not fit yet.
 constexpr float FirstOutlierEdges = 1.f;
 constexpr float LaterOutlierEdges = 0.5f;
-/// ... and, where samples are so many times farther from each other than usual, up to so many edges and
-/// so many times the distance between samples around their places.
-constexpr float SparseSpacings = 2.f;
+/// ... and, where samples are sparse, up to so many edges and so many times the distance between samples around
+/// their places.
 constexpr float OutlierSpacings = 3.f;
 constexpr std::size_t SamplesPerAbortCheck = 65536;
 /// Of the residual of the equations, against the largest at the start of a round.

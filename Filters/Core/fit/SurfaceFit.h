@@ -76,6 +76,7 @@ public:
   void findExactly() { isExact_ = true; }
   /// From now on the boundaries, and what is next to them, stay where they are.
   void keepBoundaries();
+  void keepAlso(const std::vector<std::uint8_t>& kept) { isKept_.resize(kept.size()); for (std::size_t i=0;i<kept.size();++i) isKept_[i]|=kept[i]; }
   /// The lambda of the last moveVertices().
   double smoothness() const { return smoothness_; }
   /// Whether it is that of a cloud without noise to speak of.
@@ -115,6 +116,8 @@ private:
   static constexpr std::size_t VerticesPerRange = 4096;
   /// Median of the square of a Gaussian variable, against its variance.
   static constexpr double MedianOfSquares = 0.455;
+  /// Samples that are so many times farther from each other than usual are sparse.
+  static constexpr float SparseSpacings = 2.f;
 
   bool isUsed(std::size_t sample) const { return isUsed_[sample] != 0; }
   float weight(std::size_t sample) const { return weights_.empty() ? 1.f : weights_[sample]; }
