@@ -5,8 +5,8 @@
 #include "fit/DataFlips.h"
 #include "fit/IntersectionRepair.h"
 #include "fit/Redistribution.h"
+#include "mesh/BrokenMoves.h"
 #include "mesh/Refinement.h"
-#include "mesh/SelfIntersections.h"
 
 #include <algorithm>
 
@@ -36,8 +36,6 @@ RoundsOf roundsOf(Fidelity fidelity)
 
 /// Vertices, at most, that a round takes to other places.
 constexpr double MostDistributed = 0.1;
-/// Of what breaks in a round: some of it hangs together.
-constexpr int MostTakingsBack = 8;
 /// Of lambda, on a clean cloud: creases no longer need so much of it.
 constexpr double PartOnCleanClouds = 0.5;
 /// Beyond so many deviations of the usual bend it is a crease.
@@ -110,7 +108,10 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   {
     return false;
   }
-  return takeBackBroken(before, partOf(progress, 1., 1.));
+  // What would mend it in the end rounds off creases.
+  const AfterBrokenMoves after = takeBackBrokenMoves(mesh_, before, partOf(progress, 1., 1.));
+  mayBeBroken_ = after != AfterBrokenMoves::Sound;
+  return after != AfterBrokenMoves::Cancelled;
 }
 
 bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress)
@@ -150,37 +151,6 @@ bool FidelityRounds::move(double lambda, const Progress& progress)
     return false;
   }
   heldVertices_ += fit_.heldCount();
-  return true;
-}
-
-/// Vertices where the surface folds or intersects since it had these positions go back: what would mend it in the
-/// end rounds off creases. Returns false if it was ended before.
-bool FidelityRounds::takeBackBroken(std::span<const Vector4> before, const Progress& progress)
-{
-  std::vector<bool> isAsked(mesh_.indexEnd(), true);
-  for (int time = 0; time < MostTakingsBack; ++time)
-  {
-    if (!progress(0.))
-    {
-      return false;
-    }
-    const std::vector<VertexIndex> broken = brokenVertices(mesh_, isAsked);
-    isAsked.assign(isAsked.size(), false);
-    bool hasMoved = false;
-    for (const VertexIndex v : broken)
-    {
-      if (squaredNorm(mesh_.position(v) - before[v]) > 0.f)
-      {
-        mesh_.setPosition(v, before[v]);
-        isAsked[v] = hasMoved = true;
-      }
-    }
-    mayBeBroken_ = !broken.empty();
-    if (!hasMoved)
-    {
-      break;
-    }
-  }
   return true;
 }
 }

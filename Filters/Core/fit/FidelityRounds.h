@@ -7,7 +7,6 @@
 #include "mesh/Mesh.h"
 
 #include <cstddef>
-#include <span>
 
 namespace neuralmesh
 {
@@ -47,7 +46,6 @@ private:
   bool sharpen(bool distributes, const Progress& progress);
   bool smooth(bool isFirst, bool isFixed, const Progress& progress);
   bool move(double lambda, const Progress& progress);
-  bool takeBackBroken(std::span<const Vector4> before, const Progress& progress);
 
   Mesh& mesh_;
   SurfaceFit& fit_;

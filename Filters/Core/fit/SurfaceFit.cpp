@@ -191,6 +191,15 @@ void SurfaceFit::keepBoundaries()
   }
 }
 
+void SurfaceFit::keep(std::span<const std::uint8_t> vertices)
+{
+  isKept_.resize(mesh_.indexEnd());
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+  {
+    isKept_[v] |= vertices[v];
+  }
+}
+
 void SurfaceFit::fillSystem()
 {
   // Anew, as edges may have been flipped.

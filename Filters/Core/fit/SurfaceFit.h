@@ -76,6 +76,8 @@ public:
   void findExactly() { isExact_ = true; }
   /// From now on the boundaries, and what is next to them, stay where they are.
   void keepBoundaries();
+  /// ... and so do the vertices for which this is not 0.
+  void keep(std::span<const std::uint8_t> vertices);
   void keepAlso(const std::vector<std::uint8_t>& kept) { isKept_.resize(kept.size()); for (std::size_t i=0;i<kept.size();++i) isKept_[i]|=kept[i]; }
   /// The lambda of the last moveVertices().
   double smoothness() const { return smoothness_; }

@@ -17,6 +17,10 @@ constexpr float CosineOfRim = -0.5f;
 /// Triangles lower than a thousandth of their edge have no normal to speak of.
 constexpr float SquaredHeightOfSliver = 1e-6f;
 constexpr int MaximumPasses = 4;
+/// Of an edge: what lies between it and the one that it is flipped to, if it is flat. Triangles that come to be there
+/// are no slivers.
+constexpr float MostHeightOfFlat = 0.003f;
+constexpr float LeastRatioOfFlat = 0.3f;
 
 bool keepsShape(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
 {
@@ -48,9 +52,20 @@ bool isMoreRegular(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c
   return valenceGain(mesh, a, b, c, d) > 0 && keepsShape(mesh, a, b, c, d);
 }
 
+/// Whether a-b and c-d lie in a plane, but for a small part of a-b.
+bool isFlat(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
+{
+  const Vector4 pa = mesh.position(a), pc = mesh.position(c);
+  const Vector4 edge = mesh.position(b) - pa;
+  const Vector4 across = cross(edge, mesh.position(d) - pc);
+  const float height = dot(across, pc - pa);
+  return height * height <=
+    MostHeightOfFlat * MostHeightOfFlat * squaredNorm(edge) * squaredNorm(across);
+}
+
 /// Flips a-b if that is legal and the edge between the opposite vertices is better: for the
 /// valences, or to retract a rim.
-bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims)
+bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims, EdgesToFlip which)
 {
   const Ring& ring = mesh.ring(a);
   const unsigned slot = ring.find(b);
@@ -60,7 +75,13 @@ bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims)
   }
   const VertexIndex c = ring.next(slot);
   const VertexIndex d = ring.previous(slot);
-  if (c == NoVertex || d == NoVertex)
+  if (c == NoVertex || d == NoVertex || (which == EdgesToFlip::Flat && !isFlat(mesh, a, b, c, d)))
+  {
+    return false;
+  }
+  if (which == EdgesToFlip::Flat &&
+    std::min(radiusRatio(mesh.position(a), mesh.position(d), mesh.position(c)),
+      radiusRatio(mesh.position(b), mesh.position(c), mesh.position(d))) < LeastRatioOfFlat)
   {
     return false;
   }
@@ -85,11 +106,20 @@ int valenceGain(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, V
 
 bool flipIfMoreRegular(Mesh& mesh, VertexIndex a, VertexIndex b)
 {
-  return flipIfBetter(mesh, a, b, false);
+  return flipIfBetter(mesh, a, b, false, EdgesToFlip::All);
 }
 
-unsigned flipEdgesAround(Mesh& mesh, VertexIndex v)
+bool isFlatEdge(const Mesh& mesh, VertexIndex a, VertexIndex b)
 {
+  const Ring& ring = mesh.ring(a);
+  const unsigned slot = ring.find(b);
+  const VertexIndex c = ring.next(slot), d = ring.previous(slot);
+  return c != NoVertex && d != NoVertex && isFlat(mesh, a, b, c, d);
+}
+
+unsigned flipEdgesAround(Mesh& mesh, VertexIndex v, EdgesToFlip which)
+{
+  const bool retractsRims = which == EdgesToFlip::All;
   unsigned flips = 0;
   bool improved = true;
   for (int pass = 0; improved && pass < MaximumPasses; ++pass)
@@ -101,8 +131,9 @@ unsigned flipEdgesAround(Mesh& mesh, VertexIndex v)
       const VertexIndex neighbor = before[slot];
       const VertexIndex next = before.next(slot);
       const bool opposite = next != NoVertex && mesh.ring(neighbor).contains(next) &&
-        flipIfBetter(mesh, neighbor, next, true);
-      const bool spoke = mesh.ring(v).contains(neighbor) && flipIfBetter(mesh, v, neighbor, true);
+        flipIfBetter(mesh, neighbor, next, retractsRims, which);
+      const bool spoke = mesh.ring(v).contains(neighbor) &&
+        flipIfBetter(mesh, v, neighbor, retractsRims, which);
       flips += unsigned(opposite) + unsigned(spoke);
       improved = improved || opposite || spoke;
     }
@@ -110,13 +141,13 @@ unsigned flipEdgesAround(Mesh& mesh, VertexIndex v)
   return flips;
 }
 
-void flipEdges(Mesh& mesh)
+void flipEdges(Mesh& mesh, EdgesToFlip which)
 {
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
     if (mesh.isAlive(v))
     {
-      flipEdgesAround(mesh, v);
+      flipEdgesAround(mesh, v, which);
     }
   }
 }

@@ -5,14 +5,25 @@
 
 namespace neuralmesh
 {
+/// Which edges may be flipped.
+enum class EdgesToFlip
+{
+  All,
+  Flat ///< where the surface moves by no more than some thousandths of the edge: so no crease is cut
+};
+
 /// Flips the edges at `v` and those opposite to it as long as that helps: where valences come
 /// closer to regular, and nothing folds over or leans farther apart than before; and where an edge
 /// is the rim of two sheets back to back, as bridges over gaps are. Returns the number of flips.
 /// Not in the thesis.
-unsigned flipEdgesAround(Mesh& mesh, VertexIndex v);
+unsigned flipEdgesAround(Mesh& mesh, VertexIndex v, EdgesToFlip which = EdgesToFlip::All);
 
 /// The same around all vertices.
-void flipEdges(Mesh& mesh);
+void flipEdges(Mesh& mesh, EdgesToFlip which = EdgesToFlip::All);
+
+/// Whether a flip of a-b moves the surface so little that the edge counts as flat. An edge at the boundary does
+/// not.
+bool isFlatEdge(const Mesh& mesh, VertexIndex a, VertexIndex b);
 
 /// By how much a flip of a-b to c-d lowers the sum of squared excesses of valence.
 int valenceGain(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d);

@@ -66,9 +66,10 @@ bool refine(Mesh& mesh, std::size_t count, const Progress& progress, EdgesAfterS
       continue;
     }
     const VertexIndex added = mesh.split(v, plan->first, plan->steps, plan->position);
-    if (edges == EdgesAfterSplit::Flip)
+    if (edges != EdgesAfterSplit::Keep)
     {
-      flipEdgesAround(mesh, added);
+      flipEdgesAround(mesh, added,
+        edges == EdgesAfterSplit::Flip ? EdgesToFlip::All : EdgesToFlip::Flat);
     }
     candidates.push(candidate(mesh, v));
     candidates.push(candidate(mesh, added));

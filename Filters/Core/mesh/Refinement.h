@@ -11,8 +11,9 @@ namespace neuralmesh
 /// What becomes of the edges around a new vertex.
 enum class EdgesAfterSplit
 {
-  Flip, ///< where triangles get better by it
-  Keep  ///< the surface stays what it is, so that nothing crosses what it did not before
+  Flip,     ///< where triangles get better by it
+  FlipFlat, ///< likewise, but for those that are not flat: creases stay
+  Keep      ///< the surface stays what it is, so that nothing crosses what it did not before
 };
 
 /// Halves the longest edge, again and again, until there are `count` vertices, or no edge can be

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/Reconstruction.h"
 
+#include "fit/CreaseRefinement.h"
 #include "mesh/QuadricSimplification.h"
 #include "run/Stages.h"
 #include "run/Warnings.h"
@@ -19,6 +20,9 @@ constexpr std::size_t LeastLearnt = 100;
 /// learnt, if there are twenty points for each, and simplified.
 constexpr std::uint64_t LeastLearntToFit = 1000;
 constexpr std::uint64_t PointsToSimplify = 20;
+
+/// Of the progress of the finish.
+constexpr double PartBeforeRefinement = 0.6;
 
 /// Learns until a stopping rule is met; returns which.
 StopReason learnAll(LearningState state, Checkpoint& checkpoint, const PointCloud& cloud,
@@ -46,8 +50,8 @@ StopReason learnAll(LearningState state, Checkpoint& checkpoint, const PointClou
   }
 }
 
-/// As reconstruct(), but learns so many vertices at least, and simplifies the mesh if these are too many.
-Reconstruction learnAndFinish(std::uint64_t leastLearnt, const PointCloud& input,
+/// As reconstruct(), but learns so many vertices, and simplifies or refines the mesh if these are too many or too few.
+Reconstruction learnAndFinish(std::uint64_t vertices, const PointCloud& input,
   const Parameters& requested, const Progress& report, const std::optional<Mesh>& first,
   const GrowthWatch& watch, const CheckpointPlan& plan, const Executor& executor,
   const OrientationHints& hints, bool explainsAll)
@@ -61,7 +65,7 @@ Reconstruction learnAndFinish(std::uint64_t leastLearnt, const PointCloud& input
 
   result.times.enter(Phase::Start);
   Parameters toLearn = requested;
-  toLearn.numberOfVertices = std::max(leastLearnt, requested.numberOfVertices);
+  toLearn.numberOfVertices = vertices;
   const Parameters parameters = learnable(toLearn, input);
   const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
   const double startOfLearning = startsFromSpace ? StartOfLearning : 0.;
@@ -87,24 +91,34 @@ Reconstruction learnAndFinish(std::uint64_t leastLearnt, const PointCloud& input
   const bool isSimplified = !first && learnt.mesh.vertexCount() > requested.numberOfVertices;
 
   result.times.enter(Phase::Finish);
-  const auto most = std::size_t(requested.numberOfVertices);
+  const auto most = std::size_t(std::min(vertices, requested.numberOfVertices));
   // A first mesh may have all vertices already: then it is fitted as it is.
   if (parameters.fitRounds > 0 && result.isComplete() && (first || result.counts.iterations > 0))
   {
     const std::size_t there = learnt.mesh.vertexCount();
-    const std::size_t vertices = result.stopReason != StopReason::Vertices ? there
+    const std::size_t finished = result.stopReason != StopReason::Vertices ? there
       : first                                                              ? std::max(there, most)
                                                                            : most;
-    const Progress finishing = partOf(progress, endOfLearning, 1.);
-    result.finish = finish(
-      learnt, cloud, parameters, gaps, vertices,
-      [&](double fraction)
+    const auto refined = std::size_t(learnable(requested, input).numberOfVertices);
+    const bool isRefined = vertices < requested.numberOfVertices && finished == most;
+    const Progress rest = partOf(progress, endOfLearning, 1.);
+    const Progress finishing = [&](double fraction)
+    {
+      const bool isTimeOver = parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
+      return rest(fraction) && !isTimeOver;
+    };
+    const double endOfFirst = isRefined ? PartBeforeRefinement : 1.;
+    result.finish = finish(learnt, cloud, parameters, gaps, finished,
+      partOf(finishing, 0., endOfFirst), executor, hints);
+    if (result.finish && isRefined)
+    {
+      if (!refineFinished(learnt, cloud, parameters, refined, *result.finish,
+            partOf(finishing, endOfFirst, 1.), executor))
       {
-        const bool isTimeOver =
-          parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
-        return finishing(fraction) && !isTimeOver;
-      },
-      executor, hints);
+        result.finish.reset();
+      }
+      result.curve.endWith(learnt.mesh);
+    }
     if (!result.finish)
     {
       result.stopReason = isCancelled ? StopReason::Cancelled : StopReason::TimeLimit;
@@ -128,7 +142,7 @@ Reconstruction learnAndFinish(std::uint64_t leastLearnt, const PointCloud& input
 }
 
 /// Not where rules end the run that are meant for the mesh as it learns.
-bool mayBeSimplified(const Parameters& parameters)
+bool mayLearnOtherwise(const Parameters& parameters)
 {
   return parameters.fitRounds > 0 && !parameters.topologyLearning && parameters.timeLimit == 0. &&
     parameters.maximumIterations == 0 && parameters.targetSampleDistance == 0. &&
@@ -142,6 +156,33 @@ bool isRight(const Reconstruction& simplified, std::uint64_t vertices)
   return simplified.stopReason == StopReason::Vertices &&
     simplified.surface.vertexCount() == vertices && simplified.finish &&
     simplified.finish->left.total() == 0;
+}
+
+/// Whether there are fewer points a vertex than tell creases, of which the mesh has some, and they may come out
+/// sharper on a coarser one.
+bool mayHaveRoundedCreases(
+  const Reconstruction& result, const PointCloud& cloud, const Parameters& parameters)
+{
+  return result.stopReason == StopReason::Vertices && result.finish && result.finish->isClean &&
+    parameters.fidelity != Fidelity::Draft && parameters.fitSmoothness == 0. &&
+    !parameters.computeFeatureStrength &&
+    result.surface.vertexCount() > cloud.differentCount() / PointsThatTellCreases &&
+    hasCreases(result.surface);
+}
+
+/// Whether the first mesh has so many vertices, and the smaller residual.
+bool isCloser(const Reconstruction& first, const Reconstruction& second, std::uint64_t vertices)
+{
+  return first.surface.vertexCount() == vertices && first.quality && second.quality &&
+    first.quality->residual < second.quality->residual;
+}
+
+/// Of a mesh that was refined beside its creases, and one that has learnt all of its vertices: whether the first is
+/// to be taken.
+bool isBetterRefined(const Reconstruction& refined, const Reconstruction& learnt)
+{
+  return isCloser(refined, learnt, learnt.surface.vertexCount()) && refined.finish &&
+    refined.finish->left.total() <= learnt.finish->left.total();
 }
 }
 
@@ -181,19 +222,25 @@ Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
   };
   const std::uint64_t least =
     std::min<std::uint64_t>(LeastLearntToFit, input.differentCount() / PointsToSimplify);
-  if (first || asked >= least || !mayBeSimplified(requested))
+  const bool isSimplified = asked < least;
+  if (first || !mayLearnOtherwise(requested))
   {
     return learn(asked, report, watch, plan);
   }
-  Reconstruction result = learn(least, report, watch, plan);
-  if (!result.isComplete() || isRight(result, asked))
+  Reconstruction result = learn(isSimplified ? least : asked, report, watch, plan);
+  if (!result.isComplete() ||
+    (isSimplified ? isRight(result, asked) : !mayHaveRoundedCreases(result, input, requested)))
   {
     return result;
   }
-  Reconstruction direct = learn(asked, partOf(report, 1., 1.), {}, {});
-  direct.resumedIterations = result.resumedIterations;
-  const bool isComparable =
-    result.surface.vertexCount() == asked && direct.quality && result.quality;
-  return isComparable && result.quality->residual < direct.quality->residual ? result : direct;
+  const std::uint64_t fewer = input.differentCount() / PointsThatTellCreases;
+  Reconstruction other =
+    learn(isSimplified ? asked : fewer, partOf(report, 1., 1.), {}, {});
+  other.resumedIterations = result.resumedIterations;
+  other.times.add(result.times);
+  result.times = other.times;
+  const bool isTaken = other.stopReason == StopReason::Cancelled ||
+    (isSimplified ? !isCloser(result, other, asked) : isBetterRefined(other, result));
+  return isTaken ? other : result;
 }
 }

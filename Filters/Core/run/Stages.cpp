@@ -3,6 +3,7 @@
 
 #include "cloud/MeshBuilder.h"
 #include "cloud/RepeatedPoints.h"
+#include "fit/CreaseRefinement.h"
 #include "mesh/QuadricSimplification.h"
 #include "mesh/SmallPieces.h"
 #include "run/MeshOrientation.h"
@@ -153,6 +154,15 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   report.left = finishSimplified.report().left;
   report.heldVertices = finishSimplified.report().heldVertices;
   return report;
+}
+
+bool refineFinished(LearntMesh& learnt, const PointCloud& cloud, const Parameters& parameters,
+  std::size_t vertexCount, FinishReport& report, const Progress& progress,
+  const Executor& executor)
+{
+  const std::optional<PointCloud> once = withoutRepetitions(cloud);
+  return refineBesideCreases(once ? *once : cloud, learnt.mesh, vertexCount,
+    parameters.fitSamples, report, executor, progress);
 }
 
 void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,

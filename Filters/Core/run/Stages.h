@@ -55,6 +55,12 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Progress& progress, const Executor& executor = Executor::sequential(),
   const OrientationHints& hints = {});
 
+/// Refines what is finished to so many vertices, beside its creases; `report` follows. Returns false if it was
+/// ended before.
+bool refineFinished(LearntMesh& learnt, const PointCloud& cloud, const Parameters& parameters,
+  std::size_t vertexCount, FinishReport& report, const Progress& progress,
+  const Executor& executor = Executor::sequential());
+
 /// Turns the mesh to its outer side, and adds to `result` all that a user gets of it. Its quality is
 /// measured by `all` points, if there are any.
 void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,

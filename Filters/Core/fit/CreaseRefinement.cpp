@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/CreaseRefinement.h"
+
+#include "mesh/BrokenMoves.h"
+#include "mesh/EdgeFlips.h"
+#include "mesh/Refinement.h"
+#include "mesh/SelfIntersections.h"
+#include "mesh/TriangleShape.h"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Cosine of the angle between the normals beside an edge, at most, for it to be one of a crease.
+constexpr float CosineOfCrease = 0.6f;
+constexpr double TimesAcross = 2.;
+/// In which the vertices move.
+constexpr int Rounds = 2;
+
+/// Calls `body` with the ends of each edge, once.
+template <typename Body>
+void forEachEdge(const Mesh& mesh, const Body& body)
+{
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    for (const VertexIndex other : mesh.ring(v))
+    {
+      if (v < other)
+      {
+        body(v, other);
+      }
+    }
+  }
+}
+
+bool isOfCrease(const Mesh& mesh, VertexIndex a, VertexIndex b)
+{
+  if (mesh.isBoundaryEdge(a, b))
+  {
+    return false;
+  }
+  const Edge opposite = oppositeTo(mesh, { a, b });
+  const Vector4 from = mesh.position(a), edge = mesh.position(b) - from;
+  const Vector4 left = cross(edge, mesh.position(opposite[0]) - from);
+  const Vector4 right = cross(mesh.position(opposite[1]) - from, edge);
+  return cosineBetween(left, right) < CosineOfCrease;
+}
+
+std::vector<std::uint8_t> atEdgesThatAreNotFlat(const Mesh& mesh)
+{
+  std::vector<std::uint8_t> result(mesh.indexEnd());
+  forEachEdge(mesh,
+    [&](VertexIndex a, VertexIndex b)
+    {
+      if (!isFlatEdge(mesh, a, b))
+      {
+        result[a] = result[b] = 1;
+      }
+    });
+  return result;
+}
+}
+
+bool hasCreases(const Mesh& mesh)
+{
+  double count = 0.;
+  forEachEdge(
+    mesh, [&](VertexIndex a, VertexIndex b) { count += isOfCrease(mesh, a, b) ? 1. : 0.; });
+  return count > TimesAcross * std::sqrt(double(mesh.vertexCount()));
+}
+
+bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
+  double samplesPerVertex, FinishReport& report, const Executor& executor,
+  const Progress& progress)
+{
+  const auto defects = [&mesh]
+  { return intersectingTriangles(mesh).size() + foldedEdges(mesh).size(); };
+  const Mesh before = mesh;
+  if (!refine(mesh, count, partOf(progress, 0., 0.2), EdgesAfterSplit::FlipFlat))
+  {
+    return false;
+  }
+  flipEdges(mesh, EdgesToFlip::Flat);
+  SurfaceFit fit(
+    cloud, mesh, std::size_t(samplesPerVertex * double(count)), executor);
+  fit.settle();
+  fit.findExactly();
+  fit.keepBoundaries();
+  fit.keep(atEdgesThatAreNotFlat(mesh));
+  for (int round = 0; round < Rounds; ++round)
+  {
+    const Progress part =
+      partOf(progress, 0.2 + 0.4 * round, 0.6 + 0.4 * round);
+    const std::vector<Vector4> places(mesh.positions().begin(), mesh.positions().end());
+    if (!fit.findPlaces(partOf(part, 0., 0.5)) ||
+      !fit.moveVertices(report.smoothness, partOf(part, 0.5, 1.)) ||
+      takeBackBrokenMoves(mesh, places, partOf(part, 1., 1.)) == AfterBrokenMoves::Cancelled)
+    {
+      return false;
+    }
+  }
+  if (defects() > report.left.total())
+  {
+    // The same surface, with more vertices.
+    mesh = before;
+    return refine(mesh, count, partOf(progress, 1., 1.), EdgesAfterSplit::Keep);
+  }
+  report.heldVertices += fit.heldCount();
+  return true;
+}
+}

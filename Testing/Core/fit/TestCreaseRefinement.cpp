@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/CreaseRefinement.h"
+
+#include "cloud/MeshBuilder.h"
+#include "mesh/EdgeFlips.h"
+#include "mesh/NearestTriangle.h"
+#include "mesh/Refinement.h"
+#include "mesh/SelfIntersections.h"
+#include "mesh/SurfaceReport.h"
+#include "MeshTools.h"
+#include "run/Reconstruction.h"
+#include "SphereRuns.h"
+#include "TrueSurfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+std::vector<Eigen::Vector3d> pointsOfCube(std::size_t count, std::uint64_t seed = 1)
+{
+  CloudOptions options;
+  options.count = count;
+  options.seed = seed;
+  return generateCloud(trueCube().triangles, options);
+}
+
+PointCloud cubeCloud(std::size_t count)
+{
+  return PointCloud(pointsOfCube(count));
+}
+
+Reconstruction made(const PointCloud& cloud, std::uint64_t vertices)
+{
+  Parameters parameters;
+  parameters.numberOfVertices = vertices;
+  return reconstruct(cloud, parameters, goOn);
+}
+
+/// Root of the mean squared distance of places on the cube to the mesh.
+double error(const TriangleMesh& mesh)
+{
+  const NearestTriangle nearest(mesh);
+  const std::vector<Eigen::Vector3d> points = pointsOfCube(50000, 7);
+  double sum = 0.;
+  for (const Eigen::Vector3d& point : points)
+  {
+    sum += nearest.find(point).squaredDistance;
+  }
+  return std::sqrt(sum / double(points.size()));
+}
+
+double partOfRegular(const Mesh& mesh)
+{
+  std::size_t regular = 0;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    regular += mesh.valenceExcess(v) == 0 ? 1 : 0;
+  }
+  return double(regular) / double(mesh.vertexCount());
+}
+}
+
+// Up to one vertex for two points, the edges of a cube come out as sharp as on a coarser mesh, or sharper, and the
+// mesh is no less regular than learnt ones are.
+TEST(CreaseRefinement, MoreVerticesDoNotRoundEdges)
+{
+  const PointCloud cloud = cubeCloud(40000);
+  const double before = error(made(cloud, 4000).mesh);
+  for (const std::uint64_t vertices : { 6000u, 10000u, 20000u })
+  {
+    SCOPED_TRACE(vertices);
+    const Reconstruction finer = made(cloud, vertices);
+    EXPECT_EQ(finer.surface.vertexCount(), vertices);
+    EXPECT_EQ(defectOf(finer.surface), "");
+    EXPECT_LE(error(finer.mesh), 1.05 * before);
+    EXPECT_EQ(finer.finish->left.total(), 0u);
+    EXPECT_EQ(reportSurface(finer.mesh).genus, 0);
+    EXPECT_GT(partOfRegular(finer.surface), 0.5);
+    EXPECT_TRUE(finer.warnings.empty());
+  }
+}
+
+// The creases of a mesh are where they were, whatever is flipped and moved beside them, and nothing breaks.
+TEST(CreaseRefinement, KeepsCreases)
+{
+  const PointCloud cloud = cubeCloud(20000);
+  Reconstruction run = made(cloud, 2000);
+  const double before = error(run.mesh);
+  Mesh mesh = run.surface;
+  ASSERT_TRUE(hasCreases(mesh));
+  ASSERT_TRUE(
+    refineBesideCreases(cloud, mesh, 9000, 10., *run.finish, Executor::sequential(), goOn));
+  EXPECT_EQ(mesh.vertexCount(), 9000u);
+  EXPECT_EQ(defectOf(mesh), "");
+  EXPECT_TRUE(intersectingTriangles(mesh).empty());
+  EXPECT_TRUE(foldedEdges(mesh).empty());
+  EXPECT_LE(error(trianglesOf(mesh, cloud)), 1.05 * before);
+  EXPECT_TRUE(hasCreases(mesh));
+}
+
+// A sphere has no creases, and a cube has, whether its edges are many or few.
+TEST(CreaseRefinement, TellsCreases)
+{
+  for (const unsigned side : { 3u, 12u, 40u })
+  {
+    const TriangleMesh sphere = makeSphere(side);
+    EXPECT_FALSE(hasCreases(buildMesh(sphere, PointCloud(sphere.points)))) << side;
+  }
+  for (const std::uint64_t vertices : { 1000u, 4000u })
+  {
+    EXPECT_TRUE(hasCreases(made(cubeCloud(40000), vertices).surface)) << vertices;
+  }
+}
+
+// It can be ended at any time, and the mesh is valid then.
+TEST(CreaseRefinement, CanBeEnded)
+{
+  const PointCloud cloud = cubeCloud(20000);
+  Reconstruction run = made(cloud, 2000);
+  int calls = 0;
+  Mesh whole = run.surface;
+  FinishReport report = *run.finish;
+  ASSERT_TRUE(refineBesideCreases(cloud, whole, 9000, 10., report, Executor::sequential(),
+    [&](double)
+    {
+      ++calls;
+      return true;
+    }));
+  ASSERT_GT(calls, 4);
+  for (int last = 0; last < calls; last += std::max(1, calls / 10))
+  {
+    SCOPED_TRACE(last);
+    int left = last;
+    Mesh mesh = run.surface;
+    EXPECT_FALSE(refineBesideCreases(cloud, mesh, 9000, 10., report, Executor::sequential(),
+      [&](double) { return left-- > 0; }));
+    EXPECT_EQ(defectOf(mesh), "");
+  }
+}
+
+// Flips of flat edges alone keep the surface, however bent it is, and make it more regular.
+TEST(EdgeFlips, OfFlatEdgesKeepTheSurface)
+{
+  const PointCloud cloud = cubeCloud(20000);
+  Mesh mesh = made(cloud, 2000).surface;
+  refine(mesh, 8000, goOn, EdgesAfterSplit::Keep);
+  const double before = error(trianglesOf(mesh, cloud));
+  const double regular = partOfRegular(mesh);
+  flipEdges(mesh, EdgesToFlip::Flat);
+  EXPECT_EQ(defectOf(mesh), "");
+  EXPECT_GT(partOfRegular(mesh), regular + 0.2);
+  EXPECT_LE(error(trianglesOf(mesh, cloud)), 1.05 * before);
+}
+}
