@@ -53,14 +53,21 @@ bool isOfCrease(const Mesh& mesh, VertexIndex a, VertexIndex b)
 
 std::vector<std::uint8_t> atEdgesThatAreNotFlat(const Mesh& mesh)
 {
-  std::vector<std::uint8_t> result(mesh.indexEnd());
+  std::vector<std::uint8_t> isAtCrease(mesh.indexEnd());
   forEachEdge(mesh,
     [&](VertexIndex a, VertexIndex b)
     {
       if (!isFlatEdge(mesh, a, b))
       {
-        result[a] = result[b] = 1;
+        isAtCrease[a] = isAtCrease[b] = 1;
       }
+    });
+  std::vector<std::uint8_t> result = isAtCrease;
+  forEachEdge(mesh,
+    [&](VertexIndex a, VertexIndex b)
+    {
+      result[a] |= isAtCrease[b];
+      result[b] |= isAtCrease[a];
     });
   return result;
 }

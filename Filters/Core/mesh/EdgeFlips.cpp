@@ -19,7 +19,7 @@ constexpr float SquaredHeightOfSliver = 1e-6f;
 constexpr int MaximumPasses = 4;
 /// Of an edge: what lies between it and the one that it is flipped to, if it is flat. Triangles that come to be there
 /// are no slivers.
-constexpr float MostHeightOfFlat = 0.003f;
+constexpr float MostHeightOfFlat = 0.002f;
 constexpr float LeastRatioOfFlat = 0.3f;
 
 bool keepsShape(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)

@@ -21,6 +21,8 @@ constexpr std::size_t LeastLearnt = 100;
 constexpr std::uint64_t LeastLearntToFit = 1000;
 constexpr std::uint64_t PointsToSimplify = 20;
 
+/// Of residuals.
+constexpr double TimesOfDraw = 1.05;
 /// Of the progress of the finish.
 constexpr double PartBeforeRefinement = 0.6;
 
@@ -170,18 +172,19 @@ bool mayHaveRoundedCreases(
     hasCreases(result.surface);
 }
 
-/// Whether the first mesh has so many vertices, and the smaller residual.
-bool isCloser(const Reconstruction& first, const Reconstruction& second, std::uint64_t vertices)
+/// Whether the first mesh has so many vertices, and a residual smaller than that of the second so many times.
+bool isCloser(const Reconstruction& first, const Reconstruction& second, std::uint64_t vertices,
+  double times = 1.)
 {
   return first.surface.vertexCount() == vertices && first.quality && second.quality &&
-    first.quality->residual < second.quality->residual;
+    first.quality->residual < times * second.quality->residual;
 }
 
 /// Of a mesh that was refined beside its creases, and one that has learnt all of its vertices: whether the first is
-/// to be taken.
+/// to be taken. Few of the points that tell it lie at creases, so a draw goes to that.
 bool isBetterRefined(const Reconstruction& refined, const Reconstruction& learnt)
 {
-  return isCloser(refined, learnt, learnt.surface.vertexCount()) && refined.finish &&
+  return isCloser(refined, learnt, learnt.surface.vertexCount(), TimesOfDraw) && refined.finish &&
     refined.finish->left.total() <= learnt.finish->left.total();
 }
 }

@@ -19,6 +19,9 @@ namespace
 /// A first surface that is told in detail by a front: the others are learnt.
 constexpr double PartOfFront = 0.75;
 
+/// Of the curvature.
+constexpr double UsualDensityExponent = 0.25;
+
 /// Points that are explained where only their numbers are wanted.
 constexpr std::size_t PointsExplained = 10000;
 /// Those that vertices rest on: hardly a vertex is without any.
@@ -37,6 +40,18 @@ std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& l
     }
   }
   return result;
+}
+
+/// Rounds of the fidelity take vertices where they are needed, but for boundaries, which stay.
+double densityExponent(const Parameters& parameters, const Mesh& first)
+{
+  if (parameters.curvatureDensity >= 0.)
+  {
+    return parameters.curvatureDensity;
+  }
+  const bool isDistributedLater =
+    parameters.fitRounds > 0 && parameters.fidelity != Fidelity::Draft && !first.isOpen();
+  return isDistributedLater ? 0. : UsualDensityExponent;
 }
 
 /// Of length 1; 0 if it tells nothing.
@@ -68,12 +83,13 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
   {
     result.gaps = GapPlan{ surface->bridgeWidth, surface->resolution > 0, parameters.keepPieces };
   }
+  const double density = densityExponent(parameters, *result.mesh);
   // The normal-based variant has a way of its own to be dense where the surface bends; and feature
   // strength tells edges best where vertices are spread evenly.
-  if (parameters.curvatureDensity > 0. && parameters.variant != Variant::NormalBased &&
+  if (density > 0. && parameters.variant != Variant::NormalBased &&
     !parameters.computeFeatureStrength)
   {
-    result.weights = curvatureDensity(cloud, *result.mesh, parameters.curvatureDensity, executor);
+    result.weights = curvatureDensity(cloud, *result.mesh, density, executor);
   }
   return result;
 }

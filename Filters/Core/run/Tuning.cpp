@@ -23,10 +23,7 @@ constexpr std::size_t LeastProbes = 1000;
 constexpr std::array FidelitiesToTry = { Fidelity::Default, Fidelity::High };
 constexpr double LeastGain = 0.01;
 constexpr double LeastGainInDoubts = 3.;
-// Noise, in mean edge lengths.
-/// With more, bends cannot be told from it.
-constexpr double NoiseThatHidesBends = 0.25;
-/// With less there is nothing to smooth but edges.
+/// Noise, in mean edge lengths: with less there is nothing to smooth but edges.
 constexpr double NoiseToSmooth = 0.05;
 /// Lambda by the data, of patches.
 constexpr double MostSmoothnessOverLeast = 3.;
@@ -146,8 +143,7 @@ public:
 
   std::optional<Tuning> run()
   {
-    // With another density all that comes is to be measured against that.
-    if (learn() && (!chooseDensity() || learn()))
+    if (learn())
     {
       chooseFidelity();
       chooseSmoothness();
@@ -188,21 +184,6 @@ private:
     noise_ = noise;
     best_ = measure(meshes);
     readSmoothness(meshes);
-    return true;
-  }
-
-  /// Returns whether it is another one than before.
-  bool chooseDensity()
-  {
-    double& density = result_.parameters.curvatureDensity;
-    if (noise_ <= NoiseThatHidesBends || density == 0.)
-    {
-      return false;
-    }
-    result_.choices.push_back({ "CurvatureDensity", density, 0. });
-    result_.remarks.emplace_back("CurvatureDensity is 0, as bends cannot be told from noise of " +
-      text(noise_) + " edge lengths");
-    density = 0.;
     return true;
   }
 

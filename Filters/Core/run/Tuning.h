@@ -50,8 +50,7 @@ struct Tuning
 };
 
 /// Those that are chosen, by the names of their properties.
-inline constexpr std::array<std::string_view, 3> TunedParameters{ "Fidelity", "FitSmoothness",
-  "CurvatureDensity" };
+inline constexpr std::array<std::string_view, 2> TunedParameters{ "Fidelity", "FitSmoothness" };
 
 /// The word for a value of one of them; empty where values are numbers.
 std::string_view tunedWord(std::string_view parameter, double value);
@@ -60,8 +59,7 @@ std::string_view tunedWord(std::string_view parameter, double value);
 ///
 /// Short runs are made on patches of the cloud (see TuningPatch), with the one value or the other.
 /// A value is taken if held-out points lie closer to the mesh then, by at least 1 % of their mean
-/// square and three standard errors. CurvatureDensity is not tried: it is set to 0 where noise is so
-/// large that bends cannot be told from it. A higher Fidelity is not tried where it does the same, as
+/// square and three standard errors. A higher Fidelity is not tried where it does the same, as
 /// high does under noise.
 ///
 /// Returns nothing if it was ended before.

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace neuralmesh::testing
@@ -34,9 +35,10 @@ PointCloud cubeCloud(std::size_t count)
   return PointCloud(pointsOfCube(count));
 }
 
-Reconstruction made(const PointCloud& cloud, std::uint64_t vertices)
+Reconstruction made(const PointCloud& cloud, std::uint64_t vertices, std::uint64_t seed = 1)
 {
   Parameters parameters;
+  parameters.seed = seed;
   parameters.numberOfVertices = vertices;
   return reconstruct(cloud, parameters, goOn);
 }
@@ -65,23 +67,33 @@ double partOfRegular(const Mesh& mesh)
 }
 }
 
-// Up to one vertex for two points, the edges of a cube come out as sharp as on a coarser mesh, or sharper, and the
-// mesh is no less regular than learnt ones are.
+// Up to one vertex for two points, the edges of a cube come out as sharp as on a coarser mesh, or sharper, over some
+// seeds, and the mesh is no less regular than learnt ones are.
 TEST(CreaseRefinement, MoreVerticesDoNotRoundEdges)
 {
   const PointCloud cloud = cubeCloud(40000);
-  const double before = error(made(cloud, 4000).mesh);
+  const std::array<std::uint64_t, 3> seeds{ 1, 2, 3 };
+  double before = 0.;
+  for (const std::uint64_t seed : seeds)
+  {
+    before += error(made(cloud, 4000, seed).mesh);
+  }
   for (const std::uint64_t vertices : { 6000u, 10000u, 20000u })
   {
     SCOPED_TRACE(vertices);
-    const Reconstruction finer = made(cloud, vertices);
-    EXPECT_EQ(finer.surface.vertexCount(), vertices);
-    EXPECT_EQ(defectOf(finer.surface), "");
-    EXPECT_LE(error(finer.mesh), 1.05 * before);
-    EXPECT_EQ(finer.finish->left.total(), 0u);
-    EXPECT_EQ(reportSurface(finer.mesh).genus, 0);
-    EXPECT_GT(partOfRegular(finer.surface), 0.5);
-    EXPECT_TRUE(finer.warnings.empty());
+    double after = 0.;
+    for (const std::uint64_t seed : seeds)
+    {
+      const Reconstruction finer = made(cloud, vertices, seed);
+      EXPECT_EQ(finer.surface.vertexCount(), vertices);
+      EXPECT_EQ(defectOf(finer.surface), "");
+      EXPECT_EQ(finer.finish->left.total(), 0u);
+      EXPECT_EQ(reportSurface(finer.mesh).genus, 0);
+      EXPECT_GT(partOfRegular(finer.surface), 0.5);
+      EXPECT_TRUE(finer.warnings.empty());
+      after += error(finer.mesh);
+    }
+    EXPECT_LE(after, 1.05 * before);
   }
 }
 

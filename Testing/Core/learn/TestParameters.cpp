@@ -28,7 +28,7 @@ const Values Published = {
   { "Seed", 1 },
   { "Start", 0 },      // occupied space
   { "Boundaries", 0 }, // keep
-  { "CurvatureDensity", 0.5 },
+  { "CurvatureDensity", -1. },
   { "WinnerRate", 0.1 },
   { "SmoothingRate", 0.2 },
   { "SmoothingIterations", 1 },

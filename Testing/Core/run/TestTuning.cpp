@@ -161,16 +161,6 @@ TEST(Tuning, FidelityStaysUnderNoise)
   EXPECT_EQ(reconstruct(cloud, wanted, goOn).mesh.points, usual.mesh.points);
 }
 
-// Where noise hides bends, samples are drawn alike.
-TEST(Tuning, NoDensityByCurvatureUnderNoise)
-{
-  CloudOptions options;
-  options.noise = 0.01;
-  const Tuning tuning = tune(cubeCloud(options, 50000), fiveThousand(), goOn).value();
-  EXPECT_EQ(tuning.parameters.curvatureDensity, 0.);
-  EXPECT_FALSE(tuning.remarks.empty());
-}
-
 // Gaps are no reason against a higher fidelity: it leaves their rims where they are.
 TEST(Tuning, RimsStayWhereThereAreGaps)
 {
@@ -322,25 +312,6 @@ TEST(Tuning, AnyCloud)
     {
       EXPECT_TRUE(std::isfinite(trial.error) && std::isfinite(trial.gain)) << trial.parameter;
     }
-  }
-}
-
-// What comes after another choice is measured against that: with samples drawn alike from the start
-// the trials are the same.
-TEST(Tuning, TrialsAreAgainstTheChosenDensity)
-{
-  CloudOptions options;
-  options.noise = 0.01;
-  const PointCloud cloud = cubeCloud(options, 50000);
-  Parameters wanted = fiveThousand();
-  const Tuning chosen = tune(cloud, wanted, goOn).value();
-  ASSERT_EQ(chosen.parameters.curvatureDensity, 0.);
-  wanted.curvatureDensity = 0.;
-  const Tuning alike = tune(cloud, wanted, goOn).value();
-  ASSERT_EQ(chosen.trials.size(), alike.trials.size());
-  for (std::size_t i = 0; i < alike.trials.size(); ++i)
-  {
-    EXPECT_EQ(chosen.trials[i].gain, alike.trials[i].gain);
   }
 }
 

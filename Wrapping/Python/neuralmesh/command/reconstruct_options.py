@@ -180,7 +180,7 @@ def _add_run(result: Parser) -> None:
     )  # fmt: skip
     result.add_flag(
         "--automatic",
-        "Choose Fidelity, FitSmoothness and CurvatureDensity for INPUT by some seconds of short runs",
+        "Choose Fidelity and FitSmoothness for INPUT by some seconds of short runs",
     )
     result.add_flag(
         "--features",
