@@ -69,6 +69,11 @@ void OrientationOptions::AddTo(CLI::App* command)
       "View, if there is one; without one, what nothing hides was seen)")
     ->type_name("ARRAY");
   command
+    ->add_option("--normals", this->Normals,
+      "The point array of INPUT that has the normals (default the active ones, or Normals: nx, ny, "
+      "nz of a .ply); off: none count")
+    ->type_name("ARRAY|off");
+  command
     ->add_option(
       "--up", this->Up, "Where up is: most of an open surface looks there; --viewpoint tells more")
     ->type_name("X,Y,Z");
@@ -94,6 +99,14 @@ void OrientationOptions::Apply(vtkNeuralMesh* filter) const
     throw UsageError("--view-array: this goes with --views or --viewpoint only");
   }
   filter->SetViewArrayName(this->ViewArray.c_str());
+  if (this->Normals == "off")
+  {
+    filter->UseNormalsOff();
+  }
+  else
+  {
+    filter->SetNormalArrayName(this->Normals.c_str());
+  }
   if (!this->ViewFile.empty())
   {
     const auto views = ReadPoints(this->ViewFile);

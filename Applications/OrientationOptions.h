@@ -12,7 +12,8 @@ namespace CLI
 class App;
 }
 
-/** What is known of the outer side of the surface: --viewpoint, --views, --view-array, --up. */
+/** What is known of the outer side of the surface: --viewpoint, --views, --view-array, --normals,
+ * --up. */
 class OrientationOptions
 {
 public:
@@ -33,6 +34,7 @@ private:
   std::vector<std::string> Viewpoints;
   std::string ViewFile;
   std::string ViewArray;
+  std::string Normals;
   std::string Up;
 };
 

@@ -100,6 +100,16 @@ void vtkNeuralMeshAlgorithm::SetViewArrayName(const char* name)
   }
 }
 
+void vtkNeuralMeshAlgorithm::SetNormalArrayName(const char* name)
+{
+  const std::string wanted = name ? name : "";
+  if (this->NormalArrayName != wanted)
+  {
+    this->NormalArrayName = wanted;
+    this->Modified();
+  }
+}
+
 void vtkNeuralMeshAlgorithm::FillParameters(neuralmesh::Parameters& parameters) const
 {
 #define SET_PARAMETER(property, parameter)                                                         \
@@ -138,5 +148,7 @@ void vtkNeuralMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
     print("Viewpoint", viewpoint);
   }
   os << indent << "ViewArrayName: " << this->ViewArrayName << "\n";
+  os << indent << "UseNormals: " << (this->UseNormals ? "On" : "Off") << "\n";
+  os << indent << "NormalArrayName: " << this->NormalArrayName << "\n";
   print("UpDirection", this->UpDirection);
 }

@@ -107,24 +107,40 @@ void vtkNeuralMeshOrientation::FindViewpoints(vtkDataObject* input)
   }
 }
 
-/// Blocks may have some, or none.
+/// Blocks may have some, or none; but not all none, if they were named.
 void vtkNeuralMeshOrientation::FindNormals()
 {
-  bool haveNormals = false;
+  if (!this->Filter->GetUseNormals())
+  {
+    return;
+  }
+  const std::string named = this->Filter->GetNormalArrayName();
+  bool haveNormals = false, areSound = true;
   for (const auto& leaf : this->Collector.GetLeaves())
   {
-    vtkDataArray* array = FindNormalsOf(leaf.PointSet->GetPointData());
+    vtkPointData* const data = leaf.PointSet->GetPointData();
+    vtkDataArray* array = named.empty() ? FindNormalsOf(data) : data->GetArray(named.c_str());
     if (array &&
       (array->GetNumberOfComponents() != 3 ||
         array->GetNumberOfTuples() != leaf.PointSet->GetNumberOfPoints()))
     {
-      vtkWarningWithObjectMacro(
-        this->Filter, << "The normals of the input are not 3 components for "
-                         "each point and were left out.");
+      areSound = false;
       array = nullptr;
     }
     haveNormals = haveNormals || array;
     this->Normals.push_back(array);
+  }
+  if (!named.empty() && !this->Collector.GetLeaves().empty() && (!haveNormals || !areSound))
+  {
+    vtkErrorWithObjectMacro(this->Filter, << "There is no numeric point array of three components "
+                                             "called "
+                                          << named << " for the normals.");
+    this->Sound = false;
+  }
+  else if (!areSound)
+  {
+    vtkWarningWithObjectMacro(this->Filter, << "The normals of the input are not 3 components for "
+                                               "each point and were left out.");
   }
   if (!haveNormals)
   {
@@ -188,10 +204,11 @@ void vtkNeuralMeshOrientation::CopyArrays(
   const std::vector<std::size_t>& points, vtkPolyData* part) const
 {
   const auto count = static_cast<vtkIdType>(points.size());
-  if (!this->Normals.empty())
+  const std::string named = this->Filter->GetNormalArrayName();
+  if (!this->Normals.empty() && (named.empty() || !part->GetPointData()->HasArray(named.c_str())))
   {
     vtkNew<vtkFloatArray> normals;
-    normals->SetName(NormalsName);
+    normals->SetName(named.empty() ? NormalsName : named.c_str());
     normals->SetNumberOfComponents(3);
     normals->SetNumberOfTuples(count);
     for (vtkIdType i = 0; i < count; ++i)
@@ -199,7 +216,14 @@ void vtkNeuralMeshOrientation::CopyArrays(
       const auto point = static_cast<std::uint32_t>(points[static_cast<std::size_t>(i)]);
       normals->SetTuple(i, VectorOf(this->Collector, this->Normals, point).data());
     }
-    part->GetPointData()->SetNormals(normals);
+    if (named.empty())
+    {
+      part->GetPointData()->SetNormals(normals);
+    }
+    else
+    {
+      part->GetPointData()->AddArray(normals);
+    }
   }
   if (!this->Views.empty() && !part->GetPointData()->HasArray(this->Views.front()->GetName()))
   {

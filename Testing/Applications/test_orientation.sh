@@ -56,6 +56,10 @@ test_given()
     looks $up viewpoints sheet.xyz --viewpoint -0.5,0,${side} --viewpoint 0,-2,${side}
     looks $up viewpoints sheet.ply --viewpoint=-3,0,$side
     looks $up normals sheet.ply
+    looks $up normals sheet.ply --normals Normals
+    looks $up 'up direction' sheet.ply --normals off --up 0,0,$side
+    expect 0 "$neuralmesh" reconstruct sheet.ply mesh.obj --vertices 200 --normals off
+    grep -q '^sides      unknown$' out || { cat out; fail "normals count that are off"; }
     printf '1 1 %s\n0 0 %s\n' ${side} ${side} > stations.xyz
     looks $up viewpoints sheet.xyz --views stations.xyz
   done
@@ -81,6 +85,8 @@ test_wrong_use()
   expect 1 "$neuralmesh" reconstruct sheet.xyz mesh.obj --views empty.xyz
   expect 1 "$neuralmesh" reconstruct sheet.xyz mesh.obj --viewpoint 0,0,1 --view-array Station
   grep -q 'called Station for the views' err || { cat err; fail "not the reason"; }
+  expect 1 "$neuralmesh" reconstruct sheet.ply mesh.obj --normals Directions
+  grep -q 'called Directions for the normals' err || { cat err; fail "not the reason"; }
   [ ! -e mesh.obj ] || fail "there is a mesh"
 }
 

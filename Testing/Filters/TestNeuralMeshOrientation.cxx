@@ -233,6 +233,72 @@ int CheckNormals()
     blocks->SetBlock(1, sheet);
     CHECK(Looks(Run(blocks), isUp, "normals"));
   }
+  for (const bool isUp : { true, false })
+  {
+    // Those that are named count, and the active ones do not.
+    const auto sheet = Sheet();
+    const double up = isUp ? 1.0 : -1.0;
+    sheet->GetPointData()->SetNormals(
+      Constant<vtkFloatArray>("Normals", sheet->GetNumberOfPoints(), { 0, 0, -up }));
+    sheet->GetPointData()->AddArray(
+      Constant<vtkIntArray>("Directions", sheet->GetNumberOfPoints(), { 0, 0, isUp ? 3 : -3 }));
+    const auto named = [](auto* filter) { filter->SetNormalArrayName("Directions"); };
+    CHECK(Looks(Run(sheet, named), isUp, "normals"));
+    vtkNew<vtkPNeuralMesh> parallel;
+    parallel->SetController(nullptr);
+    parallel->SetNumberOfVertices(200);
+    parallel->SetInputData(sheet);
+    parallel->SetNormalArrayName("Directions");
+    parallel->CarryPointDataOff();
+    parallel->Update();
+    CHECK(ShareUpwards(parallel->GetOutput()) == (isUp ? 1.0 : 0.0));
+
+    // A block may lack them, but not all blocks, and they must be vectors.
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    blocks->SetBlock(0, Sheet());
+    blocks->SetBlock(1, sheet);
+    CHECK(Looks(Run(blocks, named), isUp, "normals"));
+    const Outcome missing = Run(Sheet(), named);
+    CHECK(missing.Errors == 1 && missing.Mesh->GetNumberOfPoints() == 0);
+    CHECK(missing.Text.find("called Directions for the normals") != std::string::npos);
+    sheet->GetPointData()->AddArray(
+      Constant<vtkIntArray>("Single", sheet->GetNumberOfPoints(), { 1 }));
+    const Outcome single = Run(sheet, [](auto* filter) { filter->SetNormalArrayName("Single"); });
+    CHECK(single.Errors == 1 && single.Mesh->GetNumberOfPoints() == 0);
+
+    // Without use, the mesh is that of points without normals, whatever is named.
+    for (const char* name : { "", "Directions", "Nothing" })
+    {
+      const Outcome unused = Run(sheet,
+        [name](auto* filter)
+        {
+          filter->UseNormalsOff();
+          filter->SetNormalArrayName(name);
+        });
+      CHECK(IsUnknown(unused) && unused.Errors == 0 && unused.Warnings == 0);
+      const Outcome plain = Run(Sheet());
+      CHECK(unused.Mesh->GetNumberOfPoints() == plain.Mesh->GetNumberOfPoints());
+      for (vtkIdType i = 0; i < plain.Mesh->GetNumberOfPoints(); ++i)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          CHECK(unused.Mesh->GetPoint(i)[axis] == plain.Mesh->GetPoint(i)[axis]);
+        }
+      }
+    }
+  }
+  vtkNew<vtkNeuralMesh> filter;
+  CHECK(filter->GetUseNormals() == 1 && std::string(filter->GetNormalArrayName()).empty());
+  filter->UseNormalsOff();
+  const vtkMTimeType before = filter->GetMTime();
+  filter->SetNormalArrayName("Directions");
+  CHECK(filter->GetMTime() > before);
+  std::ostringstream text;
+  filter->Print(text);
+  CHECK(text.str().find("UseNormals: Off") != std::string::npos);
+  CHECK(text.str().find("NormalArrayName: Directions") != std::string::npos);
+  filter->SetNormalArrayName(nullptr);
+  CHECK(std::string(filter->GetNormalArrayName()).empty());
   for (const double useless : { 0.0, NotANumber })
   {
     const auto sheet = Sheet();

@@ -25,12 +25,13 @@ OTHERWISE = {
     "FirstMeshData": "the input FirstMesh",
     "ReferenceConnection": "the input Reference",
     "ReferenceData": "the input Reference",
+    "NormalArrayName": "the property NormalArray, a choice among the arrays of the input",
     "ViewArrayName": "the property ViewArray, a choice among the arrays of the input",
     "WeightArrayName": "the property WeightArray, a choice among the arrays of the input",
 }
 # Properties without a setter of their own name: lists, by the setter of one that is all there is.
 LISTS = {"Viewpoints": "Viewpoint"}
-ARRAYS = {"ViewArray", "WeightArray"}
+ARRAYS = {"NormalArray", "ViewArray", "WeightArray"}
 # Up to here a maximum gives a slider; with larger ones nobody could aim: the proxy has none then.
 LARGEST_SLIDER = 1000
 LARGEST_INT = 2**31 - 1

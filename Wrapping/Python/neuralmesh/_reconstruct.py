@@ -49,7 +49,7 @@ def reconstruct(
     weights: ArrayLike | str | None = None,
     viewpoints: ArrayLike | None = None,
     views: ArrayLike | str | None = None,
-    normals: ArrayLike | None = None,
+    normals: ArrayLike | str | None = None,
     up: ArrayLike | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     explain: bool = False,
@@ -88,8 +88,10 @@ def reconstruct(
             views: Which of the viewpoints each point was seen from: an array of shape (N,) of numbers from
                 0 on, or the name of a point array of the dataset. Without it, what nothing hides from a
                 viewpoint was seen from there. An array arrives on the mesh as `View`.
-            normals: Normals of the points, of shape (N, 3), if the dataset has none: they may be noisy, and
-                tell which side of the surface is the outer one, but nothing of its shape.
+            normals: Normals of the points, of shape (N, 3), if the dataset has none, or the name of a point
+                array that has them in place of the active ones. They may be noisy: they tell which side of
+                the surface is the outer one, and of noisy points the fit uses them. use_normals=False has
+                those of a dataset count for nothing.
             up: Where up is, three numbers: most of an open surface looks there.
             checkpoint: The path of a file in which the run leaves its state, every checkpoint_interval
                 seconds and when it is ended early. If the file exists, the run goes on from there: the
@@ -225,7 +227,7 @@ def take_input(
     points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | str | os.PathLike,
     weights: ArrayLike | str | None = None,
     views: ArrayLike | str | None = None,
-    normals: ArrayLike | None = None,
+    normals: ArrayLike | str | None = None,
 ) -> Any:
     """The points with what is known of each, as reconstruct() takes them; None for those in a file, which
     the filter is told.
@@ -245,7 +247,9 @@ def take_input(
             raise ValueError("views tell nothing without viewpoints")
         cloud, name = _world.with_array(cloud, views, "views", "View")
         mesh.SetViewArrayName(name)
-    if normals is not None:
+    if isinstance(normals, str):
+        mesh.SetNormalArrayName(normals)
+    elif normals is not None:
         cloud = _world.with_normals(cloud, normals)
     return cloud
 

@@ -148,6 +148,10 @@ def _tell_sides(mesh: Any, options: argparse.Namespace) -> None:
     if options.view_array and not options.views and not options.viewpoint:
         raise UsageError("--view-array: this goes with --views or --viewpoint only")
     mesh.SetViewArrayName(options.view_array)
+    if options.normals == "off":
+        mesh.UseNormalsOff()
+    else:
+        mesh.SetNormalArrayName(options.normals)
     if options.views:
         places = read_points(options.views).points
         if len(places) == 0:

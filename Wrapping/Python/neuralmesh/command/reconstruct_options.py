@@ -153,6 +153,12 @@ def _add_sides(result: Parser) -> None:
         "ARRAY",
     )
     result.add_text(
+        "--normals",
+        "The point array of INPUT that has the normals (default the active ones, or Normals: nx, ny, nz of "
+        "a .ply); off: none count",
+        "ARRAY|off",
+    )
+    result.add_text(
         "--up", "Where up is: most of an open surface looks there; --viewpoint tells more", "X,Y,Z"
     )
 

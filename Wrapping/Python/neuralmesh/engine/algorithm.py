@@ -41,6 +41,8 @@ class NeuralMeshAlgorithm:
         self._preset = self.DEFAULT
         self._viewpoints: list[tuple[float, float, float]] = []
         self._view_array_name = ""
+        self._use_normals = 1
+        self._normal_array_name = ""
         self._up_direction = (0.0, 0.0, 0.0)
 
     def Modified(self) -> None:
@@ -116,6 +118,34 @@ class NeuralMeshAlgorithm:
         """Empty if there is none: then it is `View`, if there is one."""
         return self._view_array_name
 
+    def SetUseNormals(self, value: int) -> None:
+        """Whether normals that come with the points are used."""
+        if self._use_normals != int(value):
+            self._use_normals = int(value)
+            self.Modified()
+
+    def GetUseNormals(self) -> int:
+        """1 or 0."""
+        return self._use_normals
+
+    def UseNormalsOn(self) -> None:
+        """They are, as they are by default."""
+        self.SetUseNormals(1)
+
+    def UseNormalsOff(self) -> None:
+        """The mesh is what it would be if there were none."""
+        self.SetUseNormals(0)
+
+    def SetNormalArrayName(self, name: str | None) -> None:
+        """The point array of three components that has the normals."""
+        if self._normal_array_name != (name or ""):
+            self._normal_array_name = name or ""
+            self.Modified()
+
+    def GetNormalArrayName(self) -> str:
+        """Empty if there is none: then they are the active ones, or `Normals`, if there are some."""
+        return self._normal_array_name
+
     def SetUpDirection(self, *direction: Any) -> None:
         """Where up is, three numbers; zeros if that is not known."""
         if self._up_direction != three(direction):
@@ -140,8 +170,10 @@ class NeuralMeshAlgorithm:
         if not self._viewpoints and cloud is not None:
             viewpoints = viewpoints if cloud.viewpoints is None else cloud.viewpoints
             problems += cloud.viewpoint_problems
-        if cloud is not None:
-            problems += cloud.problems
+        normals = None
+        if cloud is not None and self._use_normals:
+            normals = cloud.normals(self._normal_array_name)
+            problems += [] if self._normal_array_name else cloud.normal_problems[:1]
         views = None
         if cloud is not None and (self._view_array_name or len(viewpoints) > 1):
             name = self._view_array_name or "View"
@@ -154,7 +186,7 @@ class NeuralMeshAlgorithm:
         return {
             "viewpoints": np.ascontiguousarray(viewpoints),
             "views": None if views is None else _view_numbers(views),
-            "normals": None if cloud is None else cloud.normals(),
+            "normals": normals,
             "up": up if up.any() else None,
         }
 

@@ -46,6 +46,11 @@ class Block:
         array = self.dataset.GetPointData().GetArray(name)
         return self.of_points(array) if array and _fits(array, self.dataset) else None
 
+    def vectors(self, name: str) -> np.ndarray | None:
+        """Those of an array that may be the normals, and that the mesh then does not get."""
+        is_plain = self.dataset is None and name == "Normals"
+        return self.normals if is_plain else self.values(name)
+
 
 @dataclass
 class Cloud:
@@ -55,8 +60,9 @@ class Cloud:
     viewpoints: np.ndarray | None = None  # that come with the points, of shape (V, 3)
     other_blocks: int = 0  # that are no point sets
     is_in_blocks: bool = False  # of a composite dataset, however many they are
-    problems: list[str] = field(default_factory=list)  # what was left out of it, in words
-    viewpoint_problems: list[str] = field(default_factory=list)  # likewise, of the viewpoints
+    # What was left out, in words: of viewpoints, and of normals.
+    viewpoint_problems: list[str] = field(default_factory=list)
+    normal_problems: list[str] = field(default_factory=list)
 
     def __len__(self) -> int:
         return sum(len(block.points) for block in self.blocks)
@@ -69,13 +75,21 @@ class Cloud:
         """The data of that name of all points, one number each; None if a block has none."""
         return numbers_of([block.values(name) for block in self.blocks])
 
-    def normals(self) -> np.ndarray | None:
-        """Normals of all points, 0 in blocks that have none; None if no block has some."""
-        if all(block.normals is None for block in self.blocks):
+    def normals(self, name: str = "") -> np.ndarray | None:
+        """Normals of all points, 0 in blocks that have none; None if no block has some.
+
+        Those of the array of that name, where one is given: ValueError if there is none.
+        """
+        found = [block.vectors(name) if name else block.normals for block in self.blocks]
+        if name and self.blocks and (all(one is None for one in found) or _are_odd(found)):
+            raise ValueError(
+                f"There is no numeric point array of three components called {name} for the normals."
+            )
+        if all(one is None for one in found):
             return None
         parts = [
-            np.zeros((len(block.points), 3)) if block.normals is None else block.normals
-            for block in self.blocks
+            np.zeros((len(block.points), 3)) if one is None else one
+            for block, one in zip(self.blocks, found)
         ]
         return np.ascontiguousarray(np.concatenate(parts), dtype=np.float64)
 
@@ -98,6 +112,13 @@ class Cloud:
     @property
     def scalars(self) -> str:
         return self.blocks[0].scalars if self.blocks else ""
+
+
+def _are_odd(arrays: list[np.ndarray | None]) -> bool:
+    """Whether one of them is not three numbers for each point."""
+    return any(
+        a is not None and (a.shape[1:] != (3,) or a.dtype.kind not in "fiub") for a in arrays
+    )
 
 
 def numbers_of(arrays: list[np.ndarray | None]) -> np.ndarray | None:
@@ -157,7 +178,7 @@ def _of_datasets(leaves: list[Any], whole: Any) -> Cloud:
         if not leaf.IsA("vtkPointSet"):
             cloud.other_blocks += 1
         elif leaf.GetNumberOfPoints() > 0:
-            block = _block_of(leaf, cloud.problems)
+            block = _block_of(leaf, cloud.normal_problems)
             if len(block.points) > 0:
                 cloud.blocks.append(block)
     for source in [whole, *(block.dataset for block in cloud.blocks[:1])]:
