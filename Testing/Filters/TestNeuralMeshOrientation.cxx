@@ -241,7 +241,7 @@ int CheckNormals()
     sheet->GetPointData()->SetNormals(
       Constant<vtkFloatArray>("Normals", sheet->GetNumberOfPoints(), { 0, 0, -up }));
     sheet->GetPointData()->AddArray(
-      Constant<vtkIntArray>("Directions", sheet->GetNumberOfPoints(), { 0, 0, isUp ? 3 : -3 }));
+      Constant<vtkIntArray>("Directions", sheet->GetNumberOfPoints(), { 0, 0, 3.0 * up }));
     const auto named = [](auto* filter) { filter->SetNormalArrayName("Directions"); };
     CHECK(Looks(Run(sheet, named), isUp, "normals"));
     vtkNew<vtkPNeuralMesh> parallel;
