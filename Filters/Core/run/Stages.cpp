@@ -21,6 +21,8 @@ constexpr double PartOfFront = 0.75;
 
 /// Of the curvature.
 constexpr double UsualDensityExponent = 0.25;
+/// With fewer vertices, claws and ears are no wider than edges, and would be lost while the mesh grows.
+constexpr std::uint64_t FewestDrawnAlike = 10000;
 
 /// Points that are explained where only their numbers are wanted.
 constexpr std::size_t PointsExplained = 10000;
@@ -49,7 +51,7 @@ double densityExponent(const Parameters& parameters, const Mesh& first)
   {
     return parameters.curvatureDensity;
   }
-  const bool isDistributedLater =
+  const bool isDistributedLater = parameters.numberOfVertices >= FewestDrawnAlike &&
     parameters.fitRounds > 0 && parameters.fidelity != Fidelity::Draft && !first.isOpen();
   return isDistributedLater ? 0. : UsualDensityExponent;
 }

@@ -18,8 +18,6 @@ namespace
 {
 constexpr std::size_t PatchCount = 4;
 constexpr std::size_t PointsPerHeldOut = 5;
-/// Stands for the density by itself where no rounds of the fidelity follow, which is another one.
-constexpr double DensityOfDrafts = -2.;
 /// Different ones: around many points in one place there is no more to learn than there is of it.
 constexpr std::size_t LeastPointsOfPatch = 1000;
 /// Of the radius of a patch: what is beyond is not measured, as meshes have their rim there.
@@ -146,9 +144,8 @@ Parameters TuningPatch::own(Parameters parameters) const
 
 void TuningPatch::beginFor(const Parameters& parameters, const Progress& progress)
 {
-  const double density = parameters.curvatureDensity < 0. && parameters.fidelity == Fidelity::Draft
-    ? DensityOfDrafts
-    : parameters.curvatureDensity;
+  // By itself it is the same for all meshes as small as that of a patch.
+  const double density = parameters.curvatureDensity;
   if (!beginning_)
   {
     cleaned_ = parameters.start == Start::OccupiedSpace ? withoutClusters(cloud_) : std::nullopt;
