@@ -39,6 +39,16 @@ bool keepsSide(Vector4 before, Vector4 after)
     LeastCosineOfTurn * std::sqrt(squaredNorm(before) * squaredNorm(after));
 }
 
+/// What a flip, or the collapse of `a` into `b`, leaves.
+struct Change
+{
+  VertexIndex a = NoVertex;
+  VertexIndex b = NoVertex;
+  bool isFlip = false;
+  float quality = 0.f; ///< the least one; 0 where it may not be
+  int gain = 0;        ///< so many slivers fewer
+};
+
 class SliverRemover
 {
 public:
@@ -105,32 +115,55 @@ private:
   {
     const Triangle byLongest = from(triangle, std::greater<>());
     const Triangle byShortest = from(triangle, std::less<>());
-    const float ofFlip = qualityByFlip(byLongest[0], byLongest[1]);
-    const float oneWay = qualityByCollapse(byShortest[0], byShortest[1]);
-    const float otherWay = qualityByCollapse(byShortest[1], byShortest[0]);
-    const float best = std::max({ ofFlip, oneWay, otherWay });
+    const std::array<Change, 3> usual{ flipOf(byLongest[0], byLongest[1]),
+      collapseOf(byShortest[0], byShortest[1]), collapseOf(byShortest[1], byShortest[0]) };
+    const Change& best = *std::max_element(usual.begin(), usual.end(),
+      [](const Change& a, const Change& b) { return a.quality < b.quality; });
     const float now = corners(triangle[0], triangle[1], triangle[2]).quality();
-    if (best < std::min(least_, LeastGainOfQuality * now) || best == 0.f)
+    if (best.quality >= std::min(least_, LeastGainOfQuality * now) && best.quality > 0.f)
     {
-      return false;
+      apply(best);
+      return true;
     }
+    const Change fewest = fewestSlivers(triangle);
+    if (fewest.gain > 0)
+    {
+      apply(fewest);
+    }
+    return fewest.gain > 0;
+  }
+
+  /// Among slivers none may go without another one: then that goes which leaves the fewest.
+  Change fewestSlivers(const Triangle& triangle) const
+  {
+    Change best;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const VertexIndex a = triangle[i], b = triangle[(i + 1) % 3];
+      for (const Change& change : { flipOf(a, b), collapseOf(a, b), collapseOf(b, a) })
+      {
+        if (change.quality > 0.f && change.gain > best.gain)
+        {
+          best = change;
+        }
+      }
+    }
+    return best;
+  }
+
+  void apply(const Change& change)
+  {
     isTouched_.resize(mesh_.indexEnd(), false);
-    touch(byShortest[0]);
-    touch(byShortest[1]);
-    touch(byShortest[2]);
-    if (best == ofFlip)
+    touch(change.a);
+    touch(change.b);
+    if (change.isFlip)
     {
-      mesh_.flip(byLongest[0], byLongest[1]);
-    }
-    else if (best == oneWay)
-    {
-      mesh_.collapse(byShortest[0], byShortest[1]);
+      mesh_.flip(change.a, change.b);
     }
     else
     {
-      mesh_.collapse(byShortest[1], byShortest[0]);
+      mesh_.collapse(change.a, change.b);
     }
-    return true;
   }
 
   void touch(VertexIndex v)
@@ -142,48 +175,59 @@ private:
     }
   }
 
-  /// The least quality of what the flip leaves; 0 where it may not be.
-  float qualityByFlip(VertexIndex a, VertexIndex b) const
+  int isSliver(float quality) const { return quality < least_ ? 1 : 0; }
+
+  Change flipOf(VertexIndex a, VertexIndex b) const
   {
     const Ring& ring = mesh_.ring(a);
     const unsigned slot = ring.find(b);
     const VertexIndex c = ring.next(slot), d = ring.previous(slot);
     if (c == NoVertex || d == NoVertex || !mesh_.canFlip(a, b))
     {
-      return 0.f;
+      return {};
     }
-    const Vector4 before = corners(a, b, c).normal() + corners(b, a, d).normal();
+    const CornerPlaces oldOne = corners(a, b, c), oldOther = corners(b, a, d);
     const CornerPlaces one = corners(a, d, c), other = corners(b, c, d);
-    return keepsSide(before, one.normal()) && keepsSide(before, other.normal())
-      ? std::min(one.quality(), other.quality())
-      : 0.f;
+    const Vector4 before = oldOne.normal() + oldOther.normal();
+    if (!keepsSide(before, one.normal()) || !keepsSide(before, other.normal()))
+    {
+      return {};
+    }
+    const float ofOne = one.quality(), ofOther = other.quality();
+    return { a, b, true, std::min(ofOne, ofOther),
+      isSliver(oldOne.quality()) + isSliver(oldOther.quality()) - isSliver(ofOne) -
+        isSliver(ofOther) };
   }
 
-  float qualityByCollapse(VertexIndex removed, VertexIndex kept) const
+  Change collapseOf(VertexIndex removed, VertexIndex kept) const
   {
     if (!mesh_.canCollapse(removed, kept))
     {
-      return 0.f;
+      return {};
     }
-    float worst = 1.f;
+    Change change{ removed, kept, false, 1.f, 0 };
     const Ring& ring = mesh_.ring(removed);
     for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
     {
       const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
+      const CornerPlaces before = corners(removed, b, c);
+      const float old = before.quality();
+      change.gain += isSliver(old);
       if (b == kept || c == kept)
       {
         continue;
       }
-      const CornerPlaces before = corners(removed, b, c), after = corners(kept, b, c);
+      const CornerPlaces after = corners(kept, b, c);
       const float quality = after.quality();
       // What is a line itself has no side.
-      if (before.quality() >= least_ && !keepsSide(before.normal(), after.normal()))
+      if (old >= least_ && !keepsSide(before.normal(), after.normal()))
       {
-        return 0.f;
+        return {};
       }
-      worst = std::min(worst, quality);
+      change.gain -= isSliver(quality);
+      change.quality = std::min(change.quality, quality);
     }
-    return worst;
+    return change;
   }
 
   Mesh& mesh_;
