@@ -39,12 +39,9 @@ bool keepsSide(Vector4 before, Vector4 after)
     LeastCosineOfTurn * std::sqrt(squaredNorm(before) * squaredNorm(after));
 }
 
-/// What a flip, or the collapse of `a` into `b`, leaves.
-struct Change
+/// What a change leaves.
+struct Outcome : SliverChange
 {
-  VertexIndex a = NoVertex;
-  VertexIndex b = NoVertex;
-  bool isFlip = false;
   float quality = 0.f; ///< the least one; 0 where it may not be
   int gain = 0;        ///< so many slivers fewer
 };
@@ -52,14 +49,14 @@ struct Change
 class SliverRemover
 {
 public:
-  SliverRemover(Mesh& mesh, float least, const std::vector<bool>& isKept)
+  SliverRemover(Mesh& mesh, float least, const std::set<SliverChange>& refused)
     : mesh_(mesh)
     , least_(least)
-    , isKept_(isKept)
+    , refused_(refused)
   {
   }
 
-  std::vector<bool> run()
+  std::vector<AppliedChange> run()
   {
     bool hasRemoved = true;
     for (int pass = 0; pass < MostPassesOverSlivers && hasRemoved; ++pass)
@@ -69,12 +66,10 @@ public:
       {
         // A neighbour may have gone with it.
         const bool isThere = mesh_.isAlive(triangle[0]) && mesh_.contains(triangle);
-        const bool mayGo = std::none_of(
-          triangle.begin(), triangle.end(), [this](VertexIndex v) { return isKept_[v]; });
-        hasRemoved = (isThere && mayGo && remove(triangle)) || hasRemoved;
+        hasRemoved = (isThere && remove(triangle)) || hasRemoved;
       }
     }
-    return std::move(isTouched_);
+    return std::move(changes_);
   }
 
 private:
@@ -115,17 +110,17 @@ private:
   {
     const Triangle byLongest = from(triangle, std::greater<>());
     const Triangle byShortest = from(triangle, std::less<>());
-    const std::array<Change, 3> usual{ flipOf(byLongest[0], byLongest[1]),
+    const std::array<Outcome, 3> usual{ flipOf(byLongest[0], byLongest[1]),
       collapseOf(byShortest[0], byShortest[1]), collapseOf(byShortest[1], byShortest[0]) };
-    const Change& best = *std::max_element(usual.begin(), usual.end(),
-      [](const Change& a, const Change& b) { return a.quality < b.quality; });
+    const Outcome& best = *std::max_element(usual.begin(), usual.end(),
+      [](const Outcome& a, const Outcome& b) { return a.quality < b.quality; });
     const float now = corners(triangle[0], triangle[1], triangle[2]).quality();
     if (best.quality >= std::min(least_, LeastGainOfQuality * now) && best.quality > 0.f)
     {
       apply(best);
       return true;
     }
-    const Change fewest = fewestSlivers(triangle);
+    const Outcome fewest = fewestSlivers(triangle);
     if (fewest.gain > 0)
     {
       apply(fewest);
@@ -134,13 +129,13 @@ private:
   }
 
   /// Among slivers none may go without another one: then that goes which leaves the fewest.
-  Change fewestSlivers(const Triangle& triangle) const
+  Outcome fewestSlivers(const Triangle& triangle) const
   {
-    Change best;
+    Outcome best;
     for (std::size_t i = 0; i < 3; ++i)
     {
       const VertexIndex a = triangle[i], b = triangle[(i + 1) % 3];
-      for (const Change& change : { flipOf(a, b), collapseOf(a, b), collapseOf(b, a) })
+      for (const Outcome& change : { flipOf(a, b), collapseOf(a, b), collapseOf(b, a) })
       {
         if (change.quality > 0.f && change.gain > best.gain)
         {
@@ -151,9 +146,9 @@ private:
     return best;
   }
 
-  void apply(const Change& change)
+  void apply(const SliverChange& change)
   {
-    isTouched_.resize(mesh_.indexEnd(), false);
+    changes_.push_back({ change, {} });
     touch(change.a);
     touch(change.b);
     if (change.isFlip)
@@ -168,21 +163,20 @@ private:
 
   void touch(VertexIndex v)
   {
-    isTouched_[v] = true;
-    for (const VertexIndex neighbor : mesh_.ring(v))
-    {
-      isTouched_[neighbor] = true;
-    }
+    std::vector<VertexIndex>& touched = changes_.back().touched;
+    touched.push_back(v);
+    touched.insert(touched.end(), mesh_.ring(v).begin(), mesh_.ring(v).end());
   }
 
   int isSliver(float quality) const { return quality < least_ ? 1 : 0; }
 
-  Change flipOf(VertexIndex a, VertexIndex b) const
+  Outcome flipOf(VertexIndex a, VertexIndex b) const
   {
     const Ring& ring = mesh_.ring(a);
     const unsigned slot = ring.find(b);
     const VertexIndex c = ring.next(slot), d = ring.previous(slot);
-    if (c == NoVertex || d == NoVertex || !mesh_.canFlip(a, b))
+    const SliverChange change{ a, b, true };
+    if (c == NoVertex || d == NoVertex || !mesh_.canFlip(a, b) || refused_.contains(change))
     {
       return {};
     }
@@ -194,18 +188,18 @@ private:
       return {};
     }
     const float ofOne = one.quality(), ofOther = other.quality();
-    return { a, b, true, std::min(ofOne, ofOther),
+    return { change, std::min(ofOne, ofOther),
       isSliver(oldOne.quality()) + isSliver(oldOther.quality()) - isSliver(ofOne) -
         isSliver(ofOther) };
   }
 
-  Change collapseOf(VertexIndex removed, VertexIndex kept) const
+  Outcome collapseOf(VertexIndex removed, VertexIndex kept) const
   {
-    if (!mesh_.canCollapse(removed, kept))
+    Outcome change{ { removed, kept, false }, 1.f, 0 };
+    if (!mesh_.canCollapse(removed, kept) || refused_.contains(change))
     {
       return {};
     }
-    Change change{ removed, kept, false, 1.f, 0 };
     const Ring& ring = mesh_.ring(removed);
     for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
     {
@@ -232,13 +226,14 @@ private:
 
   Mesh& mesh_;
   float least_;
-  const std::vector<bool>& isKept_;
-  std::vector<bool> isTouched_;
+  const std::set<SliverChange>& refused_;
+  std::vector<AppliedChange> changes_;
 };
 }
 
-std::vector<bool> removeSlivers(Mesh& mesh, float least, const std::vector<bool>& isKept)
+std::vector<AppliedChange> removeSlivers(
+  Mesh& mesh, float least, const std::set<SliverChange>& refused)
 {
-  return SliverRemover(mesh, least, isKept).run();
+  return SliverRemover(mesh, least, refused).run();
 }
 }
