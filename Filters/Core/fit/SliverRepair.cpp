@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <set>
 #include <vector>
 
@@ -22,8 +21,17 @@ constexpr int MostTimes = 6;
 /// Each refuses more changes.
 constexpr int MostAttempts = 16;
 
-/// By how many defects each vertex has more than before, of those around the changes.
-std::vector<int> newDefects(
+/// What is broken around changes that was not before.
+struct NewDefects
+{
+  long crossings = 0;     ///< triangles, fewer if negative
+  long folds = 0;         ///< the same of edges
+  std::vector<int> at;    ///< of each vertex
+
+  bool any() const { return crossings > 0 || folds > 0; }
+};
+
+NewDefects newDefects(
   const Mesh& mesh, const Mesh& before, const std::vector<AppliedChange>& changes)
 {
   std::vector<bool> isTouched(mesh.indexEnd(), false);
@@ -34,15 +42,30 @@ std::vector<int> newDefects(
       isTouched[v] = true;
     }
   }
-  std::vector<int> defects(mesh.indexEnd(), 0);
-  for (const VertexIndex v : brokenVertices(mesh, isTouched))
+  NewDefects defects{ 0, 0, std::vector<int>(mesh.indexEnd(), 0) };
+  const auto count = [&](const Mesh& counted, int sign)
   {
-    ++defects[v];
-  }
-  for (const VertexIndex v : brokenVertices(before, isTouched))
-  {
-    --defects[v];
-  }
+    const std::vector<Triangle> crossings = intersectingTriangles(counted, isTouched);
+    const std::vector<Edge> folds = foldedEdges(counted, isTouched);
+    defects.crossings += sign * long(crossings.size());
+    defects.folds += sign * long(folds.size());
+    for (const Triangle& triangle : crossings)
+    {
+      for (const VertexIndex v : triangle)
+      {
+        defects.at[v] += sign;
+      }
+    }
+    for (const Edge& edge : folds)
+    {
+      for (const VertexIndex v : edge)
+      {
+        defects.at[v] += sign;
+      }
+    }
+  };
+  count(mesh, 1);
+  count(before, -1);
   return defects;
 }
 
@@ -56,15 +79,15 @@ bool removeUnbroken(Mesh& mesh)
   {
     mesh = before;
     const std::vector<AppliedChange> changes = removeSlivers(mesh, LeastQuality, refused);
-    const std::vector<int> defects = newDefects(mesh, before, changes);
-    if (changes.empty() || std::accumulate(defects.begin(), defects.end(), 0) <= 0)
+    const NewDefects defects = newDefects(mesh, before, changes);
+    if (changes.empty() || !defects.any())
     {
       return !changes.empty();
     }
     for (const AppliedChange& applied : changes)
     {
       if (std::any_of(applied.touched.begin(), applied.touched.end(),
-            [&](VertexIndex v) { return defects[v] > 0; }))
+            [&](VertexIndex v) { return defects.at[v] > 0; }))
       {
         refused.insert(applied.change);
       }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -120,12 +121,41 @@ private:
       apply(best);
       return true;
     }
-    const Outcome fewest = fewestSlivers(triangle);
-    if (fewest.gain > 0)
+    return applyIfFewer(fewestSlivers(triangle), 0) || removeWithHole(triangle);
+  }
+
+  bool applyIfFewer(const Outcome& outcome, int least)
+  {
+    if (outcome.gain > least)
     {
-      apply(fewest);
+      apply(outcome);
     }
-    return fewest.gain > 0;
+    return outcome.gain > least;
+  }
+
+  /// No edge around a hole of three edges may collapse; with the hole closed one may, and it goes, too.
+  bool removeWithHole(const Triangle& triangle)
+  {
+    for (const VertexIndex v : triangle)
+    {
+      if (!mesh_.canFill(v))
+      {
+        continue;
+      }
+      const Triangle hole{ v, mesh_.ring(v).back(), mesh_.ring(v).front() };
+      if (mesh_.ring(hole[1]).back() != hole[2])
+      {
+        continue;
+      }
+      mesh_.fill(v);
+      if (applyIfFewer(
+            fewestSlivers(triangle), isSliver(corners(hole[0], hole[1], hole[2]).quality())))
+      {
+        return true;
+      }
+      mesh_.removeTriangles(std::span(&hole, 1));
+    }
+    return false;
   }
 
   /// Among slivers none may go without another one: then that goes which leaves the fewest.
