@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SliverRemoval.h"
 
+#include "mesh/TriangleShape.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,6 +21,9 @@ constexpr float LeastCosineOfTurn = 0.5f;
 constexpr int MostPassesOverSlivers = 3;
 /// Where a sliver cannot go, the worst triangle must become better by that factor.
 constexpr float LeastGainOfQuality = 2.f;
+/// ... or slivers around it must become fewer. Then no vertex goes that is so far from what is left, against
+/// the longest edge there.
+constexpr float MostStandingOut = 0.1f;
 
 struct CornerPlaces
 {
@@ -167,13 +173,28 @@ private:
       const VertexIndex a = triangle[i], b = triangle[(i + 1) % 3];
       for (const Outcome& change : { flipOf(a, b), collapseOf(a, b), collapseOf(b, a) })
       {
-        if (change.quality > 0.f && change.gain > best.gain)
+        if (change.quality > 0.f && change.gain > best.gain && !losesWhatStandsOut(change))
         {
           best = change;
         }
       }
     }
     return best;
+  }
+
+  /// Whether the vertex that a collapse removes stands out of what is left.
+  bool losesWhatStandsOut(const SliverChange& change) const
+  {
+    const Ring& ring = mesh_.ring(change.a);
+    const Vector4 kept = mesh_.position(change.b);
+    float least = std::numeric_limits<float>::max(), longest = 0.f;
+    for (unsigned slot = 0; slot < ring.triangleCount() && !change.isFlip; ++slot)
+    {
+      const Vector4 b = mesh_.position(ring[slot]), c = mesh_.position(ring[ring.after(slot)]);
+      least = std::min(least, squaredDistanceToTriangle(mesh_.position(change.a), kept, b, c));
+      longest = std::max(longest, squaredLongestEdge(kept, b, c));
+    }
+    return !change.isFlip && least > MostStandingOut * MostStandingOut * longest;
   }
 
   void apply(const SliverChange& change)
