@@ -220,7 +220,7 @@ int CheckCase(const Case& input, int type, int variant, int preset)
   const int ofPoints = FilterTesting::Count(messages->AllText,
     { "are unexplained", "A part of the cloud is missing",
       "The mesh ends, or is open, where there are points", "coarser than its cloud",
-      "between two layers of points", "has hardly any points" });
+      "between two layers of points", "has hardly any points", "are slivers" });
   const int ofSides = FilterTesting::Count(
     messages->AllText, { "the outer one is unknown", "of the surface is inside out" });
   CHECK(messages->Warnings == input.Warnings + isStalled + ofDefects + ofPoints + ofSides);

@@ -2,12 +2,12 @@
 #include "fit/Finish.h"
 
 #include "fit/FidelityRounds.h"
+#include "fit/SliverRepair.h"
 #include "mesh/BoundaryFilling.h"
 #include "mesh/CrossingRemoval.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/Refinement.h"
 #include "mesh/SelfIntersections.h"
-#include "mesh/SliverRemoval.h"
 #include "mesh/SmallPieces.h"
 
 #include <algorithm>
@@ -25,11 +25,6 @@ constexpr double MostPartTakenAway = 0.02;
 constexpr double PartOfFirstRounds = 0.4;
 /// For them.
 constexpr double LeastSamplesPerVertex = 1.5;
-/// Of triangles, see removeSlivers().
-constexpr float LeastQuality = 0.1f;
-/// To take slivers away; each leaves more of them.
-constexpr int MostAttempts = 4;
-constexpr int TimesForSlivers = 2;
 /// A piece with less than this part of the area has shrunk to a point.
 constexpr double ShrunkPart = 1e-14;
 
@@ -179,7 +174,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     return false;
   }
   dropShrunkPieces();
-  takeSliversAway(guard);
+  repairSlivers(mesh_, guard);
   return true;
 }
 
@@ -198,48 +193,6 @@ void Finish::dropShrunkPieces()
     }
     report_.left = countDefects(mesh_);
   }
-}
-
-/// The vertices that come in again halve slivers that are left, so there is a second time.
-void Finish::takeSliversAway(FitGuard& guard)
-{
-  for (int time = 0; time < TimesForSlivers && takeSliversAwayOnce(guard); ++time)
-  {
-  }
-}
-
-/// They stay where triangles would intersect. Returns false, with the mesh as it was, if there are none, if
-/// triangles intersect all the same, or if points would be lost.
-bool Finish::takeSliversAwayOnce(FitGuard& guard)
-{
-  const Mesh before = mesh_;
-  std::vector<bool> isKept(mesh_.indexEnd(), false), isTouched;
-  bool areDefects = true;
-  for (int attempt = 0; attempt < MostAttempts && areDefects; ++attempt)
-  {
-    mesh_ = before;
-    isTouched = removeSlivers(mesh_, LeastQuality, isKept);
-    if (isTouched.empty())
-    {
-      return false;
-    }
-    const std::vector<VertexIndex> broken = brokenVertices(mesh_, isTouched);
-    areDefects = broken.size() > brokenVertices(before, isTouched).size();
-    for (const VertexIndex v : broken)
-    {
-      isKept[v] = true;
-    }
-  }
-  mesh_.dropErased();
-  refine(
-    mesh_, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);
-  if (areDefects || mesh_.vertexCount() != before.vertexCount() ||
-    (guard.losesPoints(mesh_, false) && !guard.losesPoints(before, false)))
-  {
-    mesh_ = before;
-    return false;
-  }
-  return true;
 }
 
 /// Where the repair would lose samples, it stays as it was, broken or not. Returns false if it was ended

@@ -75,8 +75,6 @@ private:
   bool improve(SurfaceFit& surfaceFit, const Progress& progress);
   bool closeHoles();
   void dropShrunkPieces();
-  void takeSliversAway(FitGuard& guard);
-  bool takeSliversAwayOnce(FitGuard& guard);
   bool repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress);
   template <typename Remove>
   bool mendsBy(const Remove& remove, FitGuard& guard, const Progress& progress);

@@ -38,6 +38,11 @@ Corners cornersOf(const Mesh& mesh, const Triangle& triangle)
 
 bool doIntersect(const Mesh& mesh, Triangle first, Triangle second)
 {
+  // Of two that almost lie on each other, it may depend on which one comes first: that is never by chance.
+  if (second < first)
+  {
+    std::swap(first, second);
+  }
   const unsigned shared = sharedToFront(first, second);
   sharedToFront(second, first);
   if (shared == 2 && first[0] != second[0])

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SliverRemoval.h"
 
+#include "mesh/TriangleShape.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,6 +21,9 @@ constexpr float LeastCosineOfTurn = 0.5f;
 constexpr int MostPassesOverSlivers = 3;
 /// Where a sliver cannot go, the worst triangle must become better by that factor.
 constexpr float LeastGainOfQuality = 2.f;
+/// ... or slivers around it must become fewer. Then no vertex goes that is so far from what is left, against
+/// the longest edge there.
+constexpr float MostStandingOut = 0.1f;
 
 struct CornerPlaces
 {
@@ -39,17 +46,24 @@ bool keepsSide(Vector4 before, Vector4 after)
     LeastCosineOfTurn * std::sqrt(squaredNorm(before) * squaredNorm(after));
 }
 
+/// What a change leaves.
+struct Outcome : SliverChange
+{
+  float quality = 0.f; ///< the least one; 0 where it may not be
+  int gain = 0;        ///< so many slivers fewer
+};
+
 class SliverRemover
 {
 public:
-  SliverRemover(Mesh& mesh, float least, const std::vector<bool>& isKept)
+  SliverRemover(Mesh& mesh, float least, const std::set<SliverChange>& refused)
     : mesh_(mesh)
     , least_(least)
-    , isKept_(isKept)
+    , refused_(refused)
   {
   }
 
-  std::vector<bool> run()
+  std::vector<AppliedChange> run()
   {
     bool hasRemoved = true;
     for (int pass = 0; pass < MostPassesOverSlivers && hasRemoved; ++pass)
@@ -59,12 +73,10 @@ public:
       {
         // A neighbour may have gone with it.
         const bool isThere = mesh_.isAlive(triangle[0]) && mesh_.contains(triangle);
-        const bool mayGo = std::none_of(
-          triangle.begin(), triangle.end(), [this](VertexIndex v) { return isKept_[v]; });
-        hasRemoved = (isThere && mayGo && remove(triangle)) || hasRemoved;
+        hasRemoved = (isThere && remove(triangle)) || hasRemoved;
       }
     }
-    return std::move(isTouched_);
+    return std::move(changes_);
   }
 
 private:
@@ -105,96 +117,174 @@ private:
   {
     const Triangle byLongest = from(triangle, std::greater<>());
     const Triangle byShortest = from(triangle, std::less<>());
-    const float ofFlip = qualityByFlip(byLongest[0], byLongest[1]);
-    const float oneWay = qualityByCollapse(byShortest[0], byShortest[1]);
-    const float otherWay = qualityByCollapse(byShortest[1], byShortest[0]);
-    const float best = std::max({ ofFlip, oneWay, otherWay });
+    const std::array<Outcome, 3> usual{ flipOf(byLongest[0], byLongest[1]),
+      collapseOf(byShortest[0], byShortest[1]), collapseOf(byShortest[1], byShortest[0]) };
+    const Outcome& best = *std::max_element(usual.begin(), usual.end(),
+      [](const Outcome& a, const Outcome& b) { return a.quality < b.quality; });
     const float now = corners(triangle[0], triangle[1], triangle[2]).quality();
-    if (best < std::min(least_, LeastGainOfQuality * now) || best == 0.f)
+    if (best.quality >= std::min(least_, LeastGainOfQuality * now) && best.quality > 0.f)
     {
-      return false;
+      apply(best);
+      return true;
     }
-    isTouched_.resize(mesh_.indexEnd(), false);
-    touch(byShortest[0]);
-    touch(byShortest[1]);
-    touch(byShortest[2]);
-    if (best == ofFlip)
+    return applyIfFewer(fewestSlivers(triangle), 0) || removeWithHole(triangle);
+  }
+
+  bool applyIfFewer(const Outcome& outcome, int least)
+  {
+    if (outcome.gain > least)
     {
-      mesh_.flip(byLongest[0], byLongest[1]);
+      apply(outcome);
     }
-    else if (best == oneWay)
+    return outcome.gain > least;
+  }
+
+  /// No edge around a hole of three edges may collapse; with the hole closed one may, and it goes, too.
+  bool removeWithHole(const Triangle& triangle)
+  {
+    for (const VertexIndex v : triangle)
     {
-      mesh_.collapse(byShortest[0], byShortest[1]);
+      if (!mesh_.canFill(v))
+      {
+        continue;
+      }
+      const Triangle hole{ v, mesh_.ring(v).back(), mesh_.ring(v).front() };
+      if (mesh_.ring(hole[1]).back() != hole[2])
+      {
+        continue;
+      }
+      mesh_.fill(v);
+      if (applyIfFewer(
+            fewestSlivers(triangle), isSliver(corners(hole[0], hole[1], hole[2]).quality())))
+      {
+        return true;
+      }
+      mesh_.removeTriangles(std::span(&hole, 1));
+    }
+    return false;
+  }
+
+  /// Among slivers none may go without another one: then that goes which leaves the fewest.
+  Outcome fewestSlivers(const Triangle& triangle) const
+  {
+    Outcome best;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const VertexIndex a = triangle[i], b = triangle[(i + 1) % 3];
+      for (const Outcome& change : { flipOf(a, b), collapseOf(a, b), collapseOf(b, a) })
+      {
+        if (change.quality > 0.f && change.gain > best.gain && !losesWhatStandsOut(change))
+        {
+          best = change;
+        }
+      }
+    }
+    return best;
+  }
+
+  /// Whether the vertex that a collapse removes stands out of what is left.
+  bool losesWhatStandsOut(const SliverChange& change) const
+  {
+    const Ring& ring = mesh_.ring(change.a);
+    const Vector4 kept = mesh_.position(change.b);
+    float least = std::numeric_limits<float>::max(), longest = 0.f;
+    for (unsigned slot = 0; slot < ring.triangleCount() && !change.isFlip; ++slot)
+    {
+      const Vector4 b = mesh_.position(ring[slot]), c = mesh_.position(ring[ring.after(slot)]);
+      least = std::min(least, squaredDistanceToTriangle(mesh_.position(change.a), kept, b, c));
+      longest = std::max(longest, squaredLongestEdge(kept, b, c));
+    }
+    return !change.isFlip && least > MostStandingOut * MostStandingOut * longest;
+  }
+
+  void apply(const SliverChange& change)
+  {
+    changes_.push_back({ change, {} });
+    touch(change.a);
+    touch(change.b);
+    if (change.isFlip)
+    {
+      mesh_.flip(change.a, change.b);
     }
     else
     {
-      mesh_.collapse(byShortest[1], byShortest[0]);
+      mesh_.collapse(change.a, change.b);
     }
-    return true;
   }
 
   void touch(VertexIndex v)
   {
-    isTouched_[v] = true;
-    for (const VertexIndex neighbor : mesh_.ring(v))
-    {
-      isTouched_[neighbor] = true;
-    }
+    std::vector<VertexIndex>& touched = changes_.back().touched;
+    touched.push_back(v);
+    touched.insert(touched.end(), mesh_.ring(v).begin(), mesh_.ring(v).end());
   }
 
-  /// The least quality of what the flip leaves; 0 where it may not be.
-  float qualityByFlip(VertexIndex a, VertexIndex b) const
+  int isSliver(float quality) const { return quality < least_ ? 1 : 0; }
+
+  Outcome flipOf(VertexIndex a, VertexIndex b) const
   {
     const Ring& ring = mesh_.ring(a);
     const unsigned slot = ring.find(b);
     const VertexIndex c = ring.next(slot), d = ring.previous(slot);
-    if (c == NoVertex || d == NoVertex || !mesh_.canFlip(a, b))
+    const SliverChange change{ a, b, true };
+    if (c == NoVertex || d == NoVertex || !mesh_.canFlip(a, b) || refused_.contains(change))
     {
-      return 0.f;
+      return {};
     }
-    const Vector4 before = corners(a, b, c).normal() + corners(b, a, d).normal();
+    const CornerPlaces oldOne = corners(a, b, c), oldOther = corners(b, a, d);
     const CornerPlaces one = corners(a, d, c), other = corners(b, c, d);
-    return keepsSide(before, one.normal()) && keepsSide(before, other.normal())
-      ? std::min(one.quality(), other.quality())
-      : 0.f;
+    const Vector4 before = oldOne.normal() + oldOther.normal();
+    if (!keepsSide(before, one.normal()) || !keepsSide(before, other.normal()))
+    {
+      return {};
+    }
+    const float ofOne = one.quality(), ofOther = other.quality();
+    return { change, std::min(ofOne, ofOther),
+      isSliver(oldOne.quality()) + isSliver(oldOther.quality()) - isSliver(ofOne) -
+        isSliver(ofOther) };
   }
 
-  float qualityByCollapse(VertexIndex removed, VertexIndex kept) const
+  Outcome collapseOf(VertexIndex removed, VertexIndex kept) const
   {
-    if (!mesh_.canCollapse(removed, kept))
+    Outcome change{ { removed, kept, false }, 1.f, 0 };
+    if (!mesh_.canCollapse(removed, kept) || refused_.contains(change))
     {
-      return 0.f;
+      return {};
     }
-    float worst = 1.f;
     const Ring& ring = mesh_.ring(removed);
     for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
     {
       const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
+      const CornerPlaces before = corners(removed, b, c);
+      const float old = before.quality();
+      change.gain += isSliver(old);
       if (b == kept || c == kept)
       {
         continue;
       }
-      const CornerPlaces before = corners(removed, b, c), after = corners(kept, b, c);
+      const CornerPlaces after = corners(kept, b, c);
       const float quality = after.quality();
       // What is a line itself has no side.
-      if (before.quality() >= least_ && !keepsSide(before.normal(), after.normal()))
+      if (old >= least_ && !keepsSide(before.normal(), after.normal()))
       {
-        return 0.f;
+        return {};
       }
-      worst = std::min(worst, quality);
+      change.gain -= isSliver(quality);
+      change.quality = std::min(change.quality, quality);
     }
-    return worst;
+    return change;
   }
 
   Mesh& mesh_;
   float least_;
-  const std::vector<bool>& isKept_;
-  std::vector<bool> isTouched_;
+  const std::set<SliverChange>& refused_;
+  std::vector<AppliedChange> changes_;
 };
 }
 
-std::vector<bool> removeSlivers(Mesh& mesh, float least, const std::vector<bool>& isKept)
+std::vector<AppliedChange> removeSlivers(
+  Mesh& mesh, float least, const std::set<SliverChange>& refused)
 {
-  return SliverRemover(mesh, least, isKept).run();
+  return SliverRemover(mesh, least, refused).run();
 }
 }

@@ -45,6 +45,9 @@ Eigen::Vector3d twiceAreaNormal(const TriangleMesh& mesh, std::size_t t)
   return (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
 }
 
+/// Below it a triangle is nearly a line.
+constexpr double SliverQuality = 0.1;
+
 /// Twice the inradius over the circumradius.
 double quality(double twiceArea, double a, double b, double c)
 {
@@ -96,13 +99,16 @@ private:
       if (!(twiceArea > 0.))
       {
         report_.degenerateTriangles += twiceArea == 0.;
+        report_.slivers += twiceArea == 0.;
         continue;
       }
       origin = origin.value_or(a);
       box.extend(a).extend(b).extend(c);
       report_.area += twiceArea / 2.;
       volume += normal.dot(a - *origin) / 6.;
-      qualities += quality(twiceArea, (a - b).norm(), (b - c).norm(), (c - a).norm());
+      const double ratio = quality(twiceArea, (a - b).norm(), (b - c).norm(), (c - a).norm());
+      qualities += ratio;
+      report_.slivers += ratio < SliverQuality;
     }
     volume_ = volume;
     report_.meanQuality = qualities / double(std::max<std::size_t>(1, report_.triangles));

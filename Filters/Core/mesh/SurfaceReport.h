@@ -27,6 +27,8 @@ struct SurfaceReport
   /// Mean of twice the radius of the inscribed over that of the circumscribed circle: 1 for an
   /// equilateral triangle, 0 for one without area.
   double meanQuality = 0.;
+  /// With less than a tenth of that; those without area are among them.
+  std::size_t slivers = 0;
 
   std::size_t boundaryEdges = 0;       ///< of one triangle
   std::size_t nonManifoldEdges = 0;    ///< of more than two triangles

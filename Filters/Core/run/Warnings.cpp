@@ -22,6 +22,8 @@ constexpr double LeastUnknownSide = 0.001;
 constexpr double MostTurned = 0.005;
 /// Of the area: bridges over gaps have less.
 constexpr double MostBare = 0.04;
+/// Of the triangles.
+constexpr double MostSlivers = 0.002;
 constexpr double WholeArea = 0.999;
 /// Named in one sentence; the others are counted.
 constexpr std::size_t MostPiecesNamed = 2;
@@ -164,6 +166,18 @@ void warnOfDefects(const Reconstruction& result, std::vector<std::string>& warni
   }
 }
 
+void warnOfSlivers(const SurfaceReport& surface, std::vector<std::string>& warnings)
+{
+  const double share = double(surface.slivers) / double(std::max<std::size_t>(1, surface.triangles));
+  if (share > MostSlivers)
+  {
+    warnings.push_back(percent(share) + " of the triangles (" + std::to_string(surface.slivers) +
+      ") are slivers, nearly lines, and could not be taken away: their normals tell nothing. Another "
+      "number of vertices or another seed may do without; where points are far denser than "
+      "elsewhere, thin them there.");
+  }
+}
+
 void warnOfTurnedParts(double share, std::vector<std::string>& warnings)
 {
   if (share > MostTurned)
@@ -266,6 +280,7 @@ std::vector<std::string> warningsOf(
   if (result.quality)
   {
     warnOfDefects(result, warnings);
+    warnOfSlivers(result.quality->surface, warnings);
     warnOfTurnedParts(result.quality->turnedShare, warnings);
     warnOfHandles(result.quality->narrowHandles, cloud, warnings);
     warnOfVertices(result, cloud, warnings);

@@ -16,6 +16,7 @@ namespace neuralmesh
 /// - the mesh has an opening where there are points;
 /// - more than 4 % of the area has hardly any points, unless gaps were to be closed;
 /// - triangles intersect others, or are folded;
+/// - more than 0.2 % of the triangles are nearly lines;
 /// - the mesh has stopped growing below the size that was asked for;
 /// - the mesh is finer than its data: it has more vertices than every second point;
 /// - the fit was taken back: with it the mesh had a larger residual, lost points, or intersected;

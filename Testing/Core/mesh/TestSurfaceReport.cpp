@@ -255,6 +255,19 @@ TEST(SurfaceReport, Folds)
   }
 }
 
+// Slivers are triangles with twice the inradius below a tenth of the circumradius: 8 h^2 for one over the middle of
+// its edge 1, as long as it is low.
+TEST(SurfaceReport, Slivers)
+{
+  for (const double height : { 1., 0.12, 0.11, 0.01, 0. })
+  {
+    const TriangleMesh mesh =
+      withTriangles({ { 0., 0., 0. }, { 1., 0., 0. }, { 0.5, height, 0. } }, { { 0, 1, 2 } });
+    EXPECT_EQ(reportSurface(mesh).slivers, height < 0.115 ? 1u : 0u) << height;
+  }
+  EXPECT_EQ(reportSurface(makeSphere(12)).slivers, 0u);
+}
+
 // What is not fit for use is counted, and does not disturb the rest.
 TEST(SurfaceReport, UncleanMeshes)
 {

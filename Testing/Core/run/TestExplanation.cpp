@@ -263,6 +263,27 @@ TEST(Warnings, MissingPartAndDefects)
   EXPECT_EQ(result.warnings.size(), 5u);
 }
 
+// Promise: slivers are told where they are more than a rounding of all triangles, however few these are.
+TEST(Warnings, Slivers)
+{
+  Reconstruction result;
+  result.quality = MeshQuality{};
+  const PointCloud cloud(sphere(1000));
+  const auto isWarnedOf = [&](std::size_t slivers, std::size_t triangles)
+  {
+    result.quality->surface.slivers = slivers;
+    result.quality->surface.triangles = triangles;
+    result.warnings = warningsOf(result, cloud);
+    return hasWarning(result, "of the triangles (" + std::to_string(slivers) + ") are slivers");
+  };
+  EXPECT_FALSE(isWarnedOf(0, 0));
+  EXPECT_FALSE(isWarnedOf(0, 1000));
+  EXPECT_FALSE(isWarnedOf(2, 1000));
+  EXPECT_TRUE(isWarnedOf(3, 1000));
+  EXPECT_TRUE(hasWarning(result, "0.3 % of"));
+  EXPECT_TRUE(isWarnedOf(1, 400));
+}
+
 // Promise: what is no farther away than half an edge is called coarse, not missing.
 TEST(Warnings, CoarseIsNotMissing)
 {

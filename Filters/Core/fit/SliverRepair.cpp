@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/SliverRepair.h"
+
+#include "mesh/Refinement.h"
+#include "mesh/SelfIntersections.h"
+#include "mesh/SliverRemoval.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Of triangles.
+constexpr float LeastQuality = 0.1f;
+/// Vertices that come in again halve slivers that are left, and where some have gone others can.
+constexpr int MostTimes = 6;
+/// Each refuses more changes.
+constexpr int MostAttempts = 16;
+
+/// What is broken around changes that was not before.
+struct NewDefects
+{
+  long crossings = 0;     ///< triangles, fewer if negative
+  long folds = 0;         ///< the same of edges
+  std::vector<int> at;    ///< of each vertex
+
+  bool any() const { return crossings > 0 || folds > 0; }
+};
+
+NewDefects newDefects(
+  const Mesh& mesh, const Mesh& before, const std::vector<AppliedChange>& changes)
+{
+  std::vector<bool> isTouched(mesh.indexEnd(), false);
+  for (const AppliedChange& applied : changes)
+  {
+    for (const VertexIndex v : applied.touched)
+    {
+      isTouched[v] = true;
+    }
+  }
+  NewDefects defects{ 0, 0, std::vector<int>(mesh.indexEnd(), 0) };
+  const auto count = [&](const Mesh& counted, int sign)
+  {
+    const std::vector<Triangle> crossings = intersectingTriangles(counted, isTouched);
+    const std::vector<Edge> folds = foldedEdges(counted, isTouched);
+    defects.crossings += sign * long(crossings.size());
+    defects.folds += sign * long(folds.size());
+    for (const Triangle& triangle : crossings)
+    {
+      for (const VertexIndex v : triangle)
+      {
+        defects.at[v] += sign;
+      }
+    }
+    for (const Edge& edge : folds)
+    {
+      for (const VertexIndex v : edge)
+      {
+        defects.at[v] += sign;
+      }
+    }
+  };
+  count(mesh, 1);
+  count(before, -1);
+  return defects;
+}
+
+/// Until nothing is broken that was not before. Returns whether there is something to gain: else the mesh is
+/// not what it was.
+bool removeUnbroken(Mesh& mesh)
+{
+  const Mesh before = mesh;
+  std::set<SliverChange> refused;
+  for (int attempt = 0; attempt < MostAttempts; ++attempt)
+  {
+    mesh = before;
+    const std::vector<AppliedChange> changes = removeSlivers(mesh, LeastQuality, refused);
+    const NewDefects defects = newDefects(mesh, before, changes);
+    if (changes.empty() || !defects.any())
+    {
+      return !changes.empty();
+    }
+    for (const AppliedChange& applied : changes)
+    {
+      if (std::any_of(applied.touched.begin(), applied.touched.end(),
+            [&](VertexIndex v) { return defects.at[v] > 0; }))
+      {
+        refused.insert(applied.change);
+      }
+    }
+  }
+  return false;
+}
+
+bool repairOnce(Mesh& mesh, FitGuard& guard)
+{
+  const Mesh before = mesh;
+  bool isBetter = removeUnbroken(mesh);
+  if (isBetter)
+  {
+    mesh.dropErased();
+    refine(
+      mesh, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);
+    isBetter = mesh.vertexCount() == before.vertexCount() &&
+      (!guard.losesPoints(mesh, false) || guard.losesPoints(before, false));
+  }
+  if (!isBetter)
+  {
+    mesh = before;
+  }
+  return isBetter;
+}
+}
+
+void repairSlivers(Mesh& mesh, FitGuard& guard)
+{
+  for (int time = 0; time < MostTimes && repairOnce(mesh, guard); ++time)
+  {
+  }
+}
+}
