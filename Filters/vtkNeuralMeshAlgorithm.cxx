@@ -148,7 +148,6 @@ void vtkNeuralMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
     print("Viewpoint", viewpoint);
   }
   os << indent << "ViewArrayName: " << this->ViewArrayName << "\n";
-  os << indent << "UseNormals: " << (this->UseNormals ? "On" : "Off") << "\n";
   os << indent << "NormalArrayName: " << this->NormalArrayName << "\n";
   print("UpDirection", this->UpDirection);
 }

@@ -3,6 +3,7 @@
 
 #include "mesh/Orientation.h"
 #include "vtkMeshArrays.h"
+#include "vtkNeuralMesh.h"
 #include "vtkNeuralMeshAlgorithm.h"
 #include "vtkPointCloudCollector.h"
 
@@ -110,7 +111,8 @@ void vtkNeuralMeshOrientation::FindViewpoints(vtkDataObject* input)
 /// Blocks may have some, or none; but not all none, if they were named.
 void vtkNeuralMeshOrientation::FindNormals()
 {
-  if (!this->Filter->GetUseNormals())
+  auto* const filter = vtkNeuralMesh::SafeDownCast(this->Filter);
+  if (filter && !filter->GetUseNormals())
   {
     return;
   }

@@ -21,7 +21,7 @@ import write_vtk
 
 LIST = "Filters/Parameters.json"
 # Where options of the command stand. It says nothing else of parameters, so that nothing follows from it.
-COMMAND = "Applications/ReconstructCommand.cxx"
+COMMAND = ("Applications/ReconstructCommand.cxx", "Applications/OrientationOptions.cxx")
 PLUGIN = "Wrapping/ParaView/NeuralMesh"
 CORE = {"choices": write_core.choices, "fields": write_core.fields, "table": write_core.table}
 VTK = {
@@ -107,7 +107,7 @@ def require_options(found, text):
 def written(sources):
     """What is to be written, by its name."""
     found = parameter_list.read(sources / LIST)
-    require_options(found, (sources / COMMAND).read_text(encoding="utf-8"))
+    require_options(found, "".join((sources / path).read_text(encoding="utf-8") for path in COMMAND))
     files = {}
     for template, writers in TEMPLATES.items():
         text = (sources / template).read_text(encoding="utf-8")

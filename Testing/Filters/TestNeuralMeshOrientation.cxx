@@ -295,7 +295,7 @@ int CheckNormals()
   CHECK(filter->GetMTime() > before);
   std::ostringstream text;
   filter->Print(text);
-  CHECK(text.str().find("UseNormals: Off") != std::string::npos);
+  CHECK(text.str().find("UseNormals: 0") != std::string::npos);
   CHECK(text.str().find("NormalArrayName: Directions") != std::string::npos);
   filter->SetNormalArrayName(nullptr);
   CHECK(std::string(filter->GetNormalArrayName()).empty());

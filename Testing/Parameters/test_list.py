@@ -42,7 +42,7 @@ class ListTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.sources = pathlib.Path(folder.name, "sources")
         self.build = pathlib.Path(folder.name, "build")
-        for template in [LIST, generate.COMMAND, *generate.TEMPLATES]:
+        for template in [LIST, *generate.COMMAND, *generate.TEMPLATES]:
             (self.sources / template).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / template, self.sources / template)
 

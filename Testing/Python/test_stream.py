@@ -45,7 +45,6 @@ class Streams(unittest.TestCase):
         entries = [e for group in groups for e in group["parameters"] if "class" not in e]
         fixed = {"Variant", "Order", "TopologyLearning", "ComputeFeatureStrength", "CurvatureDensity"}
         wanted = {snake_case(e["name"]) for e in entries if counts(e) and e["name"] not in fixed}
-        wanted.add("use_normals")  # of points as they are added; not in the list
         self.assertEqual(set(PARAMETERS), wanted)
         for name in ("topology_patience", "jump", "list_vertices", "curvature_density"):
             with self.assertRaisesRegex(TypeError, name):

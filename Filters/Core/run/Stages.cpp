@@ -20,9 +20,10 @@ namespace
 constexpr double PartOfFront = 0.75;
 
 /// Of the curvature.
-constexpr double UsualDensityExponent = 0.25;
+constexpr double UsualDensityExponent = 0.5;
+constexpr double DensityExponentIfOpen = 0.25;
 /// With fewer vertices, claws and ears are no wider than edges, and would be lost while the mesh grows.
-constexpr std::uint64_t FewestDrawnAlike = 10000;
+constexpr std::uint64_t FewestDistributedLater = 10000;
 
 /// Points that are explained where only their numbers are wanted.
 constexpr std::size_t PointsExplained = 10000;
@@ -51,9 +52,12 @@ double densityExponent(const Parameters& parameters, const Mesh& first)
   {
     return parameters.curvatureDensity;
   }
-  const bool isDistributedLater = parameters.numberOfVertices >= FewestDrawnAlike &&
-    parameters.fitRounds > 0 && parameters.fidelity != Fidelity::Draft && !first.isOpen();
-  return isDistributedLater ? 0. : UsualDensityExponent;
+  if (parameters.numberOfVertices < FewestDistributedLater || parameters.fitRounds == 0 ||
+    parameters.fidelity == Fidelity::Draft)
+  {
+    return UsualDensityExponent;
+  }
+  return first.isOpen() ? DensityExponentIfOpen : 0.;
 }
 
 /// Of length 1; 0 if it tells nothing.

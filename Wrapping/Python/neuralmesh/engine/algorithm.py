@@ -41,7 +41,6 @@ class NeuralMeshAlgorithm:
         self._preset = self.DEFAULT
         self._viewpoints: list[tuple[float, float, float]] = []
         self._view_array_name = ""
-        self._use_normals = 1
         self._normal_array_name = ""
         self._up_direction = (0.0, 0.0, 0.0)
 
@@ -118,24 +117,6 @@ class NeuralMeshAlgorithm:
         """Empty if there is none: then it is `View`, if there is one."""
         return self._view_array_name
 
-    def SetUseNormals(self, value: int) -> None:
-        """Whether normals that come with the points are used."""
-        if self._use_normals != int(value):
-            self._use_normals = int(value)
-            self.Modified()
-
-    def GetUseNormals(self) -> int:
-        """1 or 0."""
-        return self._use_normals
-
-    def UseNormalsOn(self) -> None:
-        """They are, as they are by default."""
-        self.SetUseNormals(1)
-
-    def UseNormalsOff(self) -> None:
-        """The mesh is what it would be if there were none."""
-        self.SetUseNormals(0)
-
     def SetNormalArrayName(self, name: str | None) -> None:
         """The point array of three components that has the normals."""
         if self._normal_array_name != (name or ""):
@@ -171,7 +152,7 @@ class NeuralMeshAlgorithm:
             viewpoints = viewpoints if cloud.viewpoints is None else cloud.viewpoints
             problems += cloud.viewpoint_problems
         normals = None
-        if cloud is not None and self._use_normals:
+        if cloud is not None and self._values.get("UseNormals", 1):
             normals = cloud.normals(self._normal_array_name)
             problems += [] if self._normal_array_name else cloud.normal_problems[:1]
         views = None
