@@ -126,8 +126,10 @@ void findExactly(const Mesh& mesh, const PointCloud& cloud, float least, const E
   {
     triangles.points.push_back(position.toDouble());
   }
-  mesh.forEachTriangle([&](VertexIndex a, VertexIndex b, VertexIndex c)
-    { triangles.triangles.push_back({ a, b, c }); });
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+      triangles.triangles.push_back({ a, b, c });
+    });
   const NearestTriangle nearest(triangles);
   executor.forEachRange(result.points.size(), ExplainedPerRange,
     [&](std::size_t begin, std::size_t end)
@@ -135,9 +137,8 @@ void findExactly(const Mesh& mesh, const PointCloud& cloud, float least, const E
       for (std::size_t i = begin; i < end; ++i)
       {
         const Vector4 point = cloud.points()[result.points[i]];
-        const NearestTriangle::Found found = result.distances[i] > least
-          ? nearest.find(point.toDouble())
-          : NearestTriangle::Found{};
+        const NearestTriangle::Found found =
+          result.distances[i] > least ? nearest.find(point.toDouble()) : NearestTriangle::Found{};
         if (found.triangle != NearestTriangle::None)
         {
           const PlaceOnMesh place =

@@ -100,7 +100,8 @@ TEST(Explanation, LargeTriangles)
   const PointCloud cloud(points);
   const Mesh mesh = buildMesh(shape, cloud);
   const PointDistances distances = distancesTo(mesh, cloud, All);
-  EXPECT_LT(*std::max_element(distances.distances.begin(), distances.distances.end()) * cloud.unit(), 0.01);
+  EXPECT_LT(
+    *std::max_element(distances.distances.begin(), distances.distances.end()) * cloud.unit(), 0.01);
   const Explanation explanation = explain(cloud, distances, {});
   EXPECT_EQ(reached(explanation), 24000.);
   EXPECT_TRUE(explanation.pieces.empty());
