@@ -24,9 +24,9 @@ constexpr int MostAttempts = 16;
 /// What is broken around changes that was not before.
 struct NewDefects
 {
-  long crossings = 0;     ///< triangles, fewer if negative
-  long folds = 0;         ///< the same of edges
-  std::vector<int> at;    ///< of each vertex
+  long crossings = 0;  ///< triangles, fewer if negative
+  long folds = 0;      ///< the same of edges
+  std::vector<int> at; ///< of each vertex
 
   bool any() const { return crossings > 0 || folds > 0; }
 };

@@ -22,8 +22,8 @@ constexpr int MostPassesOverSlivers = 3;
 /// Where a sliver cannot go, the worst triangle must become better by that factor.
 constexpr float LeastGainOfQuality = 2.f;
 /// ... or slivers around it must become fewer. Then no vertex goes that is so far from what is left, against
-/// the longest edge there.
-constexpr float MostStandingOut = 0.1f;
+/// the longest edge there or a usual one.
+constexpr float MostStandingOut = 0.03f;
 
 struct CornerPlaces
 {
@@ -60,6 +60,7 @@ public:
     : mesh_(mesh)
     , least_(least)
     , refused_(refused)
+    , squaredMeanEdge_(float(mesh.meanEdge() * mesh.meanEdge()))
   {
   }
 
@@ -187,7 +188,7 @@ private:
   {
     const Ring& ring = mesh_.ring(change.a);
     const Vector4 kept = mesh_.position(change.b);
-    float least = std::numeric_limits<float>::max(), longest = 0.f;
+    float least = std::numeric_limits<float>::max(), longest = squaredMeanEdge_;
     for (unsigned slot = 0; slot < ring.triangleCount() && !change.isFlip; ++slot)
     {
       const Vector4 b = mesh_.position(ring[slot]), c = mesh_.position(ring[ring.after(slot)]);
@@ -278,6 +279,7 @@ private:
   Mesh& mesh_;
   float least_;
   const std::set<SliverChange>& refused_;
+  float squaredMeanEdge_;
   std::vector<AppliedChange> changes_;
 };
 }

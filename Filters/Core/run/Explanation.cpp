@@ -6,6 +6,7 @@
 #include "cloud/CloudDistance.h"
 #include "cloud/NearestPoints.h"
 #include "cloud/PlaceOnMesh.h"
+#include "mesh/NearestTriangle.h"
 #include "start/LayerSearch.h"
 
 #include <Eigen/Eigenvalues>
@@ -109,6 +110,45 @@ private:
   const PointCloud& cloud_;
   VertexGrid grid_;
 };
+
+/// Where edges are long, or layers close, the closest vertex may be one of another part of the mesh: what seems
+/// to be farther away than `least` is measured to all triangles.
+void findExactly(const Mesh& mesh, const PointCloud& cloud, float least, const Executor& executor,
+  PointDistances& result)
+{
+  if (std::none_of(result.distances.begin(), result.distances.end(),
+        [least](float distance) { return distance > least; }))
+  {
+    return;
+  }
+  TriangleMesh triangles;
+  for (const Vector4& position : mesh.positions())
+  {
+    triangles.points.push_back(position.toDouble());
+  }
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+      triangles.triangles.push_back({ a, b, c });
+    });
+  const NearestTriangle nearest(triangles);
+  executor.forEachRange(result.points.size(), ExplainedPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Vector4 point = cloud.points()[result.points[i]];
+        const NearestTriangle::Found found =
+          result.distances[i] > least ? nearest.find(point.toDouble()) : NearestTriangle::Found{};
+        if (found.triangle != NearestTriangle::None)
+        {
+          const PlaceOnMesh place =
+            closestPlaceAt(point, mesh, triangles.triangles[found.triangle][0]);
+          result.distances[i] = std::sqrt(place.squaredDistance);
+          result.isBeyondBoundary[i] = isOnBoundary(place, mesh) ? 1 : 0;
+        }
+      }
+    });
+}
 
 /// Adds up what vertices rest on.
 class SupportSum
@@ -494,7 +534,7 @@ PointDistances distancesTo(
   result.distances.resize(result.points.size());
   result.isBeyondBoundary.resize(result.points.size());
   result.meanEdge = mesh.meanEdge();
-  const float near = MediansToLookAgain * places.medianOfSome(result.points, executor);
+  const float median = places.medianOfSome(result.points, executor);
   executor.forEachRange(result.points.size(), ExplainedPerRange,
     [&](std::size_t begin, std::size_t end)
     {
@@ -504,12 +544,13 @@ PointDistances distancesTo(
         float& distance = result.distances[i];
         distance = std::sqrt(place.squaredDistance);
         result.isBeyondBoundary[i] = isOnBoundary(place, mesh) ? 1 : 0;
-        if (distance > near)
+        if (distance > MediansToLookAgain * median)
         {
           distance = std::min(distance, places.distance(result.points[i]));
         }
       }
     });
+  findExactly(mesh, cloud, MediansAway * median, executor, result);
   return result;
 }
 

@@ -168,13 +168,14 @@ void warnOfDefects(const Reconstruction& result, std::vector<std::string>& warni
 
 void warnOfSlivers(const SurfaceReport& surface, std::vector<std::string>& warnings)
 {
-  const double share = double(surface.slivers) / double(std::max<std::size_t>(1, surface.triangles));
+  const double share =
+    double(surface.slivers) / double(std::max<std::size_t>(1, surface.triangles));
   if (share > MostSlivers)
   {
     warnings.push_back(percent(share) + " of the triangles (" + std::to_string(surface.slivers) +
-      ") are slivers, nearly lines, and could not be taken away: their normals tell nothing. Another "
-      "number of vertices or another seed may do without; where points are far denser than "
-      "elsewhere, thin them there.");
+      ") are slivers, nearly lines, and could not be taken away: their normals tell nothing. "
+      "Another number of vertices or another seed may do without; where points are far denser "
+      "than elsewhere, thin them there.");
   }
 }
 

@@ -78,6 +78,35 @@ TEST(Explanation, WhatIsExplained)
   }
 }
 
+// Promise: nothing is missing on a triangle that is so large that vertices of other parts are closer.
+TEST(Explanation, LargeTriangles)
+{
+  constexpr double HalfSide = 3., Below = -1.3;
+  TriangleMesh shape = makeSphere(40);
+  const auto first = std::uint32_t(shape.points.size());
+  for (const double y : { -HalfSide, HalfSide })
+  {
+    shape.points.emplace_back(-HalfSide, y, Below);
+    shape.points.emplace_back(HalfSide, y, Below);
+  }
+  shape.triangles.push_back({ first, first + 1, first + 2 });
+  shape.triangles.push_back({ first + 2, first + 1, first + 3 });
+  std::vector<Eigen::Vector3d> points = sphere(20000), table = clutter(4000, HalfSide);
+  for (Eigen::Vector3d& point : table)
+  {
+    point.z() = Below;
+  }
+  append(points, table);
+  const PointCloud cloud(points);
+  const Mesh mesh = buildMesh(shape, cloud);
+  const PointDistances distances = distancesTo(mesh, cloud, All);
+  EXPECT_LT(
+    *std::max_element(distances.distances.begin(), distances.distances.end()) * cloud.unit(), 0.01);
+  const Explanation explanation = explain(cloud, distances, {});
+  EXPECT_EQ(reached(explanation), 24000.);
+  EXPECT_TRUE(explanation.pieces.empty());
+}
+
 // Promise: a part of the scan that the mesh lacks is unreachable, and told by its center and size; a few
 // points of it are a small piece.
 TEST(Explanation, MissedPieces)
