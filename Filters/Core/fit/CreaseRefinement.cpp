@@ -82,8 +82,7 @@ bool hasCreases(const Mesh& mesh)
 }
 
 bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
-  double samplesPerVertex, FinishReport& report, const Executor& executor,
-  const Progress& progress)
+  double samplesPerVertex, FinishReport& report, const Executor& executor, const Progress& progress)
 {
   const auto defects = [&mesh]
   { return intersectingTriangles(mesh).size() + foldedEdges(mesh).size(); };
@@ -93,16 +92,14 @@ bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
     return false;
   }
   flipEdges(mesh, EdgesToFlip::Flat);
-  SurfaceFit fit(
-    cloud, mesh, std::size_t(samplesPerVertex * double(count)), executor);
+  SurfaceFit fit(cloud, mesh, std::size_t(samplesPerVertex * double(count)), executor);
   fit.settle();
   fit.findExactly();
   fit.keepBoundaries();
   fit.keep(atEdgesThatAreNotFlat(mesh));
   for (int round = 0; round < Rounds; ++round)
   {
-    const Progress part =
-      partOf(progress, 0.2 + 0.4 * round, 0.6 + 0.4 * round);
+    const Progress part = partOf(progress, 0.2 + 0.4 * round, 0.6 + 0.4 * round);
     const std::vector<Vector4> places(mesh.positions().begin(), mesh.positions().end());
     if (!fit.findPlaces(partOf(part, 0., 0.5)) ||
       !fit.moveVertices(report.smoothness, partOf(part, 0.5, 1.)) ||

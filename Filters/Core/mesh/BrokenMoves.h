@@ -12,7 +12,7 @@ namespace neuralmesh
 enum class AfterBrokenMoves
 {
   Sound,
-  Broken,    ///< some triangles intersect or fold, though none of their vertices have moved
+  Broken, ///< some triangles intersect or fold, though none of their vertices have moved
   Cancelled
 };
 

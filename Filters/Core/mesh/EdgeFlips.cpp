@@ -132,8 +132,8 @@ unsigned flipEdgesAround(Mesh& mesh, VertexIndex v, EdgesToFlip which)
       const VertexIndex next = before.next(slot);
       const bool opposite = next != NoVertex && mesh.ring(neighbor).contains(next) &&
         flipIfBetter(mesh, neighbor, next, retractsRims, which);
-      const bool spoke = mesh.ring(v).contains(neighbor) &&
-        flipIfBetter(mesh, v, neighbor, retractsRims, which);
+      const bool spoke =
+        mesh.ring(v).contains(neighbor) && flipIfBetter(mesh, v, neighbor, retractsRims, which);
       flips += unsigned(opposite) + unsigned(spoke);
       improved = improved || opposite || spoke;
     }

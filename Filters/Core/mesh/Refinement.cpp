@@ -68,8 +68,8 @@ bool refine(Mesh& mesh, std::size_t count, const Progress& progress, EdgesAfterS
     const VertexIndex added = mesh.split(v, plan->first, plan->steps, plan->position);
     if (edges != EdgesAfterSplit::Keep)
     {
-      flipEdgesAround(mesh, added,
-        edges == EdgesAfterSplit::Flip ? EdgesToFlip::All : EdgesToFlip::Flat);
+      flipEdgesAround(
+        mesh, added, edges == EdgesAfterSplit::Flip ? EdgesToFlip::All : EdgesToFlip::Flat);
     }
     candidates.push(candidate(mesh, v));
     candidates.push(candidate(mesh, added));

@@ -237,8 +237,7 @@ Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
     return result;
   }
   const std::uint64_t fewer = input.differentCount() / PointsThatTellCreases;
-  Reconstruction other =
-    learn(isSimplified ? asked : fewer, partOf(report, 1., 1.), {}, {});
+  Reconstruction other = learn(isSimplified ? asked : fewer, partOf(report, 1., 1.), {}, {});
   other.resumedIterations = result.resumedIterations;
   other.times.add(result.times);
   result.times = other.times;

@@ -179,12 +179,11 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
 }
 
 bool refineFinished(LearntMesh& learnt, const PointCloud& cloud, const Parameters& parameters,
-  std::size_t vertexCount, FinishReport& report, const Progress& progress,
-  const Executor& executor)
+  std::size_t vertexCount, FinishReport& report, const Progress& progress, const Executor& executor)
 {
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
-  return refineBesideCreases(once ? *once : cloud, learnt.mesh, vertexCount,
-    parameters.fitSamples, report, executor, progress);
+  return refineBesideCreases(once ? *once : cloud, learnt.mesh, vertexCount, parameters.fitSamples,
+    report, executor, progress);
 }
 
 void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,

@@ -30,10 +30,7 @@ std::vector<Eigen::Vector3d> pointsOfCube(std::size_t count, std::uint64_t seed 
   return generateCloud(trueCube().triangles, options);
 }
 
-PointCloud cubeCloud(std::size_t count)
-{
-  return PointCloud(pointsOfCube(count));
-}
+PointCloud cubeCloud(std::size_t count) { return PointCloud(pointsOfCube(count)); }
 
 Reconstruction made(const PointCloud& cloud, std::uint64_t vertices, std::uint64_t seed = 1)
 {
@@ -149,8 +146,8 @@ TEST(CreaseRefinement, CanBeEnded)
     SCOPED_TRACE(last);
     int left = last;
     Mesh mesh = run.surface;
-    EXPECT_FALSE(refineBesideCreases(cloud, mesh, 9000, 10., report, Executor::sequential(),
-      [&](double) { return left-- > 0; }));
+    EXPECT_FALSE(refineBesideCreases(
+      cloud, mesh, 9000, 10., report, Executor::sequential(), [&](double) { return left-- > 0; }));
     EXPECT_EQ(defectOf(mesh), "");
   }
 }
