@@ -78,12 +78,6 @@ public:
   void keepBoundaries();
   /// ... and so do the vertices for which this is not 0.
   void keep(std::span<const std::uint8_t> vertices);
-  void keepAlso(const std::vector<std::uint8_t>& kept)
-  {
-    isKept_.resize(kept.size());
-    for (std::size_t i = 0; i < kept.size(); ++i)
-      isKept_[i] |= kept[i];
-  }
   /// The lambda of the last moveVertices().
   double smoothness() const { return smoothness_; }
   /// Whether it is that of a cloud without noise to speak of.
