@@ -135,10 +135,10 @@ void vtkNeuralMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Preset: " << (this->Preset == THESIS ? "Thesis" : "Default") << "\n";
-#define PRINT_PROPERTY(property, parameter)                                                        \
-  os << indent << #property ": " << this->property << "\n";
+#define PRINT_PROPERTY(property, ...) os << indent << #property ": " << this->property << "\n";
   NEURAL_MESH_FOR_EACH_CHOICE(PRINT_PROPERTY)
   NEURAL_MESH_FOR_EACH_PRESET_PARAMETER(PRINT_PROPERTY)
+  NEURAL_MESH_FOR_EACH_PROPERTY_OF_POINTS(PRINT_PROPERTY)
 #undef PRINT_PROPERTY
   const auto print = [&](const char* name, const auto& place)
   { os << indent << name << ": " << place[0] << " " << place[1] << " " << place[2] << "\n"; };

@@ -3,7 +3,6 @@
 
 #include "mesh/Orientation.h"
 #include "vtkMeshArrays.h"
-#include "vtkNeuralMesh.h"
 #include "vtkNeuralMeshAlgorithm.h"
 #include "vtkPointCloudCollector.h"
 
@@ -20,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 namespace
@@ -32,6 +32,36 @@ vtkDataArray* FindNormalsOf(vtkPointData* data)
 {
   vtkDataArray* active = data->GetNormals();
   return active ? active : data->GetArray(NormalsName);
+}
+
+bool HasVectors(const vtkPointCloudCollector::Leaf& leaf, vtkDataArray* array)
+{
+  return array->GetNumberOfComponents() == 3 &&
+    array->GetNumberOfTuples() == leaf.PointSet->GetNumberOfPoints();
+}
+
+/** Which point arrays could be named as normals, as a sentence. */
+std::string TellVectors(const vtkPointCloudCollector& collector)
+{
+  std::set<std::string> names;
+  for (const auto& leaf : collector.GetLeaves())
+  {
+    vtkPointData* const data = leaf.PointSet->GetPointData();
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      vtkDataArray* array = data->GetArray(i);
+      if (array && array->GetName() && HasVectors(leaf, array))
+      {
+        names.insert(array->GetName());
+      }
+    }
+  }
+  std::string list;
+  for (const std::string& name : names)
+  {
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  return list.empty() ? "None has three components." : "Of three components are: " + list + ".";
 }
 
 /** A tuple of three components, of a point among all. */
@@ -111,8 +141,7 @@ void vtkNeuralMeshOrientation::FindViewpoints(vtkDataObject* input)
 /// Blocks may have some, or none; but not all none, if they were named.
 void vtkNeuralMeshOrientation::FindNormals()
 {
-  auto* const filter = vtkNeuralMesh::SafeDownCast(this->Filter);
-  if (filter && !filter->GetUseNormals())
+  if (!this->Filter->GetUseNormals())
   {
     return;
   }
@@ -122,9 +151,7 @@ void vtkNeuralMeshOrientation::FindNormals()
   {
     vtkPointData* const data = leaf.PointSet->GetPointData();
     vtkDataArray* array = named.empty() ? FindNormalsOf(data) : data->GetArray(named.c_str());
-    if (array &&
-      (array->GetNumberOfComponents() != 3 ||
-        array->GetNumberOfTuples() != leaf.PointSet->GetNumberOfPoints()))
+    if (array && !HasVectors(leaf, array))
     {
       areSound = false;
       array = nullptr;
@@ -136,7 +163,8 @@ void vtkNeuralMeshOrientation::FindNormals()
   {
     vtkErrorWithObjectMacro(this->Filter, << "There is no numeric point array of three components "
                                              "called "
-                                          << named << " for the normals.");
+                                          << named << " for the normals. "
+                                          << TellVectors(this->Collector));
     this->Sound = false;
   }
   else if (!areSound)
@@ -218,14 +246,8 @@ void vtkNeuralMeshOrientation::CopyArrays(
       const auto point = static_cast<std::uint32_t>(points[static_cast<std::size_t>(i)]);
       normals->SetTuple(i, VectorOf(this->Collector, this->Normals, point).data());
     }
-    if (named.empty())
-    {
-      part->GetPointData()->SetNormals(normals);
-    }
-    else
-    {
-      part->GetPointData()->AddArray(normals);
-    }
+    // As the active ones they do not count for point data that the mesh gets.
+    part->GetPointData()->SetNormals(normals);
   }
   if (!this->Views.empty() && !part->GetPointData()->HasArray(this->Views.front()->GetName()))
   {

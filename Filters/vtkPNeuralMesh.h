@@ -22,12 +22,12 @@
  * @par Processes
  * All processes must execute the filter, with the same properties. A process may have no points, or
  * no data arrays then. Point data arrives that all parts with points have, see CarryPointData; the
- * weights must have one type on all. The first mesh may lie on one process, or on all in pieces,
- * which are joined where points coincide. An error on one process ends the run on all, with a message
- * on each. SetAbortExecute(1) on any process, from an observer of ProgressEvent, say, ends the run on
- * all, and the mesh learnt so far is on process 0; selecting the points is not cut. Points that are
- * not finite, wherever they are, are among DroppedPoints; of those too far off only the ones that
- * were selected.
+ * weights must have one type on all, and normals that are named must be on all. The first mesh may
+ * lie on one process, or on all in pieces, which are joined where points coincide. An error on one
+ * process ends the run on all, with a message on each. SetAbortExecute(1) on any process, from an
+ * observer of ProgressEvent, say, ends the run on all, and the mesh learnt so far is on process 0;
+ * selecting the points is not cut. Points that are not finite, wherever they are, are among
+ * DroppedPoints; of those too far off only the ones that were selected.
  *
  * With one process it is what has been said, without any communication.
  *

@@ -406,7 +406,8 @@ class Reader:
         )
         is_preset_right = not parameter.in_preset or parameter.owner == CLASSES[0]
         self.check(is_preset_right, place, f"a preset sets nothing of {parameter.owner}")
-        is_engine_right = parameter.in_engine or parameter.owner == CLASSES[1]
+        self.check(parameter.in_engine or not parameter.in_preset, place, "the engine must know what a preset sets")
+        is_engine_right = parameter.in_engine or parameter.owner != CLASSES[2]
         self.check(is_engine_right, place, f"the engine must know what {parameter.owner} has")
         if "thesis" in entry or "thesis_text" in entry:
             self.check(parameter.in_preset, place, "no preset sets it: it has no value of the thesis")

@@ -135,7 +135,7 @@ def pairs(found, name, kind):
     """A macro for the names of properties, with those in the core."""
     algorithm, mesh, ensemble = CLASSES
     wanted = {
-        "choices": lambda p: p.owner == algorithm and not p.in_preset,
+        "choices": lambda p: p.owner == algorithm and not p.in_preset and p.in_engine,
         "preset": lambda p: p.in_preset,
         "run": lambda p: p.owner == mesh and p.in_engine,
         "ensemble": lambda p: p.owner == ensemble,
@@ -144,9 +144,10 @@ def pairs(found, name, kind):
     return macro(name, uses)
 
 
-def names(found, name):
-    """A macro for the properties that the core does not know."""
-    return macro(name, [f"use({p.name})" for p in found.parameters if not p.in_engine])
+def names(found, name, owner):
+    """A macro for the properties of a class that the core does not know."""
+    wanted = [p for p in of_class(found, [owner]) if not p.in_engine]
+    return macro(name, [f"use({p.name})" for p in wanted])
 
 
 def settings(found, name):

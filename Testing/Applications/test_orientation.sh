@@ -60,6 +60,10 @@ test_given()
     looks $up 'up direction' sheet.ply --normals off --up 0,0,$side
     expect 0 "$neuralmesh" reconstruct sheet.ply mesh.obj --vertices 200 --normals off
     grep -q '^sides      unknown$' out || { cat out; fail "normals count that are off"; }
+    mv mesh.obj off.obj
+    sed 's/ 0 0 [-1]*$//; /float n/d' sheet.ply > plain.ply
+    expect 0 "$neuralmesh" reconstruct plain.ply mesh.obj --vertices 200
+    cmp mesh.obj off.obj || fail "the mesh without use of normals is not that of points without"
     printf '1 1 %s\n0 0 %s\n' ${side} ${side} > stations.xyz
     looks $up viewpoints sheet.xyz --views stations.xyz
   done
@@ -68,7 +72,7 @@ test_given()
 # Promise: wrong use is told before anything is done.
 test_wrong_use()
 {
-  make_sheet
+  make_sheet 1
   local place
   for place in 1,2 1,2,3,4 1,2,x nan,0,1 1,inf,2 '' '1, 2,3'; do
     expect 2 "$neuralmesh" reconstruct sheet.xyz mesh.obj --viewpoint "$place"
@@ -85,8 +89,9 @@ test_wrong_use()
   expect 1 "$neuralmesh" reconstruct sheet.xyz mesh.obj --views empty.xyz
   expect 1 "$neuralmesh" reconstruct sheet.xyz mesh.obj --viewpoint 0,0,1 --view-array Station
   grep -q 'called Station for the views' err || { cat err; fail "not the reason"; }
-  expect 1 "$neuralmesh" reconstruct sheet.xyz mesh.obj --normals Directions
-  grep -q 'called Directions for the normals' err || { cat err; fail "not the reason"; }
+  expect 1 "$neuralmesh" reconstruct sheet.ply mesh.obj --normals Directions
+  grep -q 'called Directions for the normals. Of three components are: Normals\.' err ||
+    { cat err; fail "not the reason"; }
   [ ! -e mesh.obj ] || fail "there is a mesh"
 }
 

@@ -120,6 +120,14 @@ Outcome Run(
   return outcome;
 }
 
+/** Whether places and triangles are the same, to the bit. */
+bool IsSame(const Outcome& a, const Outcome& b)
+{
+  return FilterTesting::SameBytes(a.Mesh->GetPoints()->GetData(), b.Mesh->GetPoints()->GetData()) &&
+    FilterTesting::SameBytes(
+      a.Mesh->GetPolys()->GetConnectivityArray(), b.Mesh->GetPolys()->GetConnectivityArray());
+}
+
 /** Whether a sheet looks up or down, and is known to by that. */
 bool Looks(const Outcome& outcome, bool isUp, const std::string& by)
 {
@@ -233,72 +241,6 @@ int CheckNormals()
     blocks->SetBlock(1, sheet);
     CHECK(Looks(Run(blocks), isUp, "normals"));
   }
-  for (const bool isUp : { true, false })
-  {
-    // Those that are named count, and the active ones do not.
-    const auto sheet = Sheet();
-    const double up = isUp ? 1.0 : -1.0;
-    sheet->GetPointData()->SetNormals(
-      Constant<vtkFloatArray>("Normals", sheet->GetNumberOfPoints(), { 0, 0, -up }));
-    sheet->GetPointData()->AddArray(
-      Constant<vtkIntArray>("Directions", sheet->GetNumberOfPoints(), { 0, 0, 3.0 * up }));
-    const auto named = [](auto* filter) { filter->SetNormalArrayName("Directions"); };
-    CHECK(Looks(Run(sheet, named), isUp, "normals"));
-    vtkNew<vtkPNeuralMesh> parallel;
-    parallel->SetController(nullptr);
-    parallel->SetNumberOfVertices(200);
-    parallel->SetInputData(sheet);
-    parallel->SetNormalArrayName("Directions");
-    parallel->CarryPointDataOff();
-    parallel->Update();
-    CHECK(ShareUpwards(parallel->GetOutput()) == (isUp ? 1.0 : 0.0));
-
-    // A block may lack them, but not all blocks, and they must be vectors.
-    vtkNew<vtkMultiBlockDataSet> blocks;
-    blocks->SetBlock(0, Sheet());
-    blocks->SetBlock(1, sheet);
-    CHECK(Looks(Run(blocks, named), isUp, "normals"));
-    const Outcome missing = Run(Sheet(), named);
-    CHECK(missing.Errors == 1 && missing.Mesh->GetNumberOfPoints() == 0);
-    CHECK(missing.Text.find("called Directions for the normals") != std::string::npos);
-    sheet->GetPointData()->AddArray(
-      Constant<vtkIntArray>("Single", sheet->GetNumberOfPoints(), { 1 }));
-    const Outcome single = Run(sheet, [](auto* filter) { filter->SetNormalArrayName("Single"); });
-    CHECK(single.Errors == 1 && single.Mesh->GetNumberOfPoints() == 0);
-
-    // Without use, the mesh is that of points without normals, whatever is named.
-    for (const char* name : { "", "Directions", "Nothing" })
-    {
-      const Outcome unused = Run(sheet,
-        [name](auto* filter)
-        {
-          filter->UseNormalsOff();
-          filter->SetNormalArrayName(name);
-        });
-      CHECK(IsUnknown(unused) && unused.Errors == 0 && unused.Warnings == 0);
-      const Outcome plain = Run(Sheet());
-      CHECK(unused.Mesh->GetNumberOfPoints() == plain.Mesh->GetNumberOfPoints());
-      for (vtkIdType i = 0; i < plain.Mesh->GetNumberOfPoints(); ++i)
-      {
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          CHECK(unused.Mesh->GetPoint(i)[axis] == plain.Mesh->GetPoint(i)[axis]);
-        }
-      }
-    }
-  }
-  vtkNew<vtkNeuralMesh> filter;
-  CHECK(filter->GetUseNormals() == 1 && std::string(filter->GetNormalArrayName()).empty());
-  filter->UseNormalsOff();
-  const vtkMTimeType before = filter->GetMTime();
-  filter->SetNormalArrayName("Directions");
-  CHECK(filter->GetMTime() > before);
-  std::ostringstream text;
-  filter->Print(text);
-  CHECK(text.str().find("UseNormals: 0") != std::string::npos);
-  CHECK(text.str().find("NormalArrayName: Directions") != std::string::npos);
-  filter->SetNormalArrayName(nullptr);
-  CHECK(std::string(filter->GetNormalArrayName()).empty());
   for (const double useless : { 0.0, NotANumber })
   {
     const auto sheet = Sheet();
@@ -313,6 +255,149 @@ int CheckNormals()
   const Outcome outcome = Run(sheet);
   CHECK(IsUnknown(outcome) && outcome.Warnings == 1);
   CHECK(outcome.Text.find("3 components for each point") != std::string::npos);
+  return EXIT_SUCCESS;
+}
+
+/** Normals that are named, on all processes, tell the side, and arrive only where they would else. */
+bool LooksOnProcesses(vtkDataObject* cloud, const char* name, bool carries, bool isUp)
+{
+  const Setting set = [=](auto* filter)
+  {
+    filter->SetNormalArrayName(name);
+    filter->SetCarryPointData(carries);
+  };
+  vtkNew<vtkPNeuralMesh> parallel;
+  parallel->SetController(nullptr);
+  parallel->SetNumberOfVertices(200);
+  parallel->SetInputDataObject(cloud);
+  set(parallel);
+  parallel->Update();
+  vtkPolyData* mesh = parallel->GetOutput();
+  const Outcome alone = Run(cloud, set);
+  return OrientedBy(mesh) == "normals" && ShareUpwards(mesh) == (isUp ? 1.0 : 0.0) &&
+    mesh->GetPointData()->GetNumberOfArrays() == alone.Mesh->GetPointData()->GetNumberOfArrays();
+}
+
+int CheckNamedNormals()
+{
+  for (const bool isUp : { true, false })
+  {
+    // Those that are named count, and the active ones do not.
+    const auto sheet = Sheet();
+    const double up = isUp ? 1.0 : -1.0;
+    sheet->GetPointData()->SetNormals(
+      Constant<vtkFloatArray>("Normals", sheet->GetNumberOfPoints(), { 0, 0, -up }));
+    sheet->GetPointData()->AddArray(
+      Constant<vtkIntArray>("Directions", sheet->GetNumberOfPoints(), { 0, 0, 3.0 * up }));
+    const auto named = [](auto* filter) { filter->SetNormalArrayName("Directions"); };
+    CHECK(Looks(Run(sheet, named), isUp, "normals"));
+    // A block may lack them, but not all blocks, and they must be vectors.
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    blocks->SetBlock(0, Sheet());
+    blocks->SetBlock(1, sheet);
+    CHECK(Looks(Run(blocks, named), isUp, "normals"));
+
+    // On all processes, of which here there is one: the mesh gets no data that it would not get else.
+    for (const bool carries : { true, false })
+    {
+      CHECK(LooksOnProcesses(blocks, "Directions", carries, isUp));
+      CHECK(LooksOnProcesses(sheet, "Directions", carries, isUp));
+      CHECK(LooksOnProcesses(sheet, "Normals", carries, !isUp));
+    }
+    const Outcome missing = Run(Sheet(), named);
+    CHECK(missing.Errors == 1 && missing.Mesh->GetNumberOfPoints() == 0);
+    CHECK(missing.Text.find("called Directions for the normals. None has three components.") !=
+      std::string::npos);
+    sheet->GetPointData()->AddArray(
+      Constant<vtkIntArray>("Single", sheet->GetNumberOfPoints(), { 1 }));
+    const Outcome single = Run(sheet, [](auto* filter) { filter->SetNormalArrayName("Single"); });
+    CHECK(single.Errors == 1 && single.Mesh->GetNumberOfPoints() == 0);
+    CHECK(single.Text.find("called Single for the normals. Of three components are: Directions, "
+                           "Normals.") != std::string::npos);
+
+    // Without use, the mesh is that of points without normals, whatever is named.
+    for (const char* name : { "", "Directions", "Nothing" })
+    {
+      const Outcome unused = Run(sheet,
+        [name](auto* filter)
+        {
+          filter->UseNormalsOff();
+          filter->SetNormalArrayName(name);
+        });
+      CHECK(IsUnknown(unused) && unused.Errors == 0 && unused.Warnings == 0);
+      CHECK(IsSame(unused, Run(Sheet())));
+    }
+  }
+  return EXIT_SUCCESS;
+}
+
+/** A sphere with noise, and its normals as they are without. */
+vtkNew<vtkPolyData> NoisySphere()
+{
+  const auto exact = FilterTesting::SpherePoints(2000);
+  vtkNew<vtkMinimalStandardRandomSequence> random;
+  random->SetSeed(3);
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < exact->GetNumberOfPoints(); ++i)
+  {
+    const double* point = exact->GetPoint(i);
+    const double factor = random->GetNextRangeValue(0.95, 1.05);
+    points->InsertNextPoint(factor * point[0], factor * point[1], factor * point[2]);
+    normals->InsertNextTuple(point);
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  cloud->GetPointData()->AddArray(normals);
+  return cloud;
+}
+
+/// The fit uses those that are named as it uses active ones, and none that are off.
+int CheckFit()
+{
+  const auto cloud = NoisySphere();
+  vtkDataArray* normals = cloud->GetPointData()->GetArray("Normals");
+  const Outcome used = Run(cloud);
+  cloud->GetPointData()->SetNormals(normals);
+  CHECK(IsSame(Run(cloud), used));
+  const Outcome off = Run(cloud, [](auto* filter) { filter->UseNormalsOff(); });
+  CHECK(!IsSame(off, used));
+
+  normals->SetName("Directions");
+  cloud->GetPointData()->SetActiveNormals(nullptr);
+  const auto named = [](auto* filter) { filter->SetNormalArrayName("Directions"); };
+  CHECK(IsSame(Run(cloud, named), used));
+  CHECK(IsSame(Run(cloud), off));
+
+  // What tells nothing is as if there were none, but for the warning.
+  for (const std::vector<double>& useless : std::vector<std::vector<double>>{
+         { 0, 0, 0 }, { NotANumber, NotANumber, NotANumber }, { 0, 0, 1 } })
+  {
+    cloud->GetPointData()->AddArray(
+      Constant<vtkDoubleArray>("Directions", cloud->GetNumberOfPoints(), useless));
+    const Outcome outcome = Run(cloud, named);
+    CHECK(IsSame(outcome, off) && outcome.Errors == 0 && outcome.Warnings == off.Warnings + 1);
+    CHECK(outcome.Text.find("normals of the input tell nothing") != std::string::npos);
+  }
+  return EXIT_SUCCESS;
+}
+
+int CheckNormalProperties()
+{
+  vtkNew<vtkNeuralMesh> filter;
+  CHECK(filter->GetUseNormals() == 1 && std::string(filter->GetNormalArrayName()).empty());
+  filter->UseNormalsOff();
+  const vtkMTimeType before = filter->GetMTime();
+  filter->SetNormalArrayName("Directions");
+  CHECK(filter->GetMTime() > before);
+  std::ostringstream text;
+  filter->Print(text);
+  CHECK(text.str().find("UseNormals: 0") != std::string::npos);
+  CHECK(text.str().find("NormalArrayName: Directions") != std::string::npos);
+  filter->SetNormalArrayName(nullptr);
+  CHECK(std::string(filter->GetNormalArrayName()).empty());
   return EXIT_SUCCESS;
 }
 
@@ -419,6 +504,16 @@ int CheckFile()
     filter->Update();
     CHECK(OrientedBy(filter->GetOutput()) == "normals");
     CHECK(ShareUpwards(filter->GetOutput()) == (side > 0.f ? 1.0 : 0.0));
+    filter->UseNormalsOff();
+    filter->Update();
+    CHECK(OrientedBy(filter->GetOutput()) == "nothing");
+    filter->UseNormalsOn();
+    filter->SetNormalArrayName("Directions");
+    vtkNew<FilterTesting::MessageCounter> messages;
+    messages->Observe(filter);
+    filter->Update();
+    CHECK(messages->Errors > 0);
+    CHECK(messages->AllText.find("Of three components are: Normals.") != std::string::npos);
     std::remove(name);
   }
   return EXIT_SUCCESS;
@@ -462,6 +557,20 @@ int CheckStream()
               sheet->GetPointData()->SetNormals(
                 Constant<vtkFloatArray>("Normals", sheet->GetNumberOfPoints(), { 0, 0.1, side }));
               stream->AddPoints(sheet);
+              stream->UseNormalsOff();
+              sheet->GetPointData()->SetNormals(Constant<vtkFloatArray>(
+                "Normals", sheet->GetNumberOfPoints(), { 0, 0, -9 * side }));
+              stream->AddPoints(sheet);
+              stream->AddPoints(sheet);
+            }) == expected);
+    CHECK(share(
+            [&](auto* stream)
+            {
+              const auto sheet = Sheet();
+              sheet->GetPointData()->AddArray(Constant<vtkFloatArray>(
+                "Directions", sheet->GetNumberOfPoints(), { 0, 0.1, side }));
+              stream->SetNormalArrayName("Directions");
+              stream->AddPoints(sheet);
             }) == expected);
     CHECK(share(
             [&](auto* stream)
@@ -477,8 +586,8 @@ int CheckStream()
 
 int TestNeuralMeshOrientation(int, char*[])
 {
-  for (const auto check : { CheckVolume, CheckProperties, CheckNormals, CheckViews,
-         CheckUselessViewpoints, CheckFile, CheckStream })
+  for (const auto check : { CheckVolume, CheckProperties, CheckNormals, CheckNamedNormals, CheckFit,
+         CheckNormalProperties, CheckViews, CheckUselessViewpoints, CheckFile, CheckStream })
   {
     if (check() != EXIT_SUCCESS)
     {

@@ -163,8 +163,9 @@ int CheckCompleteness()
 #undef SWITCH_PROPERTY
 #undef PRINTED_PROPERTY
   std::set<std::string> known;
-#define INSERT(name, parameter) known.insert(#name);
+#define INSERT(name, ...) known.insert(#name);
   NEURAL_MESH_FOR_EACH_CHOICE(INSERT)
+  NEURAL_MESH_FOR_EACH_PROPERTY_OF_POINTS(INSERT)
 #undef INSERT
   for (const Property& property : PresetProperties(Combinations[0]))
   {

@@ -90,7 +90,9 @@ class BadLists(ListTest):
             "RemovalLimit: no preset sets it": {"preset": False},
             "RemovalLimit: class is none that has parameters": {"class": "vtkPoints", "thesis": None},
             "RemovalLimit: engine is no type": {"engine": "long"},
-            "RemovalLimit: the engine must know what vtkNeuralMeshAlgorithm has": {"engine": False},
+            "RemovalLimit: the engine must know what a preset sets": {"engine": False},
+            "RemovalLimit: the engine must know what vtkNeuralMeshEnsemble has": {
+                "engine": False, "class": "vtkNeuralMeshEnsemble", "preset": False, "thesis": None},
             "RemovalLimit: a preset sets nothing of vtkNeuralMesh": {"class": "vtkNeuralMesh", "preset": True},
             "RemovalLimit: panel can only be 'shown'": {"panel": "hidden"},
             "RemovalLimit: short has more than": {"short": "x" * 100},

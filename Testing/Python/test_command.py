@@ -286,6 +286,38 @@ class Beside(CommandTest):
                 lines = [line for line in wanted[0].split(b"\n") if b"VTK" not in line and b"vtk" not in line]
                 self.assertEqual(sorted(found[0].split(b"\n")), sorted(lines))
 
+    # Promise: normals that are named, or off, are the same ones, whatever the active ones are called.
+    @unittest.skipUnless(HAS_VTK, "a .vtp needs VTK")
+    def test_normals(self):
+        points = np.loadtxt(self.folder / "ball.xyz")
+        normals = "".join(
+            f'<DataArray type="Float64" Name="{name}" NumberOfComponents="3" format="ascii">'
+            + " ".join(map(str, (sign * points).ravel())) + "</DataArray>"
+            for name, sign in (("Inwards", -1), ("Outwards", 1))
+        )  # fmt: skip
+        (self.folder / "ball.vtp").write_text(
+            '<VTKFile type="PolyData" version="1.0"><PolyData><Piece NumberOfPoints="3000">'
+            f'<PointData Normals="Inwards">{normals}</PointData><Points>'
+            '<DataArray type="Float64" NumberOfComponents="3" format="ascii">'
+            + " ".join(map(str, points.ravel()))
+            + "</DataArray></Points></Piece></PolyData></VTKFile>"
+        )
+        meshes = []
+        for name in ("Inwards", "Outwards", "off", ""):
+            options = ["--vertices", 300, *(["--normals", name] if name else [])]
+            found = self.run_command("reconstruct", "ball.vtp", "p.stl", *options)
+            wanted = self.run_command("reconstruct", "ball.vtp", "c.stl", *options, command=[PROGRAM])
+            self.assertEqual(self.comparable(found), self.comparable(wanted))
+            self.assertIn("sides      by " + ("volume" if name == "off" else "normals"), found[0])
+            meshes.append((self.folder / "p.stl").read_bytes()[80:])
+            self.assertEqual(meshes[-1], (self.folder / "c.stl").read_bytes()[80:])
+        self.assertNotEqual(meshes[0], meshes[1])
+        self.assertEqual(meshes[0], meshes[3])
+        found, wanted = self.both("reconstruct", "ball.vtp", "p.stl", "--normals", "Upwards")
+        self.assertEqual(found, wanted)
+        self.assertIn("Of three components are: Inwards, Outwards.", found[1])
+        self.assertEqual(found[2], 1)
+
     # Promise: text and triangles in .obj are the same, and the triangles of .stl.
     def test_formats(self):
         for name, command in (("p", COMMAND), ("c", [PROGRAM])):

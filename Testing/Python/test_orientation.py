@@ -7,7 +7,7 @@ import warnings
 import neuralmesh
 import numpy as np
 import support
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 SIDES = (1.0, -1.0)
 
@@ -70,6 +70,25 @@ class Sides(unittest.TestCase):
         self.assertEqual(names, {"Normals", "Activity", "Boundary", "Residual", "Support", "View"})
         self.assertEqual(dataset.GetPointData().GetNumberOfArrays(), 0)
 
+    # Promise: normals may be an array of the dataset, by its name, which counts in place of the active
+    # ones; none count that are "off".
+    def test_named_normals(self):
+        for side in SIDES:
+            dataset = support.point_set(sheet())
+            for name, height in (("Normals", -side), ("Slope", side)):
+                array = numpy_to_vtk(np.zeros((3000, 3)) + (0, 0, height), deep=True)
+                array.SetName(name)
+                dataset.GetPointData().AddArray(array)
+            dataset.GetPointData().SetActiveNormals("Normals")
+            mesh = neuralmesh.reconstruct(dataset, 200, normals="Slope")
+            self.assertEqual((upwards(mesh), told_by(mesh)), (side > 0, "normals"))
+            for given in ({"normals": "off"}, {"use_normals": False}):
+                mesh = neuralmesh.reconstruct(dataset, 200, **given)
+                self.assertEqual(told_by(mesh), "nothing")
+            message = "called Up for the normals. Of three components are: Normals, Slope."
+            with self.assertRaisesRegex(ValueError, message):
+                neuralmesh.reconstruct(dataset, 200, normals="Up")
+
     # Promise: what tells nothing is a warning.
     def test_warnings(self):
         for given in ({"normals": np.zeros((3000, 3))}, {"viewpoints": (np.nan, 0, 0)},
@@ -94,6 +113,7 @@ class Sides(unittest.TestCase):
             ({"views": np.zeros(3000)}, "views tell nothing without viewpoints"),
             ({"viewpoints": (0, 0, 1), "views": np.zeros(5)}, r"views must be .* \(3000,\)"),
             ({"viewpoints": (0, 0, 1), "views": "Missing"}, "called Missing for the views"),
+            ({"normals": "Missing"}, "called Missing for the normals. None has three components."),
         ):
             with self.subTest(str(given)[:60]), self.assertRaisesRegex(ValueError, wanted):
                 neuralmesh.reconstruct(sheet(), 200, **given)
@@ -110,6 +130,19 @@ class Streams(unittest.TestCase):
                 stream.learn(20000)
                 for finish in (True, False):
                     self.assertEqual(upwards(stream.mesh(finish)), side > 0)
+            dataset = support.point_set(sheet())
+            array = numpy_to_vtk(np.zeros((3000, 3)) + (0, 0, side), deep=True)
+            array.SetName("Slope")
+            dataset.GetPointData().SetNormals(array)
+            stream = neuralmesh.stream(200)
+            stream.add_points(dataset, normals="off")
+            stream.learn(20000)
+            self.assertEqual(told_by(stream.mesh()), "nothing")
+            with self.assertRaisesRegex(ValueError, "called Up for the normals"):
+                stream.add_points(dataset, normals="Up")
+            stream.add_points(dataset, normals="Slope")
+            stream.learn(20000)
+            self.assertEqual((upwards(stream.mesh()), told_by(stream.mesh())), (side > 0, "normals"))
             stream = neuralmesh.stream(200, up=(0, 0, side))
             stream.add_points(sheet())
             stream.learn(20000)

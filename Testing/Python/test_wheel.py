@@ -208,6 +208,38 @@ class Functions(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "missing.ply"):
             neuralmesh.reconstruct("missing.ply", 300)
 
+    # Promise: normals are given as an array, by the name of one of a Mesh, or by that of a file, and are
+    # left out when they are "off": then the mesh is that of the points alone.
+    def test_normals(self):
+        cloud = ball() * np.random.default_rng(2).uniform(0.95, 1.05, (4000, 1))
+        none = np.empty((0, 3), np.int64)
+        given = neuralmesh.Mesh(cloud, none, {"Normals": -ball(), "Slope": ball()})
+
+        def learnt(points, normals=None):
+            return points_of(neuralmesh.reconstruct(points, 300, normals=normals)).tobytes()
+
+        self.assertEqual(learnt(given, "Slope"), learnt(cloud, ball()))
+        self.assertEqual(learnt(given, "Normals"), learnt(given))
+        self.assertEqual(learnt(given, "off"), learnt(cloud))
+        self.assertNotEqual(learnt(given), learnt(cloud))
+        message = "called Up for the normals. Of three components are: Normals, Slope."
+        with self.assertRaisesRegex(ValueError, message):
+            neuralmesh.reconstruct(given, 300, normals="Up")
+
+        header = "ply\nformat binary_little_endian 1.0\nelement vertex 4000\n" + "".join(
+            f"property double {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz")
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "scan.ply"
+            path.write_bytes((header + "end_header\n").encode() + np.c_[cloud, -ball()].tobytes())
+            self.assertEqual(learnt(path, "off"), learnt(cloud))
+            self.assertEqual(learnt(path, "Normals"), learnt(path))
+            self.assertNotEqual(learnt(path), learnt(cloud))
+            with self.assertRaisesRegex(ValueError, "Of three components are: Normals."):
+                neuralmesh.reconstruct(path, 300, normals="Slope")
+            with self.assertRaisesRegex(ValueError, "normals cannot be given for points in a file"):
+                neuralmesh.reconstruct(path, 300, normals=ball())
+
     # Promise: a stream learns while points arrive.
     def test_stream(self):
         stream = neuralmesh.stream(300)

@@ -90,8 +90,8 @@ def reconstruct(
                 viewpoint was seen from there. An array arrives on the mesh as `View`.
             normals: Normals of the points, of shape (N, 3), if the dataset has none, or the name of a point
                 array that has them in place of the active ones. They may be noisy: they tell which side of
-                the surface is the outer one, and of noisy points the fit uses them. use_normals=False has
-                those of a dataset count for nothing.
+                the surface is the outer one, and of noisy points the fit uses them. "off", which is
+                use_normals=False, has those of a dataset or a file count for nothing.
             up: Where up is, three numbers: most of an open surface looks there.
             checkpoint: The path of a file in which the run leaves its state, every checkpoint_interval
                 seconds and when it is ended early. If the file exists, the run goes on from there: the
@@ -232,6 +232,12 @@ def take_input(
     """The points with what is known of each, as reconstruct() takes them; None for those in a file, which
     the filter is told.
     """
+    if isinstance(normals, str):
+        if normals == "off":
+            mesh.UseNormalsOff()
+        else:
+            mesh.SetNormalArrayName(normals)
+        normals = None
     if isinstance(points, (str, os.PathLike)):
         for name, values in (("weights", weights), ("views", views), ("normals", normals)):
             if values is not None:
@@ -247,9 +253,7 @@ def take_input(
             raise ValueError("views tell nothing without viewpoints")
         cloud, name = _world.with_array(cloud, views, "views", "View")
         mesh.SetViewArrayName(name)
-    if isinstance(normals, str):
-        mesh.SetNormalArrayName(normals)
-    elif normals is not None:
+    if normals is not None:
         cloud = _world.with_normals(cloud, normals)
     return cloud
 

@@ -35,6 +35,7 @@ class Stream:
 
     def __init__(self, algorithm: Any):
         self._algorithm = algorithm
+        self._uses_normals = algorithm.GetUseNormals()
         self._given: object = None  # the points that came last
 
     def add_points(
@@ -42,7 +43,7 @@ class Stream:
         points: ArrayLike | vtkPointSet | Mesh,
         *,
         viewpoint: ArrayLike | None = None,
-        normals: ArrayLike | None = None,
+        normals: ArrayLike | str | None = None,
     ) -> None:
         """Add points, which count from the next learn() on.
 
@@ -52,14 +53,17 @@ class Stream:
                 proportion to the reservoir.
             viewpoint: Where the scanner stood that saw these points, of shape (3,): the surface is
                 turned to look there.
-            normals: As in reconstruct(); what of both tells is the viewpoint.
+            normals: As in reconstruct(), of these points; what of both tells is the viewpoint.
 
         Raises:
             ValueError: points, viewpoint or normals are something else.
         """
         cloud = _world.take_points(points, blocks=False)
-        if normals is not None:
+        name = normals if isinstance(normals, str) else ""
+        if normals is not None and not name:
             cloud = _world.with_normals(cloud, normals)
+        self._algorithm.SetNormalArrayName("" if name == "off" else name)
+        self._algorithm.SetUseNormals(int(self._uses_normals and name != "off"))
         self._algorithm.RemoveAllViewpoints()
         if viewpoint is not None:
             self._algorithm.SetViewpoint(place(viewpoint, "viewpoint"))

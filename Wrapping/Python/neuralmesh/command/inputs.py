@@ -61,6 +61,7 @@ def _joined(parts: list[Mesh]) -> Mesh:
         arrays = [part.point_data[name] for part in parts if name in part.point_data]
         if len(arrays) == len(parts) and all(_is_like(array, first) for array in arrays):
             joined.point_data[name] = np.concatenate(arrays)
+    joined.normals_name = parts[0].normals_name
     if parts[0].scalars in joined.point_data:
         joined.scalars = parts[0].scalars
     missing = sum(int(part.field_data.get(_MISSING, 0)) for part in parts)

@@ -152,7 +152,7 @@ class NeuralMeshAlgorithm:
             viewpoints = viewpoints if cloud.viewpoints is None else cloud.viewpoints
             problems += cloud.viewpoint_problems
         normals = None
-        if cloud is not None and self._values.get("UseNormals", 1):
+        if cloud is not None and self._values["UseNormals"]:
             normals = cloud.normals(self._normal_array_name)
             problems += [] if self._normal_array_name else cloud.normal_problems[:1]
         views = None

@@ -23,6 +23,7 @@ class Block:
     points: np.ndarray  # of shape (N, 3), 4- or 8-byte floats, contiguous
     data: dict[str, np.ndarray] = field(default_factory=dict)  # that the mesh gets, too
     normals: np.ndarray | None = None
+    normals_name: str = "Normals"
     scalars: str = ""  # the name of the active ones
     # Of a point set of VTK: itself, which of its points these are (None: all), and its arrays.
     dataset: Any = None
@@ -48,8 +49,16 @@ class Block:
 
     def vectors(self, name: str) -> np.ndarray | None:
         """Those of an array that may be the normals, and that the mesh then does not get."""
-        is_plain = self.dataset is None and name == "Normals"
+        is_plain = self.dataset is None and name == self.normals_name
         return self.normals if is_plain else self.values(name)
+
+    def names(self) -> list[str]:
+        """All that vectors() may be asked for."""
+        if self.dataset is None:
+            return [self.normals_name, *self.data]
+        data = self.dataset.GetPointData()
+        names = (data.GetArrayName(i) for i in range(data.GetNumberOfArrays()))
+        return [name for name in names if name]
 
 
 @dataclass
@@ -83,7 +92,8 @@ class Cloud:
         found = [block.vectors(name) if name else block.normals for block in self.blocks]
         if name and self.blocks and (all(one is None for one in found) or _are_odd(found)):
             raise ValueError(
-                f"There is no numeric point array of three components called {name} for the normals."
+                f"There is no numeric point array of three components called {name} for the normals. "
+                + _tell_vectors(self.blocks)
             )
         if all(one is None for one in found):
             return None
@@ -112,6 +122,19 @@ class Cloud:
     @property
     def scalars(self) -> str:
         return self.blocks[0].scalars if self.blocks else ""
+
+
+def _tell_vectors(blocks: list[Block]) -> str:
+    """Which point arrays could be named as normals, as a sentence."""
+    names = {
+        name
+        for block in blocks
+        for name in block.names()
+        if (found := block.vectors(name)) is not None and not _are_odd([found])
+    }
+    if not names:
+        return "None has three components."
+    return f"Of three components are: {', '.join(sorted(names))}."
 
 
 def _are_odd(arrays: list[np.ndarray | None]) -> bool:
@@ -155,7 +178,7 @@ def _of_mesh(mesh: Mesh) -> Cloud:
                 f"point data {name} must have a row for each of {len(points)} points, and is of shape "
                 f"{values.shape}"
             )
-    block = Block(points, data, data.pop("Normals", None), mesh.scalars)
+    block = Block(points, data, data.pop("Normals", None), mesh.normals_name, mesh.scalars)
     cloud = Cloud([block] if len(block.points) > 0 else [])
     viewpoints = mesh.field_data.get("Viewpoints")
     if viewpoints is not None:
@@ -213,6 +236,7 @@ def _block_of(leaf: Any, problems: list[str]) -> Block:
         )
     elif normals:
         block.normals = block.of_points(normals)
+        block.normals_name = normals.GetName() or "Normals"
     ids = (data.GetNormals(), data.GetGlobalIds(), data.GetPedigreeIds())
     for i in range(data.GetNumberOfArrays()):
         array = data.GetAbstractArray(i)

@@ -42,6 +42,8 @@ class Mesh:
     lines: list[np.ndarray] = field(default_factory=list)
     corners: np.ndarray | None = None
     cell_data: dict[str, Any] = field(default_factory=dict)
+    # What the point data `Normals` is called where it came from.
+    normals_name: str = field(default="Normals", repr=False, compare=False)
 
     @property
     def warnings(self) -> list[str]:

@@ -48,7 +48,9 @@ def mesh_of(data: Any) -> Mesh:
     is_whole = len(block.points) == data.GetNumberOfPoints()  # no ghosts among them
     if data.IsA("vtkPolyData") and is_whole:
         triangles = polygons_of(data)[1]
-    return Mesh(block.points, triangles, point_data, fields, block.scalars)
+    mesh = Mesh(block.points, triangles, point_data, fields, block.scalars)
+    mesh.normals_name = block.normals_name
+    return mesh
 
 
 def vtk_bytes_of(data: Any, extension: str, path: str) -> bytes:
