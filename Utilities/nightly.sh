@@ -18,9 +18,10 @@ random_runs=${NEURALMESH_RANDOM_RUNS:-5000}
 random_first=${NEURALMESH_RANDOM_FIRST:-$(($(date +%s) / 86400 * 1000000))}
 debian=$PWD/build-debian
 
-steps=(style tests random sweep address thread coverage fuzzing laboratory packages wheels debians)
+steps=(style alone tests random sweep address thread coverage fuzzing laboratory packages wheels debians)
 declare -A what=(
   [style]="clang-format, cppcheck, and clang-tidy of every source"
+  [alone]="every source compiled by itself, as a user's own configuration does"
   [tests]="the tests that have the label nightly or sanitized"
   [random]="$random_runs runs of each kind with any parameters, from number $random_first on"
   [sweep]="every method, order, jump and topology on real scans"
@@ -35,6 +36,15 @@ declare -A what=(
 )
 
 step_style() { bash Utilities/check_style.sh --all; }
+
+# Scripts compile some sources at a time, which hides what a source lacks.
+step_alone()
+{
+  install_packages "${build_packages[@]}"
+  configure build-alone -DCMAKE_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
+    -DNEURALMESH_WARNINGS_AS_ERRORS=ON
+  cmake --build build-alone
+}
 
 build_for_tests()
 {
