@@ -25,6 +25,7 @@ import table
 LIMIT = 150  # seconds of CPU time for a mesh
 HERE = os.path.dirname(os.path.abspath(__file__))
 COVERAGE = ("open", "small")  # kinds of clouds that are no complete surface
+TREATED = {"clean": "clean", "rough": "clean", "noisy": "noisy"}  # as peer.py knows them; the others are hard
 CLOSED = ("mean", "rms", "hausdorff", "normals", "crossings")
 OPEN = ("missed", "invented", "crossings", "slivers")
 OPEN_WITH_REFERENCE = ("seen", "inside")
@@ -83,7 +84,7 @@ def attempts(arguments, scan, kind, vertices):
         for setting in of_kind[kind]:
             mesh = f"{folder}/{name} {words_of(setting)}".strip() + ".ply"
             line = (python, f"{HERE}/peer.py", peer, json.dumps(setting), scan.path, mesh, str(vertices),
-                    kind if kind in ("clean", "noisy") else "hard", arguments.tools)
+                    TREATED.get(kind, "hard"), arguments.tools)
             yield name, setting, mesh, line if there else None
 
 
