@@ -25,7 +25,8 @@ import table
 LIMIT = 150  # seconds of CPU time for a mesh
 HERE = os.path.dirname(os.path.abspath(__file__))
 COVERAGE = ("open", "small")  # kinds of clouds that are no complete surface
-TREATED = {"clean": "clean", "rough": "clean", "noisy": "noisy"}  # as peer.py knows them; the others are hard
+# Kinds as peer.py knows them; the others are hard.
+TREATED = {"clean": "clean", "dense": "clean", "rough": "clean", "noisy": "noisy"}
 CLOSED = ("mean", "rms", "hausdorff", "normals", "crossings")
 OPEN = ("missed", "invented", "crossings", "slivers")
 OPEN_WITH_REFERENCE = ("seen", "inside")

@@ -16,44 +16,49 @@ def depths(*levels, trims=(None,)):
 # Where layers are close to each other, fewer neighbours may tell more.
 THIN = [{"depth": 9}, {"depth": 9, "trim": 1}, {"depth": 9, "neighbors": 8}]
 # Poisson surfaces as they are, and cut where points are sparse; depths as the resolution of the cloud allows.
-POISSON = {"clean": depths(8, 9), "rough": depths(7, 8), "noisy": depths(7), "thin": THIN,
+POISSON = {"clean": depths(8, 9), "dense": depths(8, 9), "rough": depths(7, 8), "noisy": depths(7), "thin": THIN,
            "open": depths(8, trims=(None, 1)),
            "small": depths(7, 8, trims=(None, 1))}
-# Rough is with noise that is less than the spacing, and without outliers: a wider neighbourhood smooths more.
+# Of moving least squares. Cells must be small beside the spacing, or the surface falls apart; a wider neighbourhood
+# smooths more. Rough is with noise that is less than the spacing, and without outliers; dense has 200,000 points.
+LEAST_SQUARES = [{"resolution": 250, "scale": 4}, {"resolution": 300, "scale": 6}]
 ROUGH_LEAST_SQUARES = [{"resolution": 200, "scale": 3}, {"resolution": 200, "scale": 4},
                        {"resolution": 200, "scale": 6}]
 # Name in the table: name for peer.py, and settings for kinds of clouds.
 PEERS = {
     "Open3D Poisson": ("open3d_poisson", POISSON),
     "Open3D ball pivoting": ("open3d_ball_pivoting", {
-        "clean": [{"radius": 1.5}], "rough": [{"radius": 1.5}, {"radius": 1.0, "average": 2}],
+        "clean": [{"radius": 1.5}], "dense": [{"radius": 1.5}],
+        "rough": [{"radius": 1.5}, {"radius": 1.0, "average": 2}],
         "noisy": [{"radius": 1.0, "average": 3}, {"radius": 1.0, "average": 8}],
         "thin": [{"radius": 1.5}, {"radius": 1.5, "neighbors": 8}], "open": [{"radius": 1.5}],
         "small": [{"radius": 1.5}, {"radius": 2.5}]}),
     "PyMeshLab screened Poisson": ("pymeshlab_poisson", POISSON),
     "PyMeshLab ball pivoting": ("pymeshlab_ball_pivoting", {
         # For 200,000 points it takes more than two minutes.
-        "clean": [], "rough": [{}], "noisy": [], "thin": [{}], "open": [{}], "small": [{}]}),
+        "clean": [{}], "dense": [], "rough": [{}], "noisy": [], "thin": [{}], "open": [{}], "small": [{}]}),
     "PyMeshLab APSS": ("pymeshlab_apss", {
-        "clean": [{"resolution": 250, "scale": 4}, {"resolution": 300, "scale": 6}],
+        "clean": LEAST_SQUARES, "dense": [*LEAST_SQUARES, {"resolution": 450, "scale": 6}],
         "rough": ROUGH_LEAST_SQUARES, "noisy": [{"resolution": 200, "scale": 5}],
         "thin": [{"resolution": 250, "scale": 4, "neighbors": 8}], "open": [{"resolution": 200, "scale": 4}],
         "small": [{"resolution": 100, "scale": 4}, {"resolution": 100, "scale": 8}]}),
     "PyMeshLab RIMLS": ("pymeshlab_rimls", {
-        "clean": [{"resolution": 250, "scale": 4}, {"resolution": 300, "scale": 6}],
+        "clean": LEAST_SQUARES, "dense": [*LEAST_SQUARES, {"resolution": 450, "scale": 6}],
         "rough": ROUGH_LEAST_SQUARES, "noisy": [{"resolution": 200, "scale": 5}],
         "thin": [{"resolution": 250, "scale": 4, "neighbors": 8}], "open": [{"resolution": 200, "scale": 4}],
         "small": [{"resolution": 100, "scale": 4}, {"resolution": 100, "scale": 8}]}),
     "PoissonRecon": ("poisson_recon", {
-        "clean": depths(8, 9), "rough": depths(7, 8), "noisy": [*depths(7, 8), {"depth": 7, "normals of Open3D": True}],
+        "clean": depths(8, 9), "dense": depths(8, 9), "rough": depths(7, 8),
+        "noisy": [*depths(7, 8), {"depth": 7, "normals of Open3D": True}],
         "thin": [{"depth": 9}, {"depth": 9, "away": 4}, {"depth": 9, "neighbors": 8}],
         "open": [{"depth": 8}, {"depth": 8, "away": 4}],
         "small": [*depths(7, 8), {"depth": 7, "away": 4}, {"depth": 8, "away": 4}]}),
     "CGAL advancing front": ("cgal_front", {
-        "clean": [{}], "rough": [{}, {"smooth": True}], "noisy": [{}], "thin": [{}, {"smooth": True}],
-        "open": [{}], "small": [{}]}),
+        "clean": [{}], "dense": [{}], "rough": [{}, {"smooth": True}], "noisy": [{}],
+        "thin": [{}, {"smooth": True}], "open": [{}], "small": [{}]}),
     "CGAL Poisson": ("cgal_poisson", {
-        "clean": [{}], "rough": [{}, {"smooth": True}], "noisy": [{}], "thin": [{}], "open": [], "small": []}),
+        "clean": [{}], "dense": [{}], "rough": [{}, {"smooth": True}], "noisy": [{}], "thin": [{}],
+        "open": [], "small": []}),
 }
 OURS = "NeuralMesh"
 
@@ -79,7 +84,7 @@ def quarter_of(made_whole):
 
 # Name: kind of the settings, how it is made.
 CLOUDS = {
-    "armadillo": ("clean", functools.partial(armadillo, False)),
+    "armadillo": ("dense", functools.partial(armadillo, False)),
     "armadillo_noise_outliers": ("noisy", functools.partial(armadillo, True)),
     "plate_n01_quarter": ("thin", functools.partial(quarter, "plate_n01")),
     "coupling_quarter": ("clean", functools.partial(quarter, "coupling")),
