@@ -206,7 +206,7 @@ def draw_charts(all_results, path):
     signs = dict(zip(makers, "*osD^vPX<>"))
     colours = dict(zip(makers, ["red", *pyplot.get_cmap("tab10").colors]))
     columns = 3
-    figure, axes = pyplot.subplots(-(-len(all_results) // columns), columns, figsize=(12, 10), squeeze=False)
+    figure, axes = pyplot.subplots(-(-len(all_results) // columns), columns, figsize=(12, 13), squeeze=False)
     for axis, (name, (kind, results)) in zip(axes.flat, all_results.items()):
         for maker, result in results.items():
             if "error" not in result:
@@ -225,7 +225,7 @@ def draw_charts(all_results, path):
     handles = [pyplot.Line2D([], [], linestyle="", marker=signs[maker], color=colours[maker], label=maker)
                for maker in makers]
     figure.legend(handles=handles, loc="lower center", ncol=5)
-    figure.tight_layout(rect=(0, 0.08, 1, 1))
+    figure.tight_layout(rect=(0, 0.06, 1, 1))
     figure.savefig(path, dpi=90)
 
 
