@@ -210,8 +210,9 @@ def draw_charts(all_results, path):
     for axis, (name, (kind, results)) in zip(axes.flat, all_results.items()):
         for maker, result in results.items():
             if "error" not in result:
-                # What is 0 stands at the lower end.
-                axis.scatter(result["cpu"], max(error_of(result), 0.005), marker=signs[maker], color=colours[maker],
+                # What has missed and invented nothing stands at the lower end.
+                height = max(error_of(result), 0.005 if kind in COVERAGE else 0)
+                axis.scatter(result["cpu"], height, marker=signs[maker], color=colours[maker],
                              s=140 if maker == settings.OURS else 55, label=maker, zorder=3)
         axis.set(xscale="log", yscale="log", title=name, xlabel="CPU seconds",
                  ylabel="missed + invented, %" if kind in COVERAGE else "mean distance, %")
