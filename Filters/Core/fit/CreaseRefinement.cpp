@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace neuralmesh
@@ -84,8 +83,9 @@ bool hasCreases(const Mesh& mesh)
 bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
   double samplesPerVertex, FinishReport& report, const Executor& executor, const Progress& progress)
 {
-  const auto defects = [&mesh]
-  { return intersectingTriangles(mesh).size() + foldedEdges(mesh).size(); };
+  const auto defects = [&mesh] {
+    return DefectCount{ intersectingTriangles(mesh).size(), foldedEdges(mesh).size() };
+  };
   const Mesh before = mesh;
   if (!refine(mesh, count, partOf(progress, 0., 0.2), EdgesAfterSplit::FlipFlat))
   {
@@ -108,13 +108,17 @@ bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
       return false;
     }
   }
-  if (defects() > report.left.total())
+  const DefectCount left = defects();
+  if (left.total() <= report.left.total())
   {
-    // The same surface, with more vertices.
-    mesh = before;
-    return refine(mesh, count, partOf(progress, 1., 1.), EdgesAfterSplit::Keep);
+    report.left = left;
+    report.heldVertices += fit.heldCount();
+    return true;
   }
-  report.heldVertices += fit.heldCount();
-  return true;
+  // The same surface, with more vertices.
+  mesh = before;
+  const bool isDone = refine(mesh, count, partOf(progress, 1., 1.), EdgesAfterSplit::Keep);
+  report.left = defects();
+  return isDone;
 }
 }

@@ -11,7 +11,7 @@
 
 namespace neuralmesh
 {
-/// With less points a vertex, creases come out rounder than they would on a coarser mesh.
+/// With fewer points a vertex, creases come out rounder than they would on a coarser mesh.
 inline constexpr std::size_t PointsThatTellCreases = 10;
 
 /// Whether creases are a good part of the surface: whether their edges are more than go twice across it.

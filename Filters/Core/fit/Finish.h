@@ -53,8 +53,9 @@ struct FinishPlan
 };
 
 /// Finishes a mesh that is learnt: fits it to the cloud, opens it where the scan has no data, fills
-/// holes that are small enough, and makes it more regular. In the end it has as many vertices as planned: if that is more than were learnt,
-/// long edges are halved. No vertex may be erased, and none is in the end; properties follow.
+/// holes that are small enough, and makes it more regular. In the end it has as many vertices as planned: if
+/// that is more than were learnt, long edges are halved. No vertex may be erased, and none is in the end;
+/// properties follow.
 class Finish
 {
 public:
