@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/PlaceOnMesh.h"
 
+#include "base/FourVectors.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,82 +12,102 @@ namespace neuralmesh
 {
 namespace
 {
-/// A side of the triangles at a vertex, seen from there.
-struct Spoke
+using Lanes = FourVectors::Lanes;
+
+/// The triangles of a vertex as one sees them from there: the sides from it to its neighbours, with the squares of
+/// their lengths and their dot products with the point, four at a time. The first one comes once more behind the last.
+struct Sides
 {
-  Vector4 side;
-  float squaredLength;
-  float along; ///< dot product with the point
-};
+  static constexpr std::size_t Most = Ring::Capacity + 1 + 4;
 
-/// Looks for the place closest to a point on the triangles of a vertex, with the vertex at the
-/// origin. Distances are compared without the square of that from the vertex to the point.
-class ClosestInFan
-{
-public:
-  explicit ClosestInFan(Vector4 point)
-    : point_(point)
+  std::array<float, Most> x, y, z, squaredLength, along;
+
+  Sides(Vector4 point, const Mesh& mesh, VertexIndex v)
   {
-  }
-
-  Spoke spoke(Vector4 side) const { return { side, squaredNorm(side), dot(side, point_) }; }
-
-  /// The triangle between two spokes.
-  void consider(const Spoke& first, const Spoke& second, unsigned slot)
-  {
-    const float mixed = dot(first.side, second.side);
-    const float determinant = first.squaredLength * second.squaredLength - mixed * mixed;
-    const float b = second.squaredLength * first.along - mixed * second.along;
-    const float c = first.squaredLength * second.along - mixed * first.along;
-    if (determinant > 0.f && b > 0.f && c > 0.f && b + c < determinant)
+    const Ring& ring = mesh.ring(v);
+    const Vector4 center = mesh.position(v);
+    const FourVectors toPoint(point - center);
+    const auto side = [&](unsigned slot)
+    { return mesh.position(ring[slot < ring.size() ? slot : 0]) - center; };
+    for (unsigned slot = 0; slot <= ring.size(); slot += 4)
     {
-      keep(-(b * first.along + c * second.along) / determinant, b / determinant, c / determinant,
-        slot);
-      return;
-    }
-    considerSpoke(first, 1.f, 0.f, slot);
-    considerSpoke(second, 0.f, 1.f, slot);
-    if (b + c >= determinant)
-    {
-      const float length = first.squaredLength + second.squaredLength - 2.f * mixed;
-      const float across = second.along - first.along - mixed + first.squaredLength;
-      const float t = length > 0.f ? std::clamp(across / length, 0.f, 1.f) : 0.f;
-      const float s = 1.f - t;
-      keep(s * s * first.squaredLength + t * t * second.squaredLength +
-          2.f * (s * t * mixed - s * first.along - t * second.along),
-        s, t, slot);
+      const FourVectors sides(side(slot), side(slot + 1), side(slot + 2), side(slot + 3));
+      store(sides.x, x, slot);
+      store(sides.y, y, slot);
+      store(sides.z, z, slot);
+      store(squaredNorm(sides), squaredLength, slot);
+      store(dot(sides, toPoint), along, slot);
     }
   }
 
-  unsigned slot() const { return slot_; }
-  float b() const { return b_; }
-  float c() const { return c_; }
+  FourVectors vectors(unsigned slot) const
+  {
+    return { load(x, slot), load(y, slot), load(z, slot) };
+  }
+
+  static Lanes load(const std::array<float, Most>& from, unsigned slot)
+  {
+    Lanes lanes;
+    __builtin_memcpy(&lanes, from.data() + slot, sizeof(lanes));
+    return lanes;
+  }
 
 private:
-  void considerSpoke(const Spoke& spoke, float b, float c, unsigned slot)
+  static void store(Lanes lanes, std::array<float, Most>& to, unsigned slot)
   {
-    const float t =
-      spoke.squaredLength > 0.f ? std::clamp(spoke.along / spoke.squaredLength, 0.f, 1.f) : 0.f;
-    keep(t * (t * spoke.squaredLength - 2.f * spoke.along), t * b, t * c, slot);
+    __builtin_memcpy(to.data() + slot, &lanes, sizeof(lanes));
   }
-
-  void keep(float value, float b, float c, unsigned slot)
-  {
-    if (value < least_)
-    {
-      least_ = value;
-      b_ = b;
-      c_ = c;
-      slot_ = slot;
-    }
-  }
-
-  Vector4 point_;
-  float least_ = std::numeric_limits<float>::infinity();
-  float b_ = 0.f;
-  float c_ = 0.f;
-  unsigned slot_ = 0;
 };
+
+/// The places closest to a point on four triangles of a vertex: barycentric coordinates at the other corners, and the
+/// squared distance but for that from the vertex to the point.
+struct ClosestInFour
+{
+  Lanes value, b, c;
+
+  void keep(FourVectors::Mask where, Lanes otherValue, Lanes otherB, Lanes otherC)
+  {
+    value = where ? otherValue : value;
+    b = where ? otherB : b;
+    c = where ? otherC : c;
+  }
+};
+
+/// ... of those between the sides in four slots and the ones behind each of them.
+ClosestInFour closestInFour(const Sides& sides, unsigned slot)
+{
+  constexpr Lanes zero{}, one{ 1.f, 1.f, 1.f, 1.f };
+  const FourVectors first = sides.vectors(slot), second = sides.vectors(slot + 1);
+  const Lanes firstSquared = Sides::load(sides.squaredLength, slot);
+  const Lanes secondSquared = Sides::load(sides.squaredLength, slot + 1);
+  const Lanes firstAlong = Sides::load(sides.along, slot);
+  const Lanes secondAlong = Sides::load(sides.along, slot + 1);
+  const Lanes mixed = dot(first, second);
+  const Lanes determinant = firstSquared * secondSquared - mixed * mixed;
+  const Lanes b = secondSquared * firstAlong - mixed * secondAlong;
+  const Lanes c = firstSquared * secondAlong - mixed * firstAlong;
+
+  // On the sides.
+  const auto partOf = [&](Lanes along, Lanes squared)
+  { return squared > zero ? clampedToOne(along / squared) : zero; };
+  const Lanes onFirst = partOf(firstAlong, firstSquared);
+  const Lanes onSecond = partOf(secondAlong, secondSquared);
+  ClosestInFour closest{ onFirst * (onFirst * firstSquared - 2.f * firstAlong), onFirst, zero };
+  const Lanes ofSecond = onSecond * (onSecond * secondSquared - 2.f * secondAlong);
+  closest.keep(ofSecond < closest.value, ofSecond, zero, onSecond);
+
+  // Opposite to the vertex.
+  const Lanes squared = firstSquared + secondSquared - 2.f * mixed;
+  const Lanes t = partOf(secondAlong - firstAlong - mixed + firstSquared, squared), s = one - t;
+  const Lanes ofOpposite = s * s * firstSquared + t * t * secondSquared +
+    2.f * (s * t * mixed - s * firstAlong - t * secondAlong);
+  closest.keep((b + c >= determinant) & (ofOpposite < closest.value), ofOpposite, s, t);
+
+  // Within.
+  closest.keep((determinant > zero) & (b > zero) & (c > zero) & (b + c < determinant),
+    -(b * firstAlong + c * secondAlong) / determinant, b / determinant, c / determinant);
+  return closest;
+}
 
 /// Of a triangle beyond a rim, in distances to this side of it: what is closer is no farther beyond, unless the
 /// surface folds by more than 120 degrees.
@@ -105,21 +128,26 @@ bool mayBeBeyond(const PlaceOnMesh& place, const Mesh& mesh)
 
 PlaceOnMesh closestPlaceAt(Vector4 point, const Mesh& mesh, VertexIndex v)
 {
-  const Vector4 center = mesh.position(v);
   const Ring& ring = mesh.ring(v);
-  ClosestInFan closest(point - center);
-  const Spoke first = closest.spoke(mesh.position(ring[0]) - center);
-  Spoke spoke = first;
-  for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+  const Sides sides(point, mesh, v);
+  float least = std::numeric_limits<float>::infinity(), b = 0.f, c = 0.f;
+  unsigned slot = 0;
+  for (unsigned first = 0; first < ring.triangleCount(); first += 4)
   {
-    const unsigned after = ring.after(slot);
-    const Spoke next = after == 0 ? first : closest.spoke(mesh.position(ring[after]) - center);
-    closest.consider(spoke, next, slot);
-    spoke = next;
+    const ClosestInFour closest = closestInFour(sides, first);
+    const unsigned count = std::min(4u, ring.triangleCount() - first);
+    for (unsigned lane = 0; lane < count; ++lane)
+    {
+      if (closest.value[lane] < least)
+      {
+        least = closest.value[lane];
+        b = closest.b[lane];
+        c = closest.c[lane];
+        slot = first + lane;
+      }
+    }
   }
-  const unsigned slot = closest.slot();
-  PlaceOnMesh place{ { v, ring[slot], ring[ring.after(slot)] },
-    Vector4(1.f - closest.b() - closest.c(), closest.b(), closest.c()), 0.f };
+  PlaceOnMesh place{ { v, ring[slot], ring[ring.after(slot)] }, Vector4(1.f - b - c, b, c), 0.f };
   place.squaredDistance = squaredNorm(point - pointAt(place, mesh.positions()));
   return place;
 }
@@ -144,7 +172,7 @@ PlaceOnMesh closestPlace(Vector4 point, const Mesh& mesh, const VertexGrid& grid
   return closestPlaceAt(point, mesh, grid.closest(point, mesh.positions()));
 }
 
-PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near)
+VertexIndex closestVertexFrom(Vector4 point, const Mesh& mesh, VertexIndex near)
 {
   float least = squaredNorm(point - mesh.position(near));
   for (VertexIndex closest = near;; near = closest)
@@ -160,9 +188,14 @@ PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near)
     }
     if (closest == near)
     {
-      return closestPlaceAt(point, mesh, near);
+      return near;
     }
   }
+}
+
+PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near)
+{
+  return closestPlaceAt(point, mesh, closestVertexFrom(point, mesh, near));
 }
 
 VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud)

@@ -21,7 +21,11 @@ struct PlaceOnMesh
 /// the mesh follows the points, hardly any other triangle is closer.
 PlaceOnMesh closestPlace(Vector4 point, const Mesh& mesh, const VertexGrid& grid);
 
-/// The same, beginning at a vertex near by: goes from vertex to vertex as long as that is closer.
+/// The vertex closest to a point, looked for from one near by: goes from vertex to vertex as long as that is
+/// closer.
+VertexIndex closestVertexFrom(Vector4 point, const Mesh& mesh, VertexIndex near);
+
+/// The place that is closest, on the triangles of that vertex.
 PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near);
 
 /// The same, on the triangles of this vertex.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/CreaseSnapping.h"
 
+#include "fit/SampleBundle.h"
 #include "mesh/TriangleShape.h"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -158,6 +158,7 @@ private:
       farthest =
         samples_.squaredDistance(sample) > samples_.squaredDistance(farthest) ? sample : farthest;
     }
+    bundle_.assign(samples_, onFan_);
     double least = (1. - LeastPartOfSnapGain) * before;
     Vector4 place = from;
     const auto goTo = [&](Vector4 target, double most)
@@ -272,26 +273,14 @@ private:
   }
 
   /// Of the samples on the fan, with its centre at `place`; something above `most` if it is more than that.
-  double squaresAt(Vector4 place, double most) const
+  double squaresAt(Vector4 place, double most)
   {
-    double sum = 0.;
-    for (const std::uint32_t sample : onFan_)
+    distances_.clear();
+    for (const Spoke& spoke : fan_)
     {
-      const Vector4 point = samples_.point(sample);
-      float least = std::numeric_limits<float>::infinity();
-      for (const Spoke& spoke : fan_)
-      {
-        least = std::min(least,
-          squaredDistanceToTriangle(
-            point, place, mesh_.position(spoke.first), mesh_.position(spoke.second)));
-      }
-      sum += double(samples_.weight(sample)) * double(least);
-      if (sum > most)
-      {
-        break;
-      }
+      distances_.emplace_back(place, mesh_.position(spoke.first), mesh_.position(spoke.second));
     }
-    return sum;
+    return bundle_.squares(distances_, most);
   }
 
   /// Into which neighbour the vertex goes to gain more than `gain`, if any; that must not be locked.
@@ -319,6 +308,7 @@ private:
       {
         before += double(samples_.weight(sample)) * double(samples_.squaredDistance(sample));
       }
+      bundle_.assign(samples_, onFan_);
       const Vector4 middle = 0.5f * (mesh_.position(v) + mesh_.position(partner));
       const Vector4 target = planesMeetAt(middle);
       for (const float step : StepsOfCollapse)
@@ -347,6 +337,8 @@ private:
   ChangedVertices changed_;
   std::vector<Spoke> fan_;
   std::vector<std::uint32_t> onFan_; ///< samples
+  SampleBundle bundle_;              ///< of these
+  std::vector<TriangleDistances> distances_;
   std::vector<Triangle> triangles_;
   float longest_ = 0.f; ///< squared edge
 };

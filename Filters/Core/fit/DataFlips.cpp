@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/DataFlips.h"
 
+#include "fit/SampleBundle.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/TriangleShape.h"
 
@@ -162,15 +163,19 @@ private:
   {
     const Vector4 a = mesh_.position(edge.a), b = mesh_.position(edge.b);
     const Vector4 c = mesh_.position(edge.c), d = mesh_.position(edge.d);
+    const TriangleDistances atA(a, d, c), atB(b, c, d);
     double sum = 0.;
     moves_.clear();
-    for (const std::uint32_t sample : found_)
+    bundle_.assign(samples_, found_);
+    for (const FourVectors& points : bundle_.points())
     {
-      const Vector4 point = samples_.point(sample);
-      const float atA = squaredDistanceToTriangle(point, a, d, c);
-      const float atB = squaredDistanceToTriangle(point, b, c, d);
-      moves_.push_back({ std::min(atA, atB), atA < atB });
-      sum += double(samples_.weight(sample)) * double(moves_.back().squaredDistance);
+      const TriangleDistances::Lanes toA = atA.squared(points), toB = atB.squared(points);
+      for (int lane = 0; lane < 4 && moves_.size() < found_.size(); ++lane)
+      {
+        const float weight = samples_.weight(found_[moves_.size()]);
+        moves_.push_back({ std::min(toA[lane], toB[lane]), toA[lane] < toB[lane] });
+        sum += double(weight) * double(moves_.back().squaredDistance);
+      }
     }
     return sum;
   }
@@ -219,7 +224,8 @@ private:
   TriangleSamples samples_;
   double scale_;
   ChangedVertices changed_;
-  std::vector<std::uint32_t> found_;
+  std::vector<std::uint32_t> found_; ///< samples
+  SampleBundle bundle_;              ///< of these
   std::vector<Move> moves_;
 };
 }

@@ -44,14 +44,14 @@ FitGuard::FitGuard(
   , to_(to)
   , points_(heldOutPoints(cloud, MostOfGuard))
   , before_(squaredDistances(cloud, points_, mesh, executor, to))
-  , residual_(residual(squaredDistances(cloud, points_, mesh, executor, to), mesh.meanEdge()))
+  , residual_(residual(before_, mesh.meanEdge()))
 {
 }
 
 bool FitGuard::isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired)
 {
-  return hasGrown(squaredDistances(cloud_, points_, mesh, executor_, to_), mesh.meanEdge(), rule) ||
-    losesPoints(mesh, isRepaired);
+  const std::vector<float> after = squaredDistances(cloud_, points_, mesh, executor_, to_);
+  return hasGrown(after, mesh.meanEdge(), rule) || losesPoints(after, isRepaired);
 }
 
 bool FitGuard::losesPoints(const Mesh& mesh, bool isRepaired)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/Redistribution.h"
 
+#include "fit/SampleBundle.h"
 #include "mesh/TriangleShape.h"
 
 #include <algorithm>
@@ -198,6 +199,7 @@ private:
     {
       before += double(samples_.weight(sample)) * double(samples_.squaredDistance(sample));
     }
+    bundle_.assign(samples_, onStar_);
     VertexIndex best = NoVertex;
     double least = before + most;
     for (unsigned slot = 0; slot < ring.size(); ++slot)
@@ -243,28 +245,17 @@ private:
 
   /// Of the samples on the star, once the vertex is one with the neighbour in `slot`; something above
   /// `most` if it is more than that.
-  double squaresWithout(VertexIndex v, unsigned slot, double most) const
+  double squaresWithout(VertexIndex v, unsigned slot, double most)
   {
     const Ring& ring = mesh_.ring(v);
     const Vector4 kept = mesh_.position(ring[slot]);
-    double sum = 0.;
-    for (const std::uint32_t sample : onStar_)
+    distances_.clear();
+    for (unsigned steps = 1; steps + 1 < ring.size(); ++steps)
     {
-      const Vector4 point = samples_.point(sample);
-      float least = std::numeric_limits<float>::infinity();
-      for (unsigned steps = 1; steps + 1 < ring.size(); ++steps)
-      {
-        least = std::min(least,
-          squaredDistanceToTriangle(point, kept, mesh_.position(ring[ring.after(slot, steps)]),
-            mesh_.position(ring[ring.after(slot, steps + 1)])));
-      }
-      sum += double(samples_.weight(sample)) * double(least);
-      if (sum > most)
-      {
-        break;
-      }
+      distances_.emplace_back(kept, mesh_.position(ring[ring.after(slot, steps)]),
+        mesh_.position(ring[ring.after(slot, steps + 1)]));
     }
-    return sum;
+    return bundle_.squares(distances_, most);
   }
 
   void lockAround(VertexIndex v)
@@ -327,7 +318,9 @@ private:
   std::vector<float> load_; ///< of the samples on the triangles of each vertex
   std::vector<std::uint8_t> isLocked_;
   ChangedVertices changed_;
-  std::vector<std::uint32_t> onStar_;
+  std::vector<std::uint32_t> onStar_; ///< samples
+  SampleBundle bundle_;               ///< of these
+  std::vector<TriangleDistances> distances_;
 };
 }
 

@@ -135,8 +135,9 @@ void SurfaceFit::findPlace(std::size_t sample, const VertexGrid& grid)
   const VertexIndex opposite = opposite_[place.triangle[0]];
   if (opposite == NoVertex)
   {
-    place = closestPlaceFrom(point, mesh_, place.triangle[0]);
-    place = isExact_ ? closestPlaceAround(point, mesh_, place.triangle[0]) : place;
+    const VertexIndex closest = closestVertexFrom(point, mesh_, place.triangle[0]);
+    place = isExact_ ? closestPlaceAround(point, mesh_, closest)
+                     : closestPlaceAt(point, mesh_, closest);
     return;
   }
   place = closestPlaceOnLayer(point, mesh_, place.triangle[0]);
@@ -418,8 +419,8 @@ void SurfaceFit::follow(const ChangedVertices& changed)
           [&](VertexIndex v) { return newOf[v]; });
         if (isChanged)
         {
-          places_[i] = closestPlaceFrom(samples_[i], mesh_, triangle[0]);
-          places_[i] = closestPlaceAround(samples_[i], mesh_, places_[i].triangle[0]);
+          places_[i] = closestPlaceAround(
+            samples_[i], mesh_, closestVertexFrom(samples_[i], mesh_, triangle[0]));
         }
       }
     });

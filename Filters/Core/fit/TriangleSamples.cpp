@@ -28,12 +28,12 @@ double SampleLoad::excess(double variance) const
 
 TriangleSamples::TriangleSamples(const PlacedSamples& samples, std::size_t indexEnd)
   : samples_(samples)
-  , first_(indexEnd, NoSample)
-  , next_(samples.points.size(), NoSample)
-  , corners_(samples.points.size())
+  , entries_(indexEnd, None)
+  , next_(samples.points.size(), None)
   , squaredDistances_(samples.points.size())
 {
-  for (auto i = std::uint32_t(samples.points.size()); i-- > 0;)
+  triangles_.reserve(2 * indexEnd);
+  for (std::uint32_t i = 0; i < samples.points.size(); ++i)
   {
     if (samples.isUsed[i] != 0)
     {
@@ -46,60 +46,62 @@ TriangleSamples::TriangleSamples(const PlacedSamples& samples, std::size_t index
   }
 }
 
+std::uint32_t TriangleSamples::find(const Triangle& corners) const
+{
+  const auto [least, middle, most] = corners;
+  std::uint32_t entry = entries_[least];
+  while (entry != None && (triangles_[entry].middle != middle || triangles_[entry].most != most))
+  {
+    entry = triangles_[entry].next;
+  }
+  return entry;
+}
+
 SampleLoad TriangleSamples::load(VertexIndex a, VertexIndex b, VertexIndex c) const
 {
-  const auto [least, middle, most] = inOrder(a, b, c);
-  SampleLoad result;
-  for (std::uint32_t i = first_[least]; i != NoSample; i = next_[i])
-  {
-    if (corners_[i][0] == middle && corners_[i][1] == most)
-    {
-      const double weight = double(samples_.weight(i));
-      result += { weight, weight * double(squaredDistances_[i]) };
-    }
-  }
-  return result;
+  const std::uint32_t entry = find(inOrder(a, b, c));
+  return entry == None ? SampleLoad() : triangles_[entry].load;
 }
 
 void TriangleSamples::collect(
   VertexIndex a, VertexIndex b, VertexIndex c, std::vector<std::uint32_t>& found) const
 {
-  const auto [least, middle, most] = inOrder(a, b, c);
-  for (std::uint32_t i = first_[least]; i != NoSample; i = next_[i])
+  const std::uint32_t entry = find(inOrder(a, b, c));
+  for (std::uint32_t i = entry == None ? None : triangles_[entry].first; i != None; i = next_[i])
   {
-    if (corners_[i][0] == middle && corners_[i][1] == most)
-    {
-      found.push_back(i);
-    }
+    found.push_back(i);
   }
 }
 
 void TriangleSamples::take(
   VertexIndex a, VertexIndex b, VertexIndex c, std::vector<std::uint32_t>& found)
 {
-  const auto [least, middle, most] = inOrder(a, b, c);
-  for (std::uint32_t* link = &first_[least]; *link != NoSample;)
+  collect(a, b, c, found);
+  const std::uint32_t entry = find(inOrder(a, b, c));
+  if (entry != None)
   {
-    const std::uint32_t i = *link;
-    if (corners_[i][0] == middle && corners_[i][1] == most)
-    {
-      found.push_back(i);
-      *link = next_[i];
-    }
-    else
-    {
-      link = &next_[i];
-    }
+    triangles_[entry].first = triangles_[entry].last = None;
+    triangles_[entry].load = {};
   }
 }
 
 void TriangleSamples::put(
   std::uint32_t sample, VertexIndex a, VertexIndex b, VertexIndex c, float squaredDistance)
 {
-  const auto [least, middle, most] = inOrder(a, b, c);
-  corners_[sample] = { middle, most };
+  const Triangle corners = inOrder(a, b, c);
+  std::uint32_t at = find(corners);
+  if (at == None)
+  {
+    at = std::uint32_t(triangles_.size());
+    triangles_.push_back({ corners[1], corners[2], entries_[corners[0]], None, None, {} });
+    entries_[corners[0]] = at;
+  }
+  Entry& entry = triangles_[at];
+  (entry.last == None ? entry.first : next_[entry.last]) = sample;
+  entry.last = sample;
+  next_[sample] = None;
   squaredDistances_[sample] = squaredDistance;
-  next_[sample] = first_[least];
-  first_[least] = sample;
+  const double weight = double(samples_.weight(sample));
+  entry.load += { weight, weight * double(squaredDistance) };
 }
 }

@@ -42,8 +42,7 @@ struct SampleLoad
 };
 
 /// Which samples lie on which triangle of a mesh: a triangle is named by its corners, in any order. Each
-/// sample is in a list of the least corner of its triangle, so that edges can be flipped, and nothing is
-/// allocated.
+/// triangle with samples is in a list of its least corner, so that edges can be flipped.
 class TriangleSamples
 {
 public:
@@ -67,12 +66,24 @@ public:
   const SampleLoad& total() const { return total_; }
 
 private:
-  static constexpr std::uint32_t NoSample = 0xffffffffu;
+  static constexpr std::uint32_t None = 0xffffffffu;
+
+  /// A triangle that has, or had, samples.
+  struct Entry
+  {
+    VertexIndex middle, most; ///< corners beside the least one
+    std::uint32_t next;       ///< of the same least corner
+    std::uint32_t first;      ///< of its samples
+    std::uint32_t last;
+    SampleLoad load;
+  };
+
+  std::uint32_t find(const Triangle& corners) const;
 
   PlacedSamples samples_;
-  std::vector<std::uint32_t> first_;                ///< of the list of each vertex
-  std::vector<std::uint32_t> next_;                 ///< in the list, of each sample
-  std::vector<std::array<VertexIndex, 2>> corners_; ///< other two of the triangle of each sample
+  std::vector<std::uint32_t> entries_; ///< the first of each vertex
+  std::vector<Entry> triangles_;
+  std::vector<std::uint32_t> next_; ///< of each sample, on the same triangle
   std::vector<float> squaredDistances_;
   SampleLoad total_;
 };
