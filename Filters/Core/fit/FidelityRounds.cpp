@@ -127,6 +127,10 @@ bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress
   {
     return false;
   }
+  if (isFirst)
+  {
+    noiseParts_ = fit_.noiseParts();
+  }
   const double variance = fit_.noise() * fit_.noise();
   fit_.shiftAgainstNoise(variance);
   fit_.turnToNormals(variance);

@@ -41,6 +41,8 @@ public:
 
   double lambda() const { return lambda_; }
   std::size_t heldVertices() const { return heldVertices_; }
+  /// Of a noisy cloud.
+  const NoiseParts& noiseParts() const { return noiseParts_; }
 
 private:
   bool sharpen(bool distributes, const Progress& progress);
@@ -54,5 +56,6 @@ private:
   bool mayBeBroken_ = true; ///< by intersections or folds
   double lambda_ = 0.;
   std::size_t heldVertices_ = 0;
+  NoiseParts noiseParts_;
 };
 }

@@ -51,12 +51,13 @@ VertexIndex nearestToCollapseInto(const Mesh& mesh, VertexIndex v)
 }
 
 Finish::Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
-  const Executor& executor, PointNormals normalOf)
+  const Executor& executor, PointNormals normalOf, PointViews viewOf)
   : cloud_(cloud)
   , mesh_(mesh)
   , plan_(plan)
   , executor_(executor)
   , normalOf_(std::move(normalOf))
+  , viewOf_(std::move(viewOf))
 {
 }
 
@@ -116,7 +117,8 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   const double endOfFirst = hasMore ? PartOfFirstRounds : 1.;
   const Progress progress = partOf(report, 0., endOfFirst);
   std::optional<SurfaceFit> surfaceFit;
-  const auto beginAnew = [&] { surfaceFit.emplace(cloud_, mesh_, samples, executor_, normalOf_); };
+  const auto beginAnew = [&]
+  { surfaceFit.emplace(cloud_, mesh_, samples, executor_, normalOf_, viewOf_); };
   const auto refineAll = [&](double at)
   {
     const bool isDone = refine(mesh_, plan_.vertexCount, partOf(progress, at, at));
@@ -152,6 +154,10 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     if (isLast)
     {
       report_.shareBetweenLayers = surfaceFit->shareBetweenLayers();
+      if (!report_.isClean && !hasMore)
+      {
+        tell(surfaceFit->noiseParts());
+      }
     }
     if (round == 0)
     {
@@ -287,6 +293,12 @@ bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& prog
   return true;
 }
 
+void Finish::tell(const NoiseParts& parts)
+{
+  report_.ownNoise = parts.own;
+  report_.sharedNoise = parts.shared;
+}
+
 /// The rounds that come after the first ones.
 bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
 {
@@ -299,6 +311,7 @@ bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
   report_.noise = surfaceFit.noise();
   report_.smoothness = rounds.lambda();
   report_.outlierShare = surfaceFit.outlierShare();
+  tell(rounds.noiseParts());
   report_.heldVertices += rounds.heldVertices();
   report_.shareBetweenLayers = surfaceFit.shareBetweenLayers();
   return true;

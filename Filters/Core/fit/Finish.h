@@ -19,9 +19,11 @@ namespace neuralmesh
 /// What is known of a mesh once it is finished.
 struct FinishReport
 {
-  double noise = 0.;            ///< of the cloud, see SurfaceFit::noise(), in units of the cloud
-  double smoothness = 0.;       ///< lambda of the fit
-  bool isClean = false;         ///< whether it is that of a cloud without noise to speak of
+  double noise = 0.;       ///< of the cloud, see SurfaceFit::noise(), in units of the cloud
+  double ownNoise = 0.;    ///< what points have of it for themselves, see SharedNoise.h; 0 if clean
+  double sharedNoise = 0.; ///< ... and what those of a view share
+  double smoothness = 0.;  ///< lambda of the fit
+  bool isClean = false;    ///< whether it is that of a cloud without noise to speak of
   double outlierShare = 0.;     ///< of the samples
   std::size_t gapTriangles = 0; ///< taken away where there is no data
   DefectCount repaired;         ///< intersections and folds that were there ...
@@ -59,9 +61,10 @@ struct FinishPlan
 class Finish
 {
 public:
-  /// `normalOf` gives the normal that came with a point of the cloud, if there are some.
+  /// `normalOf` gives the normal that came with a point of the cloud, if there are some, `viewOf` its view.
   Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
-    const Executor& executor = Executor::sequential(), PointNormals normalOf = {});
+    const Executor& executor = Executor::sequential(), PointNormals normalOf = {},
+    PointViews viewOf = {});
 
   /// Returns false if it was ended before its end; then the mesh is valid all the same.
   bool run(const Progress& progress);
@@ -72,6 +75,7 @@ private:
   bool runRounds(int rounds, FitGuard& guard, const Progress& progress);
   bool isWorseThan(const Mesh& before, FitGuard& guard) const;
   bool fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
+  void tell(const NoiseParts& parts);
   bool openGaps(const SurfaceFit& surfaceFit);
   bool improve(SurfaceFit& surfaceFit, const Progress& progress);
   bool closeHoles();
@@ -86,6 +90,7 @@ private:
   FinishPlan plan_;
   const Executor& executor_;
   PointNormals normalOf_;
+  PointViews viewOf_;
   FinishReport report_;
 };
 }

@@ -55,7 +55,7 @@ constexpr double PartOfChoice = 0.6;
 }
 
 SurfaceFit::SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount,
-  const Executor& executor, const PointNormals& normalOf)
+  const Executor& executor, const PointNormals& normalOf, const PointViews& viewOf)
   : cloud_(cloud)
   , mesh_(mesh)
   , executor_(executor)
@@ -75,6 +75,10 @@ SurfaceFit::SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCo
     if (normalOf)
     {
       normals.push_back(normalOf(point));
+    }
+    if (viewOf)
+    {
+      views_.push_back(viewOf(point));
     }
     if (!cloud.weights().empty())
     {
@@ -136,8 +140,8 @@ void SurfaceFit::findPlace(std::size_t sample, const VertexGrid& grid)
   if (opposite == NoVertex)
   {
     const VertexIndex closest = closestVertexFrom(point, mesh_, place.triangle[0]);
-    place = isExact_ ? closestPlaceAround(point, mesh_, closest)
-                     : closestPlaceAt(point, mesh_, closest);
+    place =
+      isExact_ ? closestPlaceAround(point, mesh_, closest) : closestPlaceAt(point, mesh_, closest);
     return;
   }
   place = closestPlaceOnLayer(point, mesh_, place.triangle[0]);

@@ -10,6 +10,7 @@
 #include "fit/GivenNormals.h"
 #include "fit/HeldOutPoints.h"
 #include "fit/LocalSpacing.h"
+#include "fit/SharedNoise.h"
 #include "fit/TriangleSamples.h"
 #include "mesh/Mesh.h"
 
@@ -38,10 +39,11 @@ public:
   static constexpr double CleanSmoothness = 0.2;
 
   /// Takes so many points of the cloud, evenly picked but for those held out, as samples. No vertex
-  /// may be erased. `normalOf` gives the normal that came with a point of the cloud, if there are some. Cloud,
-  /// mesh and executor must outlive the fit.
+  /// may be erased. `normalOf` gives the normal that came with a point of the cloud, if there are some, and
+  /// `viewOf` its view. Cloud, mesh and executor must outlive the fit.
   SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount,
-    const Executor& executor = Executor::sequential(), const PointNormals& normalOf = {});
+    const Executor& executor = Executor::sequential(), const PointNormals& normalOf = {},
+    const PointViews& viewOf = {});
 
   /// From now on a round brings boundaries all the way to the end of the samples, not half of it. Not before
   /// holes are filled in which there are samples: their sides would run into each other.
@@ -87,6 +89,9 @@ public:
   /// vertices have followed of it added: the noise of the cloud, and what the triangles are too
   /// coarse for.
   double noise() const { return noise_; }
+  /// What each point has of it for itself, and what the points of a view share, told on the mesh as it is. The mesh
+  /// must be smooth against the noise: else it follows the views.
+  NoiseParts noiseParts() const;
   /// Vertices that the last moveVertices() has not moved, so that no samples were lost.
   std::size_t heldCount() const { return heldCount_; }
   /// Moves vertices back to where they were in `before`, a mesh of the same vertices, if samples around
@@ -143,6 +148,7 @@ private:
   bool chooseSmoothness(const Progress& progress);
   std::vector<float> squaredBends(std::span<const Vector4> positions) const;
   std::vector<float> supports() const;
+  std::vector<float> creaseParts(double deviations) const;
   /// A sample, moved against what noise does.
   Vector4 shifted(std::size_t sample) const
   {
@@ -161,7 +167,8 @@ private:
   std::vector<Vector4> samples_;
   GivenNormals normals_;
   double normalWeight_ = 0.;
-  std::vector<float> weights_; ///< of the samples; empty if all weigh alike
+  std::vector<float> weights_;       ///< of the samples; empty if all weigh alike
+  std::vector<std::uint32_t> views_; ///< likewise; empty if none is known
   std::vector<PlaceOnMesh> places_;
   /// Of the samples, those that are no outliers, and have not switched to the other side of a thin part.
   std::vector<std::uint8_t> isUsed_;

@@ -34,6 +34,10 @@ constexpr double UsualSamples = 10.;
 constexpr double ToleranceOfChoice = 1e-2;
 /// Where the surface bends most, this part of lambda is left.
 constexpr float LeastSmoothnessPart = 0.02f;
+/// Where the surface bends more than so many deviations, so that so much of lambda is left, distances are more than
+/// noise.
+constexpr double DeviationsOfNoise = 3.;
+constexpr float LeastPartOfNoise = 0.5f;
 /// Bends that are usual are no less than this part of the mean: elsewhere all may be flat.
 constexpr double LeastPartOfMeanBend = 0.001;
 /// A vertex with this part of the samples that others rest on has enough of them.
@@ -180,27 +184,46 @@ std::vector<float> SurfaceFit::supports() const
   return result;
 }
 
-void SurfaceFit::relaxCreases(double deviations)
+/// Of lambda at each vertex, the less the more sharply the surface bends there.
+std::vector<float> SurfaceFit::creaseParts(double deviations) const
 {
-  smoothnessParts_ = squaredBends(mesh_.positions());
-  const double mean = executor_.sum(smoothnessParts_.size(), VerticesPerRange,
-                        [&](std::size_t v) { return double(smoothnessParts_[v]); }) /
-    double(smoothnessParts_.size());
-  const double usual = std::max(
-    double(medianOf(smoothnessParts_, executor_)) / MedianOfSquares, LeastPartOfMeanBend * mean);
+  std::vector<float> parts = squaredBends(mesh_.positions());
+  const double mean =
+    executor_.sum(parts.size(), VerticesPerRange, [&](std::size_t v) { return double(parts[v]); }) /
+    double(parts.size());
+  const double usual =
+    std::max(double(medianOf(parts, executor_)) / MedianOfSquares, LeastPartOfMeanBend * mean);
   const auto limit = float(deviations * deviations * usual);
   const std::vector<float> support = supports();
-  for (std::size_t v = 0; v < smoothnessParts_.size(); ++v)
+  for (std::size_t v = 0; v < parts.size(); ++v)
   {
-    float& part = smoothnessParts_[v];
+    float& part = parts[v];
     part = limit > 0.f ? std::max(LeastSmoothnessPart, limit / (limit + part)) : 1.f;
     part = 1.f - support[v] * (1.f - part);
-    if (!localParts_.empty())
-    {
-      const float local = localParts_[v];
-      part = local > 1.f ? part * local : std::min(part, local);
-    }
   }
+  return parts;
+}
+
+void SurfaceFit::relaxCreases(double deviations)
+{
+  smoothnessParts_ = creaseParts(deviations);
+  for (std::size_t v = 0; v < localParts_.size(); ++v)
+  {
+    float& part = smoothnessParts_[v];
+    const float local = localParts_[v];
+    part = local > 1.f ? part * local : std::min(part, local);
+  }
+}
+
+NoiseParts SurfaceFit::noiseParts() const
+{
+  const std::vector<float> parts = creaseParts(DeviationsOfNoise);
+  std::vector<std::uint8_t> isLeftOut(parts.size());
+  for (std::size_t v = 0; v < parts.size(); ++v)
+  {
+    isLeftOut[v] = parts[v] < LeastPartOfNoise || opposite_[v] != NoVertex ? 1 : 0;
+  }
+  return noisePartsOf(mesh_, placedSamples(), isLeftOut, views_);
 }
 
 bool SurfaceFit::chooseSmoothnessByRisk(double first, const Progress& progress)

@@ -152,7 +152,10 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const PointNormals normalOf = hints.normalOf && !fitted.origins().empty() ? [&](std::size_t point)
   { return givenDirection(hints.normalOf(fitted.origins()[point])); }
                                                                             : PointNormals();
-  Finish finish(fitted, learnt.mesh, plan, executor, normalOf);
+  const PointViews viewOf = hints.viewOf && !fitted.origins().empty() ? [&](std::size_t point)
+  { return hints.viewOf(fitted.origins()[point]); }
+                                                                      : PointViews();
+  Finish finish(fitted, learnt.mesh, plan, executor, normalOf, viewOf);
   if (!finish.run(partOf(progress, 0., endOfFirst)))
   {
     return {};
@@ -165,7 +168,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   plan.gaps.reset();
   plan.closedOutline = 0.;
   plan.vertexCount = learnt.mesh.vertexCount();
-  Finish finishSimplified(fitted, learnt.mesh, plan, executor, normalOf);
+  Finish finishSimplified(fitted, learnt.mesh, plan, executor, normalOf, viewOf);
   if (!finishSimplified.run(partOf(progress, endOfFirst, 1.)))
   {
     return {};

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Promise: noise that the points of a view share is told from noise of their own, with and without views; and
+// none is told where there is none: in noise with outliers, at creases, on thin plates, on clean clouds.
+#include "fit/SharedNoise.h"
+
+#include "cloud/MeshBuilder.h"
+#include "fit/Finish.h"
+#include "fit/SurfaceFit.h"
+#include "OpenShapes.h"
+#include "SphereRuns.h"
+#include "ThinPlate.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+constexpr unsigned Side = 30;
+constexpr std::size_t PointsOfViews = 20000;
+/// Where views lie, against the standard deviation of their places.
+constexpr std::array<double, 4> PlacesOfViews{ -1.2, -0.3, 0.4, 1.1 };
+
+double gaussian(Random& random)
+{
+  const double radius = std::sqrt(-2. * std::log(1. - random.uniform()));
+  return radius * std::cos(2. * std::numbers::pi * random.uniform());
+}
+
+std::uint32_t viewOfPoint(std::size_t point)
+{
+  return std::uint32_t(point * 7 / 3 % PlacesOfViews.size());
+}
+
+/// Points of a square that several views see, each with an error of its own.
+PointCloud squareOfViews(double own, double shared, double outliers = 0.)
+{
+  Random random(5);
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < PointsOfViews; ++i)
+  {
+    const double x = random.uniform(), y = random.uniform();
+    const double across =
+      random.uniform() < outliers ? random.uniform() - 0.5 : own * gaussian(random);
+    points.emplace_back(x, y, across + shared * PlacesOfViews[viewOfPoint(i)]);
+  }
+  return PointCloud(points, {}, true);
+}
+
+NoiseParts partsOn(TriangleMesh surface, const PointCloud& cloud, const PointViews& viewOf = {})
+{
+  Mesh mesh = buildMesh(std::move(surface), cloud);
+  SurfaceFit fit(cloud, mesh, 10 * mesh.vertexCount(), Executor::sequential(), {}, viewOf);
+  EXPECT_TRUE(fit.findPlaces(goOn));
+  const NoiseParts parts = fit.noiseParts();
+  return { parts.own * cloud.unit(), parts.shared * cloud.unit() };
+}
+}
+
+TEST(SharedNoise, IsNoneWherePointsHaveErrorsOfTheirOwn)
+{
+  for (const double outliers : { 0., 0.01 })
+  {
+    const NoiseParts parts = partsOn(makeGrid(Side), squareOfViews(0.004, 0., outliers));
+    EXPECT_DOUBLE_EQ(parts.shared, 0.);
+    EXPECT_NEAR(parts.own, 0.004, 0.0003);
+  }
+}
+
+TEST(SharedNoise, IsToldByLayers)
+{
+  for (const double outliers : { 0., 0.01 })
+  {
+    SCOPED_TRACE(outliers);
+    const NoiseParts parts = partsOn(makeGrid(Side), squareOfViews(0.002, 0.006, outliers));
+    EXPECT_NEAR(parts.shared, 0.006, 0.0015);
+    EXPECT_LT(parts.own, 0.7 * parts.shared);
+  }
+}
+
+TEST(SharedNoise, IsToldByViewsHoweverSmall)
+{
+  const PointCloud cloud = squareOfViews(0.004, 0.001);
+  EXPECT_DOUBLE_EQ(partsOn(makeGrid(Side), cloud).shared, 0.);
+  const auto partsByViews = [](const PointCloud& of)
+  {
+    return partsOn(
+      makeGrid(Side), of, [&of](std::size_t point) { return viewOfPoint(of.origins()[point]); });
+  };
+  const NoiseParts parts = partsByViews(cloud);
+  EXPECT_NEAR(parts.shared, 0.001, 0.00015);
+  EXPECT_NEAR(parts.own, 0.004, 0.0001);
+  const NoiseParts none = partsByViews(squareOfViews(0.004, 0.));
+  EXPECT_DOUBLE_EQ(none.shared, 0.);
+  EXPECT_NEAR(none.own, 0.004, 0.0001);
+}
+
+// What no two views see, or no view is known of, tells nothing of what they share.
+TEST(SharedNoise, IsNoneWhereViewsDoNotMeet)
+{
+  const PointCloud cloud = squareOfViews(0.002, 0.006);
+  EXPECT_DOUBLE_EQ(partsOn(makeGrid(Side), cloud, [](std::size_t) { return 3u; }).shared, 0.);
+  EXPECT_DOUBLE_EQ(
+    partsOn(makeGrid(Side), cloud, [](std::size_t) { return UnknownView; }).shared, 0.);
+}
+
+// Two sides are not two layers of one, and a crease is none.
+TEST(SharedNoise, IsNoneOnThinPlatesAndAtCreases)
+{
+  constexpr double Thickness = 0.02;
+  Random random(6);
+  std::vector<Eigen::Vector3d> points = platePoints(2 * PointsOfViews, Thickness);
+  for (Eigen::Vector3d& point : points)
+  {
+    point[2] += 0.15 * Thickness * gaussian(random);
+  }
+  const NoiseParts plate = partsOn(makePlate(Side, Thickness), PointCloud(points));
+  EXPECT_DOUBLE_EQ(plate.shared, 0.);
+  CloudOptions options;
+  options.count = 3 * PointsOfViews;
+  options.noise = 0.01;
+  const PointCloud cube(generateCloud(makeCube(20), options));
+  const NoiseParts parts = partsOn(makeCube(20), cube);
+  EXPECT_DOUBLE_EQ(parts.shared, 0.);
+  EXPECT_NEAR(parts.own, options.noise * std::sqrt(3.), 0.001); // of the diagonal
+}
+
+TEST(SharedNoise, IsReportedByTheFinish)
+{
+  const auto reportOf = [](double own, double shared, Fidelity fidelity)
+  {
+    Random random(7);
+    std::vector<Eigen::Vector3d> points;
+    for (std::size_t i = 0; i < PointsOfViews; ++i)
+    {
+      const Eigen::Vector3d direction(gaussian(random), gaussian(random), gaussian(random));
+      points.push_back(direction.normalized() *
+        (1. + own * gaussian(random) + shared * PlacesOfViews[viewOfPoint(i)]));
+    }
+    const PointCloud cloud(points);
+    Mesh mesh = buildMesh(makeSphere(12), cloud);
+    FinishPlan plan;
+    plan.fidelity = fidelity;
+    plan.vertexCount = mesh.vertexCount();
+    Finish finish(cloud, mesh, plan);
+    EXPECT_TRUE(finish.run(goOn));
+    FinishReport report = finish.report();
+    report.ownNoise *= cloud.unit();
+    report.sharedNoise *= cloud.unit();
+    return report;
+  };
+  for (const Fidelity fidelity : { Fidelity::Draft, Fidelity::Default })
+  {
+    EXPECT_NEAR(reportOf(0.005, 0.02, fidelity).sharedNoise, 0.02, 0.005);
+    const FinishReport independent = reportOf(0.02, 0., fidelity);
+    EXPECT_DOUBLE_EQ(independent.sharedNoise, 0.);
+    EXPECT_NEAR(independent.ownNoise, 0.02, 0.002);
+    EXPECT_DOUBLE_EQ(reportOf(0., 0., fidelity).sharedNoise, 0.);
+  }
+}
+}
