@@ -81,6 +81,10 @@ void PrintReport(vtkPolyData* mesh)
   {
     std::printf(", noise about %.3g", noise);
   }
+  if (const double shared = FieldNumber(mesh, "SharedNoise"); shared > 0.0)
+  {
+    std::printf(" (shared %.3g)", shared);
+  }
   std::printf(", %.2g %% outliers\n", 100.0 * FieldNumber(mesh, "OutlierShare"));
   PrintReasons(mesh);
   if (const long long rounds = FieldValue(mesh, "FitRoundsTakenBack"); rounds > 0)

@@ -100,8 +100,9 @@ void vtkNeuralMeshReport::AddQuality(
   { vtkMeshArrays::AddFieldValue<vtkDoubleArray>(output, name, value); };
   const neuralmesh::SurfaceReport& surface = result.quality->surface;
   addNumber("Residual", result.quality->residual);
-  addNumber("Noise",
-    result.finish ? result.finish->noise * unit : std::numeric_limits<double>::quiet_NaN());
+  constexpr double NotTold = std::numeric_limits<double>::quiet_NaN();
+  addNumber("Noise", result.finish ? result.finish->noise * unit : NotTold);
+  addNumber("SharedNoise", result.finish ? result.finish->sharedNoise * unit : NotTold);
   addNumber("OutlierShare", result.quality->outlierShare);
   addNumber("RegularRatio", surface.regularRatio);
   addNumber("TriangleQuality", surface.meanQuality);
@@ -124,11 +125,11 @@ void vtkNeuralMeshReport::AddWarnings(const std::vector<std::string>& warnings, 
 
 void vtkNeuralMeshReport::RemoveFrom(vtkPolyData* output)
 {
-  for (const char* name : { "Residual", "Noise", "OutlierShare", "RegularRatio", "TriangleQuality",
-         "Components", "Genus", "BoundaryLoops", "FoldedEdges", "IntersectingTriangles",
-         "NarrowHandles", "FitRoundsTakenBack", "ChosenParameters", "ReasonsOfChoice",
-         "OutlierPoints", "SmallPiecePoints", "UnreachablePoints", "UnexplainedPoints",
-         "UnexplainedShare", "Warnings" })
+  for (const char* name : { "Residual", "Noise", "SharedNoise", "OutlierShare", "RegularRatio",
+         "TriangleQuality", "Components", "Genus", "BoundaryLoops", "FoldedEdges",
+         "IntersectingTriangles", "NarrowHandles", "FitRoundsTakenBack", "ChosenParameters",
+         "ReasonsOfChoice", "OutlierPoints", "SmallPiecePoints", "UnreachablePoints",
+         "UnexplainedPoints", "UnexplainedShare", "Warnings" })
   {
     output->GetFieldData()->RemoveArray(name);
   }

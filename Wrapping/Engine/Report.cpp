@@ -80,8 +80,9 @@ void addQuality(const Reconstruction& result, double unit, nb::dict& fields)
 {
   const SurfaceReport& surface = result.quality->surface;
   fields["Residual"] = result.quality->residual;
-  fields["Noise"] =
-    result.finish ? result.finish->noise * unit : std::numeric_limits<double>::quiet_NaN();
+  constexpr double NotTold = std::numeric_limits<double>::quiet_NaN();
+  fields["Noise"] = result.finish ? result.finish->noise * unit : NotTold;
+  fields["SharedNoise"] = result.finish ? result.finish->sharedNoise * unit : NotTold;
   fields["OutlierShare"] = result.quality->outlierShare;
   fields["RegularRatio"] = surface.regularRatio;
   fields["TriangleQuality"] = surface.meanQuality;

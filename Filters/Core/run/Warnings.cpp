@@ -166,6 +166,22 @@ void warnOfDefects(const Reconstruction& result, std::vector<std::string>& warni
   }
 }
 
+/// Where most of the mesh lies between two layers, that is told already.
+void warnOfSharedNoise(const FinishReport& finish, double unit, std::vector<std::string>& warnings)
+{
+  if (finish.sharedNoise > finish.ownNoise && !(finish.shareBetweenLayers > MostBetweenLayers))
+  {
+    std::ostringstream text;
+    text.precision(2);
+    text
+      << "The points of a view are off together by more (about " << finish.sharedNoise * unit
+      << ") than each of them for itself (" << finish.ownNoise * unit
+      << "): views of the same surface lie apart. More points do not average that out; views can "
+         "be registered anew. Depths that are rounded look the same.";
+    warnings.push_back(text.str());
+  }
+}
+
 void warnOfSlivers(const SurfaceReport& surface, std::vector<std::string>& warnings)
 {
   const double share =
@@ -285,6 +301,10 @@ std::vector<std::string> warningsOf(
     warnOfTurnedParts(result.quality->turnedShare, warnings);
     warnOfHandles(result.quality->narrowHandles, cloud, warnings);
     warnOfVertices(result, cloud, warnings);
+  }
+  if (result.finish)
+  {
+    warnOfSharedNoise(*result.finish, cloud.unit(), warnings);
   }
   warnOfSides(result.orientation, warnings);
   return warnings;

@@ -333,6 +333,26 @@ TEST(Warnings, CoarseIsNotMissing)
   EXPECT_TRUE(hasWarning(result, "missing in the mesh: about 120 points"));
 }
 
+// Promise: views that lie farther apart than their points scatter are told.
+TEST(Warnings, SharedNoise)
+{
+  Reconstruction result;
+  result.quality = MeshQuality{};
+  result.finish = FinishReport{};
+  const PointCloud cloud(sphere(1000));
+  result.finish->ownNoise = 0.01 / cloud.unit();
+  result.finish->sharedNoise = 0.02 / cloud.unit();
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_TRUE(hasWarning(result, "are off together by more (about 0.02) than"));
+  result.finish->shareBetweenLayers = 0.4;
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_FALSE(hasWarning(result, "are off together"));
+  result.finish->shareBetweenLayers = 0.;
+  result.finish->sharedNoise = 0.009 / cloud.unit();
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_FALSE(hasWarning(result, "are off together"));
+}
+
 // Promise: a mesh between two layers of points is told.
 TEST(Warnings, BetweenLayers)
 {

@@ -119,7 +119,7 @@ def reconstruct(
             length 1; `Activity`, double of shape (M,), in wins, or the place in the list, up to 1; and
             the point data of a dataset, unless carry_point_data is False. Field data, one value each:
             `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`, `DroppedPoints`, and the report on
-            the quality: `Residual`, `Noise`, `OutlierShare`, `RegularRatio`, `TriangleQuality`,
+            the quality: `Residual`, `Noise`, `SharedNoise`, `OutlierShare`, `RegularRatio`, `TriangleQuality`,
             `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`,
             `IntersectingTriangles`, `NarrowHandles`, `FitRoundsTakenBack`. How the surface came to its
             outer side is told by `OrientedBy`, `UnorientedPieces` and `UnorientedShare`; what was left out by

@@ -116,10 +116,11 @@ def _print_quality(fields: dict[str, Any]) -> None:
     """Nothing of a run that was aborted."""
     if "Residual" not in fields:
         return
-    noise = fields["Noise"]
+    noise, shared = fields["Noise"], fields["SharedNoise"]
     print(
         f"residual   {fields['Residual']:.3g} from held-out points to the mesh"
         + (f", noise about {noise:.3g}" if math.isfinite(noise) else "")
+        + (f" (shared {shared:.3g})" if shared > 0 else "")
         + f", {100.0 * fields['OutlierShare']:.2g} % outliers"
     )
     print_reasons(fields)

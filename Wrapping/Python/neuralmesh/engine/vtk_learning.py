@@ -32,8 +32,8 @@ _CANCELLED = "cancelled"
 _POINT_SETS = ("vtkPointSet", "vtkCompositeDataSet")
 # Field data that is about a mesh: that of the input, which VTK passes on, is not about this one.
 _REPORT = (
-    "Residual", "Noise", "OutlierShare", "RegularRatio", "TriangleQuality", "Components", "Genus",
-    "BoundaryLoops", "FoldedEdges", "IntersectingTriangles", "NarrowHandles", "FitRoundsTakenBack",
+    "Residual", "Noise", "SharedNoise", "OutlierShare", "RegularRatio", "TriangleQuality", "Components",
+    "Genus", "BoundaryLoops", "FoldedEdges", "IntersectingTriangles", "NarrowHandles", "FitRoundsTakenBack",
     "ChosenParameters", "ReasonsOfChoice", "OutlierPoints", "SmallPiecePoints", "UnreachablePoints",
     "UnexplainedPoints", "UnexplainedShare", "Warnings",
 )  # fmt: skip
