@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,8 @@ struct OrientationReport
   std::array<double, SideEvidences> shares{};
   /// By kind: whether it was given, and told nothing of any piece.
   std::array<bool, SideEvidences> toldNothing{};
+  /// Where parts look to opposite sides though they face each other, if they do: see FacingBoundaries.h.
+  std::optional<Vector4> contradiction;
 
   double share(SideEvidence evidence) const { return shares[std::size_t(evidence)]; }
   bool hasToldNothing(SideEvidence evidence) const { return toldNothing[std::size_t(evidence)]; }

@@ -3,29 +3,25 @@
 
 #include "base/DisjointSets.h"
 #include "base/Median.h"
-#include "cloud/CloudDistance.h"
 #include "cloud/NearestPoints.h"
-#include "cloud/PlaceOnMesh.h"
-#include "mesh/NearestTriangle.h"
 #include "start/LayerSearch.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace neuralmesh
 {
 namespace
 {
-/// A point is away from the mesh beyond so many of its own distances to its neighbours ...
+/// A point is away from the mesh beyond so many of its own distances to its neighbours,
+/// and MediansAway.
 constexpr float SpacingsAway = 3.f;
-/// ... and of the median distance of all: no noise is there.
-constexpr float MediansAway = 8.f;
 /// If the mesh misses most points, their median tells no noise: then it is more than so many distances
 /// between points, and it is the layers of so many points that tell it.
 constexpr float SpacingsOfNoise = 3.f;
@@ -48,151 +44,6 @@ constexpr double LeastAskedInPiece = 4.;
 
 constexpr std::size_t SpacingsAsked = 500;
 constexpr std::size_t ExplainedPerRange = 256;
-
-/// Places found at a time: what is kept of them is less.
-constexpr std::size_t PointsPerBlock = 65536;
-/// The triangles of the closest vertex need not have the closest place of the mesh: where a point is farther
-/// than so many medians, those around it are looked at, too.
-constexpr float MediansToLookAgain = 4.f;
-constexpr std::size_t MedianPoints = 2000;
-
-std::vector<std::size_t> evenlyPicked(std::size_t all, std::size_t most)
-{
-  const std::size_t count = std::min(all, most);
-  std::vector<std::size_t> points(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    points[i] = i * all / count;
-  }
-  return points;
-}
-
-class PlacesOfCloud
-{
-public:
-  PlacesOfCloud(const Mesh& mesh, const PointCloud& cloud)
-    : mesh_(mesh)
-    , cloud_(cloud)
-    , grid_(gridOf(mesh, cloud))
-  {
-  }
-
-  PlaceOnMesh of(std::size_t point) const
-  {
-    return closestPlace(cloud_.points()[point], mesh_, grid_);
-  }
-  float distance(std::size_t point) const
-  {
-    return float(distanceToSurface(cloud_.points()[point], mesh_, grid_));
-  }
-
-  /// The median distance of some of these points.
-  float medianOfSome(const std::vector<std::size_t>& points, const Executor& executor) const
-  {
-    std::vector<float> squared(std::min(points.size(), MedianPoints));
-    if (squared.empty())
-    {
-      return 0.f;
-    }
-    executor.forEachRange(squared.size(), ExplainedPerRange,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          squared[i] = of(points[i * points.size() / squared.size()]).squaredDistance;
-        }
-      });
-    return std::sqrt(medianOf(std::move(squared)));
-  }
-
-private:
-  const Mesh& mesh_;
-  const PointCloud& cloud_;
-  VertexGrid grid_;
-};
-
-/// Where edges are long, or layers close, the closest vertex may be one of another part of the mesh: what seems
-/// to be farther away than `least` is measured to all triangles.
-void findExactly(const Mesh& mesh, const PointCloud& cloud, float least, const Executor& executor,
-  PointDistances& result)
-{
-  if (std::none_of(result.distances.begin(), result.distances.end(),
-        [least](float distance) { return distance > least; }))
-  {
-    return;
-  }
-  TriangleMesh triangles;
-  for (const Vector4& position : mesh.positions())
-  {
-    triangles.points.push_back(position.toDouble());
-  }
-  mesh.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
-      triangles.triangles.push_back({ a, b, c });
-    });
-  const NearestTriangle nearest(triangles);
-  executor.forEachRange(result.points.size(), ExplainedPerRange,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const Vector4 point = cloud.points()[result.points[i]];
-        const NearestTriangle::Found found =
-          result.distances[i] > least ? nearest.find(point.toDouble()) : NearestTriangle::Found{};
-        if (found.triangle != NearestTriangle::None)
-        {
-          const PlaceOnMesh place =
-            closestPlaceAt(point, mesh, triangles.triangles[found.triangle][0]);
-          result.distances[i] = std::sqrt(place.squaredDistance);
-          result.isBeyondBoundary[i] = isOnBoundary(place, mesh) ? 1 : 0;
-        }
-      }
-    });
-}
-
-/// Adds up what vertices rest on.
-class SupportSum
-{
-public:
-  SupportSum(const Mesh& mesh, const PointCloud& cloud)
-    : cloud_(cloud)
-    , weights_(mesh.indexEnd())
-    , squares_(mesh.indexEnd())
-  {
-  }
-
-  void add(std::size_t point, const PlaceOnMesh& place)
-  {
-    for (unsigned corner = 0; corner < 3; ++corner)
-    {
-      const double weight =
-        double(cloud_.weight(point)) * std::max(0., double(place.weights[int(corner)]));
-      weights_[place.triangle[corner]] += weight;
-      squares_[place.triangle[corner]] += weight * double(place.squaredDistance);
-    }
-  }
-
-  /// Where each point stands for so many.
-  VertexSupport result(double points) const
-  {
-    VertexSupport support;
-    support.pointsPerAsked = points;
-    support.weights.resize(weights_.size());
-    support.residuals.resize(weights_.size());
-    for (std::size_t v = 0; v < weights_.size(); ++v)
-    {
-      support.weights[v] = points * weights_[v];
-      support.residuals[v] = weights_[v] > 0. ? cloud_.unit() * std::sqrt(squares_[v] / weights_[v])
-                                              : std::numeric_limits<double>::quiet_NaN();
-    }
-    return support;
-  }
-
-private:
-  const PointCloud& cloud_;
-  std::vector<double> weights_;
-  std::vector<double> squares_; ///< of distances, times weights
-};
 
 class Explainer
 {
@@ -369,8 +220,7 @@ private:
     {
       return;
     }
-    const double asked = double(result_.asked.points.size());
-    if (double(piece.size()) < std::max(rules_.leastPiece * asked, LeastAskedInPiece))
+    if (double(piece.size()) < LeastAskedInPiece || (isSmall(piece) && !isOfSurface(piece)))
     {
       take(piece, Reason::SmallPiece, [](std::size_t) { return true; });
       return;
@@ -394,6 +244,39 @@ private:
       result_.pieces.push_back(missed);
     }
   }
+
+  bool isSmall(const std::vector<std::size_t>& piece) const
+  {
+    return double(piece.size()) < rules_.leastPiece * double(result_.asked.points.size());
+  }
+
+  /// Whether the points of a piece go on where the mesh explains others: then it is a part of what that should
+  /// have, however small.
+  bool isOfSurface(const std::vector<std::size_t>& piece)
+  {
+    if (!nearestExplained_)
+    {
+      for (std::size_t i = 0; i < result_.reasons.size(); ++i)
+      {
+        if (result_.reasons[i] == Reason::Explained)
+        {
+          explained_.push_back(placeOf(i));
+        }
+      }
+      nearestExplained_.emplace(explained_);
+    }
+    const float spacings = SpacingsOfPiece * float(std::sqrt(pointsPerAsked()));
+    return std::any_of(piece.begin(), piece.end(),
+      [&](std::size_t i)
+      {
+        const float reach = spacings * spacings_[i];
+        std::array<NearPoint, 1> near;
+        return nearestExplained_->find(placeOf(i), near) > 0 &&
+          near[0].squaredDistance <= reach * reach;
+      });
+  }
+
+  Vector4 placeOf(std::size_t i) const { return cloud_.points()[result_.asked.points[i]]; }
 
   /// Those of a piece that are meant have this reason, and are no part of it any more.
   template <typename Condition>
@@ -509,6 +392,8 @@ private:
   // Where they were needed:
   std::vector<float> spacings_;
   std::vector<double> variations_;
+  std::vector<Vector4> explained_;
+  std::optional<NearestPoints> nearestExplained_; ///< of them
 };
 }
 
@@ -523,66 +408,6 @@ double Explanation::unexplainedShare() const
 {
   const double all = std::accumulate(counts.begin(), counts.end(), 0.) - count(Reason::Dropped);
   return all > 0. ? unexplained() / all : 0.;
-}
-
-PointDistances distancesTo(
-  const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
-{
-  const PlacesOfCloud places(mesh, cloud);
-  PointDistances result;
-  result.points = evenlyPicked(cloud.points().size(), most);
-  result.distances.resize(result.points.size());
-  result.isBeyondBoundary.resize(result.points.size());
-  result.meanEdge = mesh.meanEdge();
-  const float median = places.medianOfSome(result.points, executor);
-  executor.forEachRange(result.points.size(), ExplainedPerRange,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const PlaceOnMesh place = places.of(result.points[i]);
-        float& distance = result.distances[i];
-        distance = std::sqrt(place.squaredDistance);
-        result.isBeyondBoundary[i] = isOnBoundary(place, mesh) ? 1 : 0;
-        if (distance > MediansToLookAgain * median)
-        {
-          distance = std::min(distance, places.distance(result.points[i]));
-        }
-      }
-    });
-  findExactly(mesh, cloud, MediansAway * median, executor, result);
-  return result;
-}
-
-VertexSupport supportOf(
-  const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
-{
-  const std::vector<std::size_t> points = evenlyPicked(cloud.points().size(), most);
-  const PlacesOfCloud places(mesh, cloud);
-  const float farthest = outlierDistance(places.medianOfSome(points, executor), mesh.meanEdge());
-  SupportSum sum(mesh, cloud);
-  std::vector<PlaceOnMesh> found(std::min(points.size(), PointsPerBlock));
-  for (std::size_t first = 0; first < points.size(); first += PointsPerBlock)
-  {
-    const std::size_t size = std::min(PointsPerBlock, points.size() - first);
-    executor.forEachRange(size, ExplainedPerRange,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          found[i] = places.of(points[first + i]);
-        }
-      });
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      if (found[i].squaredDistance <= farthest * farthest)
-      {
-        sum.add(points[first + i], found[i]);
-      }
-    }
-  }
-  return sum.result(
-    double(cloud.points().size()) / double(std::max<std::size_t>(1, points.size())));
 }
 
 Explanation explain(const PointCloud& cloud, PointDistances distances,

@@ -3,7 +3,7 @@
 
 #include "base/Executor.h"
 #include "cloud/PointCloud.h"
-#include "mesh/Mesh.h"
+#include "run/PointDistances.h"
 
 #include <Eigen/Core>
 
@@ -20,7 +20,7 @@ enum class Reason : std::uint8_t
 {
   Explained, ///< the mesh is there
   Outlier,   ///< away from the mesh, and apart from other points, or in a cluster that was left out
-  SmallPiece,  ///< away from the mesh, with so few others that they are no piece of the surface
+  SmallPiece,  ///< away from the mesh, with few others, and not beside what is explained
   Unreachable, ///< away from the mesh, though there are others: the surface is missing there
   Dropped      ///< no coordinates, no weight, or too far off to be taken in
 };
@@ -38,28 +38,6 @@ struct MissedPiece
   bool isBeyondBoundary = false; ///< whether most of them lie nearest to a boundary of the mesh
 };
 
-/// How far points are from the mesh, as is told from outside.
-struct PointDistances
-{
-  std::vector<std::size_t> points;            ///< which of the cloud, in rising order
-  std::vector<float> distances;               ///< of each, in units of the cloud
-  std::vector<std::uint8_t> isBeyondBoundary; ///< of each, whether its place is on a boundary
-  double meanEdge = 0.;                       ///< of the mesh, in units of the cloud
-};
-
-/// What vertices rest on, by their index: points count at the corners of the triangle that they lie on, by
-/// their barycentric weights. Outliers do not count: points farther from the mesh than five times the median
-/// distance and than half a mean edge.
-struct VertexSupport
-{
-  std::vector<double>
-    weights; ///< of the points of the cloud, about: 1 for each where all weigh alike
-  /// Root of the mean squared distance of these points, in units of the input; NaN where there are none.
-  std::vector<double> residuals;
-  /// Of the cloud, for each that was asked; what is told of less is chance.
-  double pointsPerAsked = 1.;
-};
-
 /// What a mesh leaves of a cloud. A point is away from the mesh if it is farther than three of its own
 /// distances to its six nearest neighbours, and than any noise: than eight median distances. It is an
 /// outlier if its own distances are three times those of its neighbours; or three times those that are
@@ -71,6 +49,7 @@ struct Explanation
   std::array<double, Reasons>
     counts{};                      ///< of the points of the input, about; exact if all are asked
   std::vector<MissedPiece> pieces; ///< that are unreachable, the largest first
+  double scatteredShare = 0.;      ///< of a run: see ScatteredPoints.h
 
   double count(Reason reason) const { return counts[std::size_t(reason)]; }
   /// Points that are no outliers, and that the mesh does not reach.
@@ -82,20 +61,11 @@ struct Explanation
 /// What decides.
 struct ExplanationRules
 {
-  /// Fewer points than this part of all are a small piece.
+  /// Fewer points than this part of all are a small piece, unless they go on from what is explained.
   double leastPiece = 0.0005;
   /// Points that the run took for clusters of outliers; empty if it has none.
   std::vector<std::uint8_t> isLeftOut;
 };
-
-/// At most `most` points of the cloud, evenly picked, and how far they are from a mesh of which no
-/// vertex may be erased.
-PointDistances distancesTo(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
-  const Executor& executor = Executor::sequential());
-
-/// What the vertices of such a mesh rest on, by at most so many points.
-VertexSupport supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
-  const Executor& executor = Executor::sequential());
 
 /// Takes about as long as the distances do.
 Explanation explain(const PointCloud& cloud, PointDistances distances,

@@ -3,6 +3,7 @@
 
 #include "cloud/OrientationVote.h"
 #include "cloud/PieceAgreement.h"
+#include "mesh/FacingBoundaries.h"
 #include "mesh/OpeningSides.h"
 
 #include <algorithm>
@@ -71,6 +72,11 @@ OrientationReport orientMesh(
   addSides(byVolume, sides);
   makePiecesAgree(mesh, pieces, sides);
   OrientationReport report = turn(mesh, pieces, sides);
+  const FacingBoundaries facing = findFacingBoundaries(mesh);
+  if (facing.doContradict(areaOf(mesh)))
+  {
+    report.contradiction = facing.place;
+  }
   report.toldNothing[std::size_t(SideEvidence::Viewpoints)] = areViewpointsMute;
   report.toldNothing[std::size_t(SideEvidence::UpDirection)] = isUpMute;
   report.toldNothing[std::size_t(SideEvidence::Normals)] = areNormalsMute;

@@ -14,6 +14,7 @@
 #include "mesh/TriangleMesh.h"
 #include "run/Checkpoint.h"
 #include "run/Explanation.h"
+#include "run/SpannedGaps.h"
 
 #include <optional>
 #include <string>
@@ -47,6 +48,7 @@ struct Reconstruction
   OrientationReport orientation;
   /// Of some points, or of all if that was asked for. Nothing if the run was cancelled.
   std::optional<Explanation> explanation;
+  std::vector<SpannedGap> gaps; ///< that the mesh spans; empty if the run was cancelled
   std::vector<std::string> warnings; ///< see Warnings.h
   PhaseTimes times;                  ///< of start, learning and finish
 };

@@ -7,6 +7,8 @@
 #include "mesh/QuadricSimplification.h"
 #include "mesh/SmallPieces.h"
 #include "run/MeshOrientation.h"
+#include "run/ScatteredPoints.h"
+#include "run/SpannedGaps.h"
 #include "start/CurvatureDensity.h"
 #include "start/FirstSurface.h"
 
@@ -25,8 +27,10 @@ constexpr double DensityExponentIfOpen = 0.25;
 /// With fewer vertices, claws and ears are no wider than edges, and would be lost while the mesh grows.
 constexpr std::uint64_t FewestDistributedLater = 10000;
 
-/// Points that are explained where only their numbers are wanted.
-constexpr std::size_t PointsExplained = 10000;
+/// Points that are explained where only their numbers are wanted: as many as are fitted, for what is lost may have
+/// a handful.
+constexpr std::size_t FewestExplained = 10000;
+constexpr std::size_t PointsPerVertexExplained = 10;
 /// Those that vertices rest on: hardly a vertex is without any.
 constexpr std::size_t PointsPerVertexOfSupport = 4;
 
@@ -219,9 +223,14 @@ void explainPoints(const PointCloud& cloud, const PointCloud* left, double least
     rules.isLeftOut = leftOutOf(cloud, *left);
   }
   const auto mostOf = [&](std::size_t some) { return explainsAll ? cloud.points().size() : some; };
+  const std::size_t explained =
+    std::max(FewestExplained, PointsPerVertexExplained * result.surface.vertexCount());
   result.explanation = explain(
-    cloud, distancesTo(result.surface, cloud, mostOf(PointsExplained), executor), rules, executor);
+    cloud, distancesTo(result.surface, cloud, mostOf(explained), executor), rules, executor);
+  result.explanation->scatteredShare =
+    scatteredShare(cloud, result.explanation->asked, executor);
   result.support = supportOf(result.surface, cloud,
     mostOf(PointsPerVertexOfSupport * result.surface.vertexCount()), executor);
+  result.gaps = spannedGaps(result.surface, result.support, cloud, result.explanation->asked);
 }
 }

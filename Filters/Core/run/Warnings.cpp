@@ -22,6 +22,10 @@ constexpr double LeastUnknownSide = 0.001;
 constexpr double MostTurned = 0.005;
 /// Of the area: bridges over gaps have less.
 constexpr double MostBare = 0.04;
+/// ... and one bridge has less than a piece that is not dropped.
+constexpr double LeastGap = 0.0005;
+/// Of the points.
+constexpr double MostScattered = 0.5;
 /// Of the triangles.
 constexpr double MostSlivers = 0.002;
 constexpr double WholeArea = 0.999;
@@ -111,6 +115,14 @@ void warnOfPieces(const Explanation& explanation, const PointCloud& cloud, Fate 
 void warnOfPoints(
   const Explanation& explanation, const PointCloud& cloud, std::vector<std::string>& warnings)
 {
+  if (explanation.scatteredShare > MostScattered)
+  {
+    warnings.push_back("The cloud has no surface, as far as this mesh can tell: around " +
+      percent(explanation.scatteredShare) +
+      " of its points others lie in all directions, as noise does. The mesh lies somewhere among "
+      "them. Look at the points, and take away what is no surface; where there is one under the "
+      "noise, more points may show it.");
+  }
   if (explanation.unexplainedShare() > MostUnexplained)
   {
     warnings.push_back(percent(explanation.unexplainedShare()) + " of the points (about " +
@@ -136,6 +148,29 @@ void warnOfBareArea(double share, std::vector<std::string>& warnings)
       "cut "
       "off, and bodies that are far apart be taken one by one.");
   }
+}
+
+void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud,
+  std::vector<std::string>& warnings)
+{
+  std::erase_if(gaps, [](const SpannedGap& gap) { return gap.share < LeastGap; });
+  if (gaps.empty())
+  {
+    return;
+  }
+  std::string where;
+  for (std::size_t i = 0; i < std::min(gaps.size(), MostPiecesNamed); ++i)
+  {
+    where += (i == 0 ? "" : ", ") + percent(gaps[i].share) + " of the surface around " +
+      placeText(gaps[i].center, cloud);
+  }
+  if (gaps.size() > MostPiecesNamed)
+  {
+    where += " and " + counted(gaps.size() - MostPiecesNamed, "other place", "other places");
+  }
+  warnings.push_back("The mesh spans gaps of the cloud: " + where +
+    ", farther from all points than three times as far as these are from each other. There it is "
+    "a guess. Scan what is missing there; if there is nothing, cut it out: where Support is 0.");
 }
 
 void warnOfDefects(const Reconstruction& result, std::vector<std::string>& warnings)
@@ -255,8 +290,18 @@ void warnOfVertices(
   }
 }
 
-void warnOfSides(const OrientationReport& sides, std::vector<std::string>& warnings)
+void warnOfSides(
+  const OrientationReport& sides, const PointCloud& cloud, std::vector<std::string>& warnings)
 {
+  if (sides.contradiction)
+  {
+    warnings.push_back(
+      "Parts of the surface that face each other across openings look to opposite sides, as around " +
+      placeText(cloud.toInput(*sides.contradiction), cloud) +
+      ": some are inside out, and nothing tells which. An up direction (--up) or viewpoints "
+      "(--viewpoint) turn pieces; what hangs on to its piece by the wrong side takes more "
+      "vertices, another seed, or a cloud of its own.");
+  }
   if (sides.hasToldNothing(SideEvidence::Viewpoints))
   {
     warnings.push_back("The viewpoints tell nothing of the sides of the surface: they are not "
@@ -293,6 +338,7 @@ std::vector<std::string> warningsOf(
   if (parameters.boundaries == Boundaries::Keep && parameters.closeHolesBelow == 0.)
   {
     warnOfBareArea(bareShare(result.mesh, result.support), warnings);
+    warnOfGaps(result.gaps, cloud, warnings);
   }
   if (result.quality)
   {
@@ -306,7 +352,7 @@ std::vector<std::string> warningsOf(
   {
     warnOfSharedNoise(*result.finish, cloud.unit(), warnings);
   }
-  warnOfSides(result.orientation, warnings);
+  warnOfSides(result.orientation, cloud, warnings);
   return warnings;
 }
 

@@ -13,8 +13,10 @@ namespace neuralmesh
 /// where the mesh is what the cloud is; of a run that was cancelled, only what is known of the sides.
 /// - more than 3 % of the points are farther from the mesh than points are from each other, and no
 ///   outliers; or a piece or limb of them is missing: where, and how many;
+/// - around more than half of the points others lie in all directions, so that they tell no surface;
 /// - the mesh has an opening where there are points;
 /// - more than 4 % of the area has hardly any points, unless gaps were to be closed;
+/// - the mesh spans a gap of the cloud by more than 0.05 % of the area, unless gaps were to be closed;
 /// - triangles intersect others, or are folded;
 /// - more than 0.2 % of the triangles are nearly lines;
 /// - the mesh has stopped growing below the size that was asked for;
@@ -22,6 +24,7 @@ namespace neuralmesh
 /// - the fit was taken back: with it the mesh had a larger residual, lost points, or intersected;
 /// - nothing tells the outer side of pieces with more than a thousandth of the area, unless they are one
 ///   piece of all: that agrees with itself, and can be turned as a whole;
+/// - parts look to opposite sides where they face each other across openings;
 /// - viewpoints or normals were given, and tell nothing.
 std::vector<std::string> warningsOf(
   const Reconstruction& result, const PointCloud& cloud, const Parameters& parameters = {});

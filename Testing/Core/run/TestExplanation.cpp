@@ -56,6 +56,17 @@ std::vector<Eigen::Vector3d> clutter(std::size_t count, double halfWidth)
   return points;
 }
 
+/// Points in a row, upwards from the pole of the sphere or so far above it.
+std::vector<Eigen::Vector3d> rod(std::size_t count, double spacing, double shift = 0.)
+{
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 1; i <= count; ++i)
+  {
+    points.emplace_back(0., 0., 1. + shift + spacing * double(i));
+  }
+  return points;
+}
+
 /// By a mesh of the unit sphere.
 Explanation explained(const PointCloud& cloud, std::size_t most = All)
 {
@@ -130,6 +141,26 @@ TEST(Explanation, MissedPieces)
   const Explanation small = explain(cloud, distancesTo(mesh, cloud, All), rules);
   EXPECT_GE(small.count(Reason::SmallPiece), 4990.);
   EXPECT_TRUE(small.pieces.empty());
+}
+
+// Promise: few points that go on from the surface are a part of it that is missing, and no small piece, as those
+// are that lie apart.
+TEST(Explanation, SmallPartOfTheSurface)
+{
+  for (const double shift : { 0., 1. })
+  {
+    std::vector<Eigen::Vector3d> points = sphere(40000);
+    append(points, rod(30, 0.012, shift));
+    const PointCloud cloud(points);
+    const Mesh mesh = buildMesh(makeSphere(40), cloud);
+    ExplanationRules rules;
+    rules.leastPiece = 0.01;
+    const Explanation explanation = explain(cloud, distancesTo(mesh, cloud, All), rules);
+    const bool isApart = shift > 0.;
+    EXPECT_EQ(explanation.pieces.size(), isApart ? 0u : 1u);
+    EXPECT_GT(explanation.count(isApart ? Reason::SmallPiece : Reason::Unreachable), 15.);
+    EXPECT_EQ(explanation.count(isApart ? Reason::Unreachable : Reason::SmallPiece), 0.);
+  }
 }
 
 // Promise: points far from each other are outliers; so are those that the run took for a cluster of them.
@@ -290,6 +321,26 @@ TEST(Warnings, MissingPartAndDefects)
   EXPECT_TRUE(hasWarning(result, "folded at 3 edges"));
   EXPECT_TRUE(hasWarning(result, "1 round of the fit"));
   EXPECT_EQ(result.warnings.size(), 5u);
+}
+
+// Promise: a rod that has but a few of very many points is not lost without a word.
+TEST(Warnings, LostRod)
+{
+  std::vector<Eigen::Vector3d> points = sphere(200000);
+  EXPECT_TRUE(reconstructed(PointCloud(points), 2000).warnings.empty());
+  append(points, rod(80, 0.004));
+  EXPECT_TRUE(hasWarning(reconstructed(PointCloud(points), 2000), "missing in the mesh"));
+}
+
+// Promise: parts that look to opposite sides where they face each other are told, with the place.
+TEST(Warnings, PartsThatContradictEachOther)
+{
+  Reconstruction result;
+  const PointCloud cloud(sphere(1000));
+  EXPECT_TRUE(warningsOf(result, cloud).empty());
+  result.orientation.contradiction = cloud.fromInput({ 0.5, 0.25, 0.125 });
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_TRUE(hasWarning(result, "look to opposite sides, as around (0.5, 0.25, 0.125)"));
 }
 
 // Promise: slivers are told where they are more than a rounding of all triangles, however few these are.

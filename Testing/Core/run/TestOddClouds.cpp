@@ -246,7 +246,7 @@ TEST(OddClouds, LinesFarApartAreNoSurface)
   EXPECT_TRUE(warnsOfMissedPoints(runOn(points)));
 }
 
-// Of points all over a cube, or of a Gaussian blob, one closed mesh comes, and no handle.
+// Of points all over a cube, or of a Gaussian blob, one closed mesh comes, no handle, and the warning.
 TEST(OddClouds, NoiseIsABody)
 {
   Random random(4);
@@ -264,6 +264,7 @@ TEST(OddClouds, NoiseIsABody)
     EXPECT_EQ(run.report.components, 1u);
     EXPECT_EQ(run.report.genus(), 0);
     EXPECT_GT(volumeOf(run.result.mesh), 1.);
+    EXPECT_TRUE(run.warnsOf("has no surface"));
   }
 }
 

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/FacingBoundaries.h"
+
+#include "mesh/Pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+constexpr std::size_t VerticesAsked = 1000;
+/// In roots of the area.
+constexpr double WidestOpening = 0.5;
+/// A vertex of the same loop is across only if the way along the loop is so many times as long, and some edges.
+constexpr double TimesAlongLoop = 3.;
+constexpr double EdgesAlongLoop = 3.;
+/// Of what a pair of vertices says, from -2 to 2: both normals and boundaries must say it.
+constexpr double LeastSaid = 1.;
+
+Vector4 directionOf(Vector4 vector)
+{
+  const float squared = squaredNorm(vector);
+  return squared > 0.f ? 1.f / std::sqrt(squared) * vector : Vector4();
+}
+
+struct BoundaryVertex
+{
+  VertexIndex vertex;
+  std::size_t loop;
+  double along; ///< its loop
+};
+
+class Facing
+{
+public:
+  explicit Facing(const Mesh& mesh)
+    : mesh_(mesh)
+    , meanEdge_(mesh.meanEdge())
+  {
+    std::vector<std::uint8_t> isDone(mesh.indexEnd(), 0);
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      if (mesh.isBoundary(v) && isDone[v] == 0)
+      {
+        addLoop(v, isDone);
+      }
+    }
+  }
+
+  FacingBoundaries find() const
+  {
+    FacingBoundaries result;
+    const double widest = WidestOpening * WidestOpening * areaOf(mesh_);
+    double closest = std::numeric_limits<double>::infinity();
+    const std::size_t asked = std::min(vertices_.size(), VerticesAsked);
+    for (std::size_t i = 0; i < asked; ++i)
+    {
+      const BoundaryVertex& from = vertices_[i * vertices_.size() / asked];
+      const auto [other, squared] = across(from);
+      if (other == NoVertex || squared > widest)
+      {
+        continue;
+      }
+      const double said = agreementOf(from.vertex, other);
+      const double length =
+        0.5 * lengthAt(from.vertex) * double(vertices_.size()) / double(asked);
+      result.agreeing += said > LeastSaid ? length : 0.;
+      result.contradicting += said < -LeastSaid ? length : 0.;
+      if (said < -LeastSaid && squared < closest)
+      {
+        closest = squared;
+        result.place = mesh_.position(from.vertex);
+      }
+    }
+    return result;
+  }
+
+private:
+  void addLoop(VertexIndex first, std::vector<std::uint8_t>& isDone)
+  {
+    double along = 0.;
+    VertexIndex v = first;
+    do
+    {
+      isDone[v] = 1;
+      vertices_.push_back({ v, lengths_.size(), along });
+      const VertexIndex next = mesh_.ring(v).front();
+      along += std::sqrt(double(squaredNorm(mesh_.position(next) - mesh_.position(v))));
+      v = next;
+    } while (isDone[v] == 0);
+    lengths_.push_back(along);
+  }
+
+  struct Across
+  {
+    VertexIndex vertex = NoVertex;
+    double squaredDistance = std::numeric_limits<double>::infinity();
+  };
+
+  Across across(const BoundaryVertex& from) const
+  {
+    Across result;
+    for (const BoundaryVertex& other : vertices_)
+    {
+      const double squared =
+        double(squaredNorm(mesh_.position(other.vertex) - mesh_.position(from.vertex)));
+      if (squared < result.squaredDistance && isAcross(from, other, squared))
+      {
+        result = { other.vertex, squared };
+      }
+    }
+    return result;
+  }
+
+  bool isAcross(const BoundaryVertex& one, const BoundaryVertex& other, double squared) const
+  {
+    if (one.loop != other.loop)
+    {
+      return true;
+    }
+    const double way = std::abs(one.along - other.along);
+    return std::min(way, lengths_[one.loop] - way) >=
+      TimesAlongLoop * std::sqrt(squared) + EdgesAlongLoop * meanEdge_;
+  }
+
+  Vector4 alongAt(VertexIndex v) const
+  {
+    return mesh_.position(mesh_.ring(v).back()) - mesh_.position(mesh_.ring(v).front());
+  }
+  /// Of two edges.
+  double lengthAt(VertexIndex v) const { return std::sqrt(double(squaredNorm(alongAt(v)))); }
+
+  double agreementOf(VertexIndex v, VertexIndex other) const
+  {
+    const auto normalAt = [this](VertexIndex at) { return directionOf(mesh_.normal(at)); };
+    return double(dot(normalAt(v), normalAt(other)) -
+      dot(directionOf(alongAt(v)), directionOf(alongAt(other))));
+  }
+
+  const Mesh& mesh_;
+  double meanEdge_;
+  std::vector<BoundaryVertex> vertices_; ///< loop by loop
+  std::vector<double> lengths_;          ///< of the loops
+};
+}
+
+FacingBoundaries findFacingBoundaries(const Mesh& mesh)
+{
+  return mesh.isOpen() ? Facing(mesh).find() : FacingBoundaries();
+}
+}

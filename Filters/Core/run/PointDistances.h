@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Executor.h"
+#include "cloud/PointCloud.h"
+#include "mesh/Mesh.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace neuralmesh
+{
+/// A point is away from a mesh only beyond so many times the median distance of all: no noise is there.
+constexpr float MediansAway = 8.f;
+
+/// How far points are from the mesh, as is told from outside.
+struct PointDistances
+{
+  std::vector<std::size_t> points;            ///< which of the cloud, in rising order
+  std::vector<float> distances;               ///< of each, in units of the cloud
+  std::vector<std::uint8_t> isBeyondBoundary; ///< of each, whether its place is on a boundary
+  double meanEdge = 0.;                       ///< of the mesh, in units of the cloud
+};
+
+/// What vertices rest on, by their index: points count at the corners of the triangle that they lie on, by
+/// their barycentric weights. Outliers do not count: points farther from the mesh than five times the median
+/// distance and than half a mean edge.
+struct VertexSupport
+{
+  std::vector<double>
+    weights; ///< of the points of the cloud, about: 1 for each where all weigh alike
+  /// Root of the mean squared distance of these points, in units of the input; NaN where there are none.
+  std::vector<double> residuals;
+  /// Of the cloud, for each that was asked; what is told of less is chance.
+  double pointsPerAsked = 1.;
+};
+
+/// At most `most` points of the cloud, evenly picked, and how far they are from a mesh of which no
+/// vertex may be erased.
+PointDistances distancesTo(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
+  const Executor& executor = Executor::sequential());
+
+/// What the vertices of such a mesh rest on, by at most so many points.
+VertexSupport supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
+  const Executor& executor = Executor::sequential());
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Promise: what a mesh spans where there are no points is told, with its place and how much of the area it is; what is
+// sparse, what was asked for, and a place that is empty by chance are not.
+#include "run/SpannedGaps.h"
+
+#include "cloud/CloudGenerator.h"
+#include "cloud/MeshBuilder.h"
+#include "run/Reconstruction.h"
+#include "run/Warnings.h"
+#include "Shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+/// A mesh of the unit sphere over points of it, of which but a part is there within a distance of the pole.
+struct Pole
+{
+  Pole(double radius, double part)
+  {
+    CloudOptions options;
+    options.count = 100000;
+    std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
+    std::mt19937 engine(3);
+    std::erase_if(points,
+      [&](const Eigen::Vector3d& point)
+      {
+        return (point - Eigen::Vector3d::UnitZ()).norm() < radius &&
+          double(engine()) >= part * 4294967295.;
+      });
+    cloud.emplace(points);
+    const Mesh mesh = buildMesh(makeSphere(40), *cloud);
+    const PointDistances distances = distancesTo(mesh, *cloud, points.size());
+    result.support = supportOf(mesh, *cloud, points.size());
+    result.gaps = spannedGaps(mesh, result.support, *cloud, distances);
+  }
+
+  bool isWarnedOf(const Parameters& parameters = {}) const
+  {
+    const std::vector<std::string> warnings = warningsOf(result, *cloud, parameters);
+    return std::any_of(warnings.begin(), warnings.end(),
+      [](const std::string& warning) { return warning.starts_with("The mesh spans gaps"); });
+  }
+
+  std::optional<PointCloud> cloud;
+  Reconstruction result;
+};
+}
+
+TEST(SpannedGaps, AtThePole)
+{
+  const Pole pole(0.2, 0.);
+  ASSERT_EQ(pole.result.gaps.size(), 1u);
+  // A cap of a sphere within r of its pole is r^2/4 of the area; its rim is near points.
+  EXPECT_GT(pole.result.gaps[0].share, 0.4 * 0.01);
+  EXPECT_LT(pole.result.gaps[0].share, 0.01);
+  EXPECT_LT((pole.result.gaps[0].center - Eigen::Vector3d::UnitZ()).norm(), 0.05);
+  EXPECT_TRUE(pole.isWarnedOf());
+  Parameters closing, filling;
+  closing.boundaries = Boundaries::Close;
+  filling.closeHolesBelow = 1.;
+  EXPECT_FALSE(pole.isWarnedOf(closing));
+  EXPECT_FALSE(pole.isWarnedOf(filling));
+}
+
+TEST(SpannedGaps, SparseIsNoGap)
+{
+  EXPECT_FALSE(Pole(0.2, 0.1).isWarnedOf());
+  EXPECT_FALSE(Pole(0.2, 1.).isWarnedOf());
+}
+}
