@@ -3,7 +3,7 @@
 // preset, with the search through all counters that the thesis began with, with its activity list,
 // or with exact counters in heaps. Prints a table of comma-separated values. Times are those of one
 // core.
-#include "learn/Learner.h"
+#include "learn/SequentialLearner.h"
 #include "learn/LearningCurve.h"
 #include "NaiveOrder.h"
 
@@ -146,14 +146,14 @@ PointCloud readCloud(const std::string& path)
   return PointCloud(points);
 }
 
-Learner makeLearner(const PointCloud& cloud, const Options& options)
+SequentialLearner makeLearner(const PointCloud& cloud, const Options& options)
 {
-  Learner learner(cloud, options.parameters);
+  SequentialLearner learner(cloud, options.parameters);
   if (options.way != Way::Search)
   {
     return learner;
   }
-  return Learner(cloud, options.parameters, learner.mesh(), std::make_unique<NaiveOrder>(4));
+  return SequentialLearner(cloud, options.parameters, learner.mesh(), std::make_unique<NaiveOrder>(4));
 }
 
 void printRow(const LearningCurve::Row& row, const StopWatch& watch)

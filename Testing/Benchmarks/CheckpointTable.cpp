@@ -36,7 +36,7 @@ void printRow(const PointCloud& cloud, std::size_t vertices, Order order)
     (std::filesystem::temp_directory_path() / "neuralmesh-table.checkpoint").string();
   std::filesystem::remove(path);
 
-  Learner learner(cloud, parameters, mesh), resumed(cloud, parameters, mesh);
+  SequentialLearner learner(cloud, parameters, mesh), resumed(cloud, parameters, mesh);
   StoppingRules rules(cloud, parameters);
   LearningCurve curve;
   LearningState state{ learner, rules, curve }, resumedState{ resumed, rules, curve };

@@ -2,7 +2,7 @@
 // Grows a mesh on a torus to the given number of vertices and prints how many samples that took:
 // what the instruction counter is run on.
 #include "cloud/CloudGenerator.h"
-#include "learn/Learner.h"
+#include "learn/SequentialLearner.h"
 #include "Shapes.h"
 
 #include <cstdio>
@@ -14,7 +14,7 @@ int main(int argc, char* argv[])
   Parameters parameters;
   parameters.numberOfVertices = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 10000;
   const PointCloud cloud(generateCloud(makeTorus(), CloudOptions()));
-  Learner learner(cloud, parameters);
+  SequentialLearner learner(cloud, parameters);
   while (!learner.hasAllVertices())
   {
     learner.learn(4096);

@@ -4,7 +4,7 @@
 // once it has taken too long.
 #include "cloud/CloudGenerator.h"
 #include "learn/ExactOrder.h"
-#include "learn/Learner.h"
+#include "learn/SequentialLearner.h"
 #include "NaiveOrder.h"
 #include "Shapes.h"
 
@@ -43,7 +43,7 @@ std::vector<Row> grow(const PointCloud& cloud, const std::vector<std::size_t>& s
   Parameters parameters;
   parameters.numberOfVertices = std::uint64_t(2 * double(sizes.back()));
   const Vector4 center(0.f, 0.f, 0.f);
-  Learner learner(cloud, parameters, Mesh::tetrahedron(center, 0.1f), std::move(order));
+  SequentialLearner learner(cloud, parameters, Mesh::tetrahedron(center, 0.1f), std::move(order));
   std::vector<Row> rows;
   const double start = processorSeconds();
   for (const std::size_t size : sizes)

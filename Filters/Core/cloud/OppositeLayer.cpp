@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/OppositeLayer.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -27,7 +28,7 @@ float meanEdgeAt(const Mesh& mesh, VertexIndex v)
 }
 }
 
-VertexIndex oppositeVertex(const Mesh& mesh, const VertexGrid& grid, VertexIndex v)
+VertexIndex oppositeVertex(const Mesh& mesh, const ClosestVertex& closestTo, VertexIndex v)
 {
   const Vector4 normal = mesh.normal(v);
   const float squared = squaredNorm(normal);
@@ -51,7 +52,7 @@ VertexIndex oppositeVertex(const Mesh& mesh, const VertexGrid& grid, VertexIndex
   for (const float edges : ProbeEdges)
   {
     const VertexIndex found =
-      grid.closest(mesh.position(v) + edges * edge * unit, mesh.positions());
+      closestTo(mesh.position(v) + edges * edge * unit);
     if (isOpposite(found))
     {
       return found;
@@ -60,7 +61,7 @@ VertexIndex oppositeVertex(const Mesh& mesh, const VertexGrid& grid, VertexIndex
   return NoVertex;
 }
 
-std::vector<VertexIndex> oppositeVertices(const Mesh& mesh, const VertexGrid& grid,
+std::vector<VertexIndex> oppositeVertices(const Mesh& mesh, const ClosestVertex& closestTo,
   std::span<const std::uint8_t> isAsked, const Executor& executor)
 {
   std::vector<VertexIndex> result(mesh.indexEnd(), NoVertex);
@@ -71,7 +72,7 @@ std::vector<VertexIndex> oppositeVertices(const Mesh& mesh, const VertexGrid& gr
       {
         if (mesh.isAlive(v) && (isAsked.empty() || isAsked[v] != 0))
         {
-          result[v] = oppositeVertex(mesh, grid, v);
+          result[v] = oppositeVertex(mesh, closestTo, v);
         }
       }
     });
@@ -107,5 +108,19 @@ PlaceOnMesh facingPlace(Vector4 point, const Mesh& mesh, VertexIndex closest, Ve
   const PlaceOnMesh place = closestPlaceOnLayer(point, mesh, closest);
   const PlaceOnMesh other = closestPlaceOnLayer(point, mesh, opposite);
   return other.squaredDistance < place.squaredDistance ? other : place;
+}
+
+VertexIndex facingWinner(
+  Vector4 sample, const Mesh& mesh, VertexIndex closest, const ClosestVertex& closestTo)
+{
+  const VertexIndex opposite = oppositeVertex(mesh, closestTo, closest);
+  if (opposite == NoVertex)
+  {
+    return closest;
+  }
+  const PlaceOnMesh place = facingPlace(sample, mesh, closest, opposite);
+  const std::array<float, 3> weights{ place.weights[0], place.weights[1], place.weights[2] };
+  const auto nearest = std::max_element(weights.begin(), weights.end()) - weights.begin();
+  return place.triangle[std::size_t(nearest)];
 }
 }

@@ -1,127 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "learn/Learner.h"
 
-#include "base/Archive.h"
-#include "learn/ExactOrder.h"
+#include "learn/ParallelLearner.h"
+#include "learn/SequentialLearner.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace neuralmesh
 {
-namespace
+std::unique_ptr<Learner> Learner::from(const Mesh& mesh, std::span<const float> weights,
+  const PointCloud& cloud, const Parameters& parameters, const Executor& executor)
 {
-/// A batch is so small a part of the mesh that hardly any vertex wins twice in it.
-constexpr std::size_t VerticesPerSampleOfBatch = 8;
-
-/// How often the window of the noise filter is filled before a first mesh is learnt, and with how
-/// many samples at most: each time the limit sinks, until it tells outliers.
-constexpr int FirstObservations = 8;
-constexpr std::size_t MostFirstSamples = 1 << 16;
-
-/// Where points are sparse, edges are long and samples far from their winners: closer than so many
-/// edges none is an outlier.
-constexpr float LeastOutlierEdges = 2.f;
-
-/// Radius of the first tetrahedron; the bulk of the cloud has a diagonal of 1.
-constexpr float FirstRadius = 0.1f;
-
-Vector4 meanOf(std::span<const Vector4> points)
-{
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Vector4 point : points)
+  if (ParallelLearner::isFor(parameters))
   {
-    sum += point.toDouble();
+    return std::make_unique<ParallelLearner>(cloud, parameters, mesh, weights, executor);
   }
-  return Vector4(Eigen::Vector3d(sum / double(points.size())));
+  return std::make_unique<SequentialLearner>(cloud, parameters, mesh, weights, executor);
 }
 
-Mesh firstTetrahedron(const PointCloud& cloud)
-{
-  const Vector4 center = max(min(meanOf(cloud.points()), cloud.bulkMax()), cloud.bulkMin());
-  return Mesh::tetrahedron(center, FirstRadius);
-}
-
-/// The mean edge opposite to a vertex: of a spike that an outlier has drawn out, these are as short as
-/// around it.
-float meanOppositeEdge(const Mesh& mesh, VertexIndex v)
-{
-  const Ring& ring = mesh.ring(v);
-  float sum = 0.f;
-  for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
-  {
-    sum +=
-      std::sqrt(squaredNorm(mesh.position(ring[ring.after(slot)]) - mesh.position(ring[slot])));
-  }
-  return sum / float(ring.triangleCount());
-}
-
-/// Counters with which no vertex counts as idle before it could win: with counters of zero, most of
-/// a large mesh would be removed at once.
-std::unique_ptr<ActivityOrder> orderAfterOneWin(std::size_t count)
-{
-  auto order = std::make_unique<ExactOrder>(count);
-  for (std::size_t v = 0; v < count; ++v)
-  {
-    order->win(VertexIndex(v), 1., 1.);
-  }
-  return order;
-}
-}
-
-Learner::Learner(const PointCloud& cloud, const Parameters& parameters, const Executor& executor)
-  : Learner(cloud, parameters, firstTetrahedron(cloud), std::make_unique<ExactOrder>(4), executor)
-{
-  isListDue_ = parameters.order == Order::List;
-}
-
-Learner::Learner(const PointCloud& cloud, const Parameters& parameters, const Mesh& mesh,
-  std::span<const float> weights, const Executor& executor)
-  : Learner(cloud, parameters, mesh, orderAfterOneWin(mesh.indexEnd()), executor)
-{
-  if (!weights.empty())
-  {
-    samples_ = SampleStream(cloud.points(), parameters.seed, weights);
-  }
-  isListDue_ = parameters.order == Order::List;
-  enterListIfDue();
-  thinParts_.find(neuralMesh_, executor);
-  observeFirstMesh();
-}
-
-Learner::Learner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh,
-  std::unique_ptr<ActivityOrder> order, const Executor& executor)
+Learner::Learner(const Parameters& parameters, const Executor& executor)
   : parameters_(parameters)
   , executor_(executor)
-  , neuralMesh_(std::move(mesh), std::move(order), cloud.bulkMin(), cloud.bulkMax(),
-      std::size_t(parameters.numberOfVertices), executor)
-  , samples_(cloud.points(), parameters.seed, cloud.weights())
   , noiseFilter_(parameters)
   , winGain_(parameters)
-  , thinParts_(neuralMesh_)
+  , nextAddition_(std::uint64_t(parameters.samplesPerAddition))
 {
-  if (!parameters.filtersNoise())
-  {
-    hasWon_ = neuralMesh_.addProperty(std::uint8_t(1), OnSplit::Begin);
-  }
-  if (parameters.computeFeatureStrength)
-  {
-    featureStrength_.emplace(neuralMesh_, parameters.featureMemory);
-    samplesAfterGrowth_ = std::uint64_t(parameters.featureSamples *
-      double(std::max<std::uint64_t>(parameters.numberOfVertices, neuralMesh_.vertexCount())));
-  }
-  nextAddition_ = std::uint64_t(parameters_.samplesPerAddition);
-  nextRemoval_ = removalInterval();
-  if (parameters_.topologyLearning)
-  {
-    neuralMesh_.traceBoundaries();
-    topology_.emplace(parameters_);
-    boundarySmoothing_ = parameters.topologyRules == TopologyRules::Thesis
-      ? BoundarySmoothing::Everywhere
-      : BoundarySmoothing::Along;
-    nextTopology_ = topologyInterval();
-  }
-  updateDecay();
 }
 
 void Learner::learn(std::uint64_t sampleCount, const std::function<void()>& afterBatch)
@@ -138,178 +42,33 @@ void Learner::learn(std::uint64_t sampleCount, const std::function<void()>& afte
   }
 }
 
-std::size_t Learner::batchSize() const
+void Learner::begin(Step step) const
 {
-  return std::clamp<std::size_t>(
-    neuralMesh_.vertexCount() / VerticesPerSampleOfBatch, 1, std::size_t(parameters_.batchSize));
-}
-
-void Learner::learnBatch(std::size_t size)
-{
-  const bool isGrowing = !hasAllVertices();
-  if (!isGrowing && !wanders_)
+  if (watch_)
   {
-    size = std::size_t(std::min<std::uint64_t>(size, samplesAfterGrowth_));
-    samplesAfterGrowth_ -= size;
-  }
-  neuralMesh_.releaseErased();
-  const std::span<const Vector4> samples = samples_.draw(size, executor_);
-  noiseFilter_.beginBatch(size, neuralMesh_.vertexCount());
-  winGain_.beginBatch(noiseFilter_.observationStride());
-  findWinners(samples);
-  const bool hasThinParts = thinParts_.any();
-  for (std::size_t i = 0; i < samples.size(); ++i)
-  {
-    neuralMesh_.prefetchBehind(i, winners_);
-    if (!mesh().isAlive(winners_[i]))
-    {
-      winners_[i] = neuralMesh_.winner(samples[i]);
-    }
-    if (hasThinParts)
-    {
-      winners_[i] = thinParts_.facingWinner(neuralMesh_, samples[i], winners_[i]);
-    }
-    basicStep(samples[i], winners_[i]);
-    ++counts_.iterations;
-    if (isGrowing && isGrowthDue())
-    {
-      grow();
-      if (hasAllVertices())
-      {
-        break; // the rest of the samples was drawn for growth
-      }
-    }
-    else if (!isGrowing && wanders_ && isAdditionDue())
-    {
-      wander();
-    }
-  }
-  neuralMesh_.compactIfGrown(executor_);
-  if (hasThinParts)
-  {
-    thinParts_.lookIfGrown(neuralMesh_, executor_);
+    watch_(step);
   }
 }
 
-void Learner::findWinners(std::span<const Vector4> samples)
+double Learner::patience() const
 {
-  winners_.resize(samples.size());
-  neuralMesh_.findWinners(samples, winners_, executor_);
+  const bool early = mesh().vertexCount() < std::size_t(parameters_.earlyVertices);
+  return early ? parameters_.earlyPatience : 1.;
 }
 
-void Learner::basicStep(Vector4 sample, VertexIndex winner)
+std::uint64_t Learner::removalInterval() const
 {
-  const Vector4 toSample = sample - mesh().position(winner); // d
-  const float squaredDistance = squaredNorm(toSample);
-  noiseFilter_.observeNowAndThen(squaredDistance);
-  if (isOutlier(winner, squaredDistance))
-  {
-    ++counts_.rejectedSamples;
-    neuralMesh_.pass(decay_);
-    return;
-  }
-  // (6.1), or (9.1) with F(|d|) of (9.2)
-  const float rate = float(parameters_.winnerRate) * noiseFilter_.pull(squaredDistance);
-  const Vector4 moved = mesh().position(winner) + rate * toSample;
-  const double gain = winGain_.isDue(counts_.iterations) ? gainOfMove(winner, moved) : 1.;
-  neuralMesh_.move(winner, moved);
-  // (6.2) to (6.4)
-  for (int i = 0; i < parameters_.smoothingIterations; ++i)
-  {
-    neuralMesh_.smoothRing(winner, float(parameters_.smoothingRate), boundarySmoothing_);
-  }
-  // (6.5), (6.6); (8.3), (8.4); (9.5)
-  neuralMesh_.win(winner, gain, decay_);
-  if (hasWon_)
-  {
-    neuralMesh_.values(*hasWon_)[winner] = 1;
-  }
+  // Growth depends on the ratio of C_ec to C_vs, (6.18): patience is with both.
+  return parameters_.filtersNoise()
+    ? std::uint64_t(parameters_.additionsPerRemoval)
+    : std::uint64_t(patience() * parameters_.removalPatience * double(mesh().vertexCount()));
 }
 
-bool Learner::isOutlier(VertexIndex winner, float squaredDistance) const
+void Learner::updateDecay()
 {
-  if (!noiseFilter_.rejects(squaredDistance))
-  {
-    return false;
-  }
-  const float near = LeastOutlierEdges * meanOppositeEdge(mesh(), winner);
-  return squaredDistance > near * near;
-}
-
-double Learner::gainOfMove(VertexIndex winner, Vector4 position)
-{
-  const double gain = winGain_.ofMove(mesh(), winner, position);
-  if (featureStrength_)
-  {
-    featureStrength_->win(neuralMesh_, winner, winGain_.normalGain());
-  }
-  return gain;
-}
-
-void Learner::observeFirstMesh()
-{
-  const std::size_t count =
-    std::min(std::size_t(parameters_.noiseWindow), MostFirstSamples / FirstObservations);
-  for (int i = 0; i < FirstObservations; ++i)
-  {
-    const std::span<const Vector4> samples = samples_.draw(count, executor_);
-    noiseFilter_.beginBatch(count, neuralMesh_.vertexCount());
-    findWinners(samples);
-    for (std::size_t sample = 0; sample < count; ++sample)
-    {
-      noiseFilter_.observe(squaredNorm(samples[sample] - mesh().position(winners_[sample])));
-    }
-  }
-}
-
-void Learner::changeCloud(
-  const PointCloud& from, const PointCloud& to, const Parameters& parameters)
-{
-  parameters_.numberOfVertices = parameters.numberOfVertices;
-  samples_ = SampleStream(to.points(), parameters.seed, to.weights());
-  neuralMesh_.setMostVertices(std::size_t(parameters.numberOfVertices));
-  neuralMesh_.moveAll(to.bulkMin(), to.bulkMax(),
-    [&](Vector4 position) { return to.fromInput(from.toInput(position)); });
-  neuralMesh_.releaseErased();
-  compact();
-}
-
-LearntMesh Learner::learntMesh() const
-{
-  LearntMesh result{ mesh(), {}, {} };
-  result.activity = result.mesh.addProperty(0., OnSplit::Copy);
-  const std::span<double> activities = result.mesh.values(result.activity);
-  for (const VertexIndex v : neuralMesh_.vertices())
-  {
-    activities[v] = order().activity(v);
-  }
-  if (featureStrength_)
-  {
-    result.featureStrength = featureStrength_->property();
-  }
-  result.mesh.dropErased();
-  return result;
-}
-
-// --- The state as a whole ------------------------------------------------------------------------
-
-void Learner::exchange(Archive& archive)
-{
-  bool isListDue = isListDue_;
-  archive(isListDue);
-  if (isListDue_ && !isListDue)
-  {
-    enterList();
-  }
-  archive.require(isListDue_ == isListDue);
-  archive(counts_, neuralMesh_, samples_, noiseFilter_, winGain_);
-  const std::uint64_t mostSamplesAfterGrowth = samplesAfterGrowth_;
-  archive(nextAddition_, nextRemoval_, nextTopology_, samplesAfterGrowth_);
-  archive.require(samplesAfterGrowth_ <= mostSamplesAfterGrowth);
-  thinParts_.exchange(archive);
-  if (archive.isReading())
-  {
-    updateDecay();
-  }
+  // (9.4) with the current number of vertices.
+  decay_ = parameters_.variant == Variant::Basic
+    ? parameters_.counterDecay
+    : std::exp2(-1. / (parameters_.counterHalfLife * double(mesh().vertexCount())));
 }
 }

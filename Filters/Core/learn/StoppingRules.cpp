@@ -3,6 +3,7 @@
 
 #include "base/Archive.h"
 #include "cloud/CloudDistance.h"
+#include "cloud/PlaceOnMesh.h"
 
 #include <algorithm>
 
@@ -157,7 +158,7 @@ bool StoppingRules::meetsCloudDistance(const Learner& learner)
   }
   nextCloudDistance_ = std::size_t(GrowthUntilCloudDistance * double(vertices)) + 1;
   const double distance =
-    meanDistanceToSurface(cloud_.points(), learner.mesh(), learner.grid(), PointsForCloudDistance);
+    meanDistanceToSurface(cloud_.points(), learner.mesh(), gridOf(learner.mesh(), cloud_), PointsForCloudDistance);
   return distance <= parameters_.targetCloudDistance * cloud_.diagonal();
 }
 }

@@ -5,7 +5,6 @@
 #include "cloud/OppositeLayer.h"
 
 #include <algorithm>
-#include <array>
 
 namespace neuralmesh
 {
@@ -31,7 +30,8 @@ void ThinParts::look(NeuralMesh& neuralMesh, const Executor& executor)
 {
   const std::span<std::uint8_t> isThin = neuralMesh.values(isThin_);
   const std::vector<VertexIndex> opposite =
-    oppositeVertices(neuralMesh.mesh(), neuralMesh.grid(), isThin, executor);
+    oppositeVertices(
+    neuralMesh.mesh(), [&](Vector4 point) { return neuralMesh.winner(point); }, isThin, executor);
   std::transform(opposite.begin(), opposite.end(), isThin.begin(),
     [](VertexIndex v) { return std::uint8_t(v == NoVertex ? 0 : 1); });
   any_ = std::find(isThin.begin(), isThin.end(), 1) != isThin.end();
@@ -50,19 +50,10 @@ VertexIndex ThinParts::facingWinner(
   const NeuralMesh& neuralMesh, Vector4 sample, VertexIndex closest) const
 {
   const Mesh& mesh = neuralMesh.mesh();
-  if (mesh.values(isThin_)[closest] == 0)
-  {
-    return closest;
-  }
-  const VertexIndex opposite = oppositeVertex(mesh, neuralMesh.grid(), closest);
-  if (opposite == NoVertex)
-  {
-    return closest;
-  }
-  const PlaceOnMesh place = facingPlace(sample, mesh, closest, opposite);
-  const std::array<float, 3> weights{ place.weights[0], place.weights[1], place.weights[2] };
-  const auto nearest = std::max_element(weights.begin(), weights.end()) - weights.begin();
-  return place.triangle[std::size_t(nearest)];
+  return mesh.values(isThin_)[closest] == 0
+    ? closest
+    : neuralmesh::facingWinner(sample, mesh, closest,
+        [&](Vector4 point) { return neuralMesh.winner(point); });
 }
 
 void ThinParts::exchange(Archive& archive) { archive(any_, nextLook_); }

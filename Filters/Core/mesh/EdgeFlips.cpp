@@ -65,7 +65,9 @@ bool isFlat(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, Verte
 
 /// Flips a-b if that is legal and the edge between the opposite vertices is better: for the
 /// valences, or to retract a rim.
-bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims, EdgesToFlip which)
+template <typename MayTouch>
+bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims, EdgesToFlip which,
+  const MayTouch& mayTouch)
 {
   const Ring& ring = mesh.ring(a);
   const unsigned slot = ring.find(b);
@@ -75,7 +77,7 @@ bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims, E
   }
   const VertexIndex c = ring.next(slot);
   const VertexIndex d = ring.previous(slot);
-  if (c == NoVertex || d == NoVertex || (which == EdgesToFlip::Flat && !isFlat(mesh, a, b, c, d)))
+  if (c == NoVertex || d == NoVertex || !mayTouch(c) || !mayTouch(d) || (which == EdgesToFlip::Flat && !isFlat(mesh, a, b, c, d)))
   {
     return false;
   }
@@ -94,30 +96,10 @@ bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims, E
   mesh.flip(a, b);
   return true;
 }
-}
+constexpr auto any = [](VertexIndex) { return true; };
 
-int valenceGain(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
-{
-  return 2 *
-    (mesh.valenceExcess(a) + mesh.valenceExcess(b) - mesh.valenceExcess(c) -
-      mesh.valenceExcess(d)) -
-    4;
-}
-
-bool flipIfMoreRegular(Mesh& mesh, VertexIndex a, VertexIndex b)
-{
-  return flipIfBetter(mesh, a, b, false, EdgesToFlip::All);
-}
-
-bool isFlatEdge(const Mesh& mesh, VertexIndex a, VertexIndex b)
-{
-  const Ring& ring = mesh.ring(a);
-  const unsigned slot = ring.find(b);
-  const VertexIndex c = ring.next(slot), d = ring.previous(slot);
-  return c != NoVertex && d != NoVertex && isFlat(mesh, a, b, c, d);
-}
-
-unsigned flipEdgesAround(Mesh& mesh, VertexIndex v, EdgesToFlip which)
+template <typename MayTouch>
+unsigned flipAround(Mesh& mesh, VertexIndex v, EdgesToFlip which, const MayTouch& mayTouch)
 {
   const bool retractsRims = which == EdgesToFlip::All;
   unsigned flips = 0;
@@ -130,15 +112,54 @@ unsigned flipEdgesAround(Mesh& mesh, VertexIndex v, EdgesToFlip which)
     {
       const VertexIndex neighbor = before[slot];
       const VertexIndex next = before.next(slot);
-      const bool opposite = next != NoVertex && mesh.ring(neighbor).contains(next) &&
-        flipIfBetter(mesh, neighbor, next, retractsRims, which);
-      const bool spoke =
-        mesh.ring(v).contains(neighbor) && flipIfBetter(mesh, v, neighbor, retractsRims, which);
+      if (!mayTouch(neighbor))
+      {
+        continue;
+      }
+      const bool opposite = next != NoVertex && mayTouch(next) &&
+        mesh.ring(neighbor).contains(next) &&
+        flipIfBetter(mesh, neighbor, next, retractsRims, which, mayTouch);
+      const bool spoke = mesh.ring(v).contains(neighbor) &&
+        flipIfBetter(mesh, v, neighbor, retractsRims, which, mayTouch);
       flips += unsigned(opposite) + unsigned(spoke);
       improved = improved || opposite || spoke;
     }
   }
   return flips;
+}
+}
+
+int valenceGain(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, VertexIndex d)
+{
+  return 2 *
+    (mesh.valenceExcess(a) + mesh.valenceExcess(b) - mesh.valenceExcess(c) -
+      mesh.valenceExcess(d)) -
+    4;
+}
+
+bool flipIfMoreRegular(Mesh& mesh, VertexIndex a, VertexIndex b)
+{
+  return flipIfBetter(mesh, a, b, false, EdgesToFlip::All, any);
+}
+
+bool isFlatEdge(const Mesh& mesh, VertexIndex a, VertexIndex b)
+{
+  const Ring& ring = mesh.ring(a);
+  const unsigned slot = ring.find(b);
+  const VertexIndex c = ring.next(slot), d = ring.previous(slot);
+  return c != NoVertex && d != NoVertex && isFlat(mesh, a, b, c, d);
+}
+
+unsigned flipEdgesAround(Mesh& mesh, VertexIndex v, EdgesToFlip which)
+{
+  return flipAround(mesh, v, which, any);
+}
+
+unsigned flipMarkedEdgesAround(
+  Mesh& mesh, VertexIndex v, std::span<const std::uint64_t> marks, std::uint64_t mark)
+{
+  return flipAround(
+    mesh, v, EdgesToFlip::All, [&](VertexIndex u) { return marks[u] == mark; });
 }
 
 void flipEdges(Mesh& mesh, EdgesToFlip which)

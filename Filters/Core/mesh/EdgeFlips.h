@@ -3,6 +3,9 @@
 
 #include "mesh/Mesh.h"
 
+#include <cstdint>
+#include <span>
+
 namespace neuralmesh
 {
 /// Which edges may be flipped.
@@ -17,6 +20,11 @@ enum class EdgesToFlip
 /// is the rim of two sheets back to back, as bridges over gaps are. Returns the number of flips.
 /// Not in the thesis.
 unsigned flipEdgesAround(Mesh& mesh, VertexIndex v, EdgesToFlip which = EdgesToFlip::All);
+
+/// The same, of edges of which both ends and the vertices opposite to them have `mark` in `marks`; others are not
+/// even looked at: so it may be done at places far apart at the same time.
+unsigned flipMarkedEdgesAround(
+  Mesh& mesh, VertexIndex v, std::span<const std::uint64_t> marks, std::uint64_t mark);
 
 /// The same around all vertices.
 void flipEdges(Mesh& mesh, EdgesToFlip which = EdgesToFlip::All);

@@ -118,8 +118,28 @@ bool Mesh::canSplit(VertexIndex v, unsigned first, unsigned steps) const
 
 VertexIndex Mesh::split(VertexIndex v, unsigned first, unsigned steps, Vector4 position)
 {
-  assert(canSplit(v, first, steps));
   const VertexIndex added = newVertex(position);
+  properties_.resize(indexEnd());
+  splitInto(v, first, steps, position, added);
+  return added;
+}
+
+std::vector<VertexIndex> Mesh::addVertices(std::size_t count)
+{
+  std::vector<VertexIndex> added(count);
+  for (VertexIndex& v : added)
+  {
+    v = newVertex(Vector4());
+  }
+  properties_.resize(indexEnd());
+  return added;
+}
+
+void Mesh::splitInto(
+  VertexIndex v, unsigned first, unsigned steps, Vector4 position, VertexIndex added)
+{
+  assert(canSplit(v, first, steps));
+  positions_[added] = position;
   properties_.split(v, added);
   const Ring old = rings_[v];
   const bool open = old.isOpen();
@@ -168,7 +188,6 @@ VertexIndex Mesh::split(VertexIndex v, unsigned first, unsigned steps, Vector4 p
       neighborRing.replace(slot, added);
     }
   }
-  return added;
 }
 
 bool Mesh::canCollapse(VertexIndex removed, VertexIndex kept) const
@@ -208,6 +227,20 @@ bool Mesh::canCollapse(VertexIndex removed, VertexIndex kept) const
 
 void Mesh::collapse(VertexIndex removed, VertexIndex kept)
 {
+  collapseOnly(removed, kept);
+  eraseVertex(removed);
+}
+
+void Mesh::eraseVertices(std::span<const VertexIndex> removed)
+{
+  for (const VertexIndex v : removed)
+  {
+    eraseVertex(v);
+  }
+}
+
+void Mesh::collapseOnly(VertexIndex removed, VertexIndex kept)
+{
   assert(canCollapse(removed, kept));
   const Ring ring = rings_[removed];
   Ring& keptRing = rings_[kept];
@@ -237,7 +270,7 @@ void Mesh::collapse(VertexIndex removed, VertexIndex kept)
       oppositeRing.erase(oppositeRing.find(removed));
     }
   }
-  eraseVertex(removed);
+  rings_[removed].clear();
 }
 
 bool Mesh::canFlip(VertexIndex a, VertexIndex b) const

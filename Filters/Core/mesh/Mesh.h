@@ -87,6 +87,15 @@ public:
   bool canSplit(VertexIndex v, unsigned first, unsigned steps) const;
   VertexIndex split(VertexIndex v, unsigned first, unsigned steps, Vector4 position);
 
+  /// Splits and collapses of vertices so far apart that no ring is changed by two of them may be made at
+  /// the same time: splitInto() gives the index of a vertex that addVertices() has added, and what
+  /// collapseOnly() has removed is told to eraseVertices() afterwards.
+  std::vector<VertexIndex> addVertices(std::size_t count);
+  void splitInto(
+    VertexIndex v, unsigned first, unsigned steps, Vector4 position, VertexIndex added);
+  void collapseOnly(VertexIndex removed, VertexIndex kept);
+  void eraseVertices(std::span<const VertexIndex> removed);
+
   /// Half-edge collapse: `removed` vanishes into its neighbour `kept`, which does not move.
   /// Illegal: what breaks the link condition, a boundary vertex into an inner one or across an
   /// inner edge, boundary loops of three edges, the edges of a tetrahedron.

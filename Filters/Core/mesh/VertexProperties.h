@@ -60,16 +60,18 @@ public:
     return std::get<Column<T>>(columns_[property.column]).values;
   }
 
-  /// `added` came out of a split of `split`.
+  /// For all vertices below `indexEnd`.
+  void resize(std::size_t indexEnd)
+  {
+    forEachColumn([=](auto& column) { column.values.resize(indexEnd, column.first); });
+  }
+
+  /// `added` came out of a split of `split`. There must be room for it.
   void split(VertexIndex split, VertexIndex added)
   {
     forEachColumn(
       [=](auto& column)
       {
-        if (added >= column.values.size())
-        {
-          column.values.resize(added + std::size_t(1), column.first);
-        }
         column.values[added] =
           column.onSplit == OnSplit::Copy ? column.values[split] : column.first;
       });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "learn/Learner.h"
+#include "learn/SequentialLearner.h"
 #include "learn/StoppingRules.h"
 #include "mesh/TriangleMesh.h"
 #include "run/EnsembleParameters.h"
@@ -69,7 +69,7 @@ private:
   {
     Member(const PointCloud& cloud, const Parameters& parameters);
 
-    Learner learner;
+    SequentialLearner learner;
     StoppingRules rules;
     bool isLearnt = false;
     double progress = 0.;

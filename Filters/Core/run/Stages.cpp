@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/Stages.h"
 
+#include "learn/SequentialLearner.h"
+
 #include "cloud/MeshBuilder.h"
 #include "cloud/RepeatedPoints.h"
 #include "fit/CreaseRefinement.h"
@@ -104,11 +106,12 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
   return result;
 }
 
-Learner learnerFrom(Beginning beginning, const PointCloud& cloud, const Parameters& parameters,
-  const Executor& executor)
+std::unique_ptr<Learner> learnerFrom(const Beginning& beginning, const PointCloud& cloud,
+  const Parameters& parameters, const Executor& executor)
 {
-  return beginning.mesh ? Learner(cloud, parameters, *beginning.mesh, beginning.weights, executor)
-                        : Learner(cloud, parameters, executor);
+  return beginning.mesh
+    ? Learner::from(*beginning.mesh, beginning.weights, cloud, parameters, executor)
+    : std::make_unique<SequentialLearner>(cloud, parameters, executor);
 }
 
 StopReason ruleMet(const Learner& learner, StoppingRules& rules, const Progress& progress)

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -32,8 +33,8 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
   const Executor& executor = Executor::sequential());
 
 /// A learner of the cloud that starts there. `cloud` and `executor` must outlive it.
-Learner learnerFrom(Beginning beginning, const PointCloud& cloud, const Parameters& parameters,
-  const Executor& executor = Executor::sequential());
+std::unique_ptr<Learner> learnerFrom(const Beginning& beginning, const PointCloud& cloud,
+  const Parameters& parameters, const Executor& executor = Executor::sequential());
 
 /// The stopping rule that is met, or None; Cancelled if `progress` ends the run.
 StopReason ruleMet(const Learner& learner, StoppingRules& rules, const Progress& progress);

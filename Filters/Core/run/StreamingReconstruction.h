@@ -48,7 +48,7 @@ public:
   /// The same for so many seconds, to some thousand samples.
   std::uint64_t learnFor(double seconds, const Progress& progress);
 
-  bool hasMesh() const { return learner_.has_value(); }
+  bool hasMesh() const { return learner_ != nullptr; }
   /// The mesh as it is, if there is one. With `isFinished` it is fitted to the points of the last
   /// learn() by FitRounds, opened and repaired, and measured, unless `progress` ends that; and if it
   /// has all its vertices, it has as many as were asked for. Without rounds it is only measured. What is
@@ -78,7 +78,7 @@ private:
   std::unique_ptr<PointCloud> cloud_;
   std::optional<PointCloud> withClusters_;  ///< the same with clusters of outliers, if it has some
   std::vector<Eigen::Vector3f> directions_; ///< of what the cloud was made of
-  std::optional<Learner> learner_;
+  std::unique_ptr<Learner> learner_;
   std::optional<GapPlan> gaps_;
   std::size_t pointsAtBeginning_ = 0;
   double uncoveredAtBeginning_ = 0.;

@@ -3,7 +3,7 @@
 
 #include "base/Random.h"
 #include "cloud/CloudGenerator.h"
-#include "learn/Learner.h"
+#include "learn/SequentialLearner.h"
 #include "MeshTools.h"
 #include "Shapes.h"
 
@@ -35,7 +35,7 @@ double squaredDistanceByForce(const Eigen::Vector3d& point, const Eigen::Vector3
 }
 
 /// A learnt mesh on a sphere, and a grid of its vertices.
-const Learner& sphereLearner()
+const SequentialLearner& sphereLearner()
 {
   static const PointCloud cloud = []
   {
@@ -43,11 +43,11 @@ const Learner& sphereLearner()
     options.count = 20000;
     return PointCloud(generateCloud(makeSphere(), options));
   }();
-  static const std::unique_ptr<Learner> learner = []
+  static const std::unique_ptr<SequentialLearner> learner = []
   {
     Parameters parameters;
     parameters.numberOfVertices = 1000;
-    auto result = std::make_unique<Learner>(cloud, parameters);
+    auto result = std::make_unique<SequentialLearner>(cloud, parameters);
     result->learn(1000000);
     return result;
   }();

@@ -103,7 +103,7 @@ TEST(FirstMeshRun, EntersTheListInTime)
   for (const bool isLargeEnough : { true, false })
   {
     parameters.listVertices = int(sphere.points.size()) + (isLargeEnough ? 0 : 20);
-    Learner learner(cleanSphere(), parameters, buildMesh(sphere, cleanSphere()));
+    SequentialLearner learner(cleanSphere(), parameters, buildMesh(sphere, cleanSphere()));
     learner.learn(200);
     // In the list the activity is the place, up to 1; the counters are a little above that.
     EXPECT_EQ(learner.order().activity(learner.order().top()) == 1., isLargeEnough);

@@ -13,6 +13,13 @@ namespace neuralmesh::testing
 {
 namespace
 {
+/// The vertices of a mesh; that must outlive it.
+ClosestVertex closestIn(const Mesh& mesh, VertexGrid grid)
+{
+  return [&mesh, grid = std::move(grid)](Vector4 point)
+  { return grid.closest(point, mesh.positions()); };
+}
+
 constexpr unsigned QuadranglesOfPlate = 20;
 constexpr double EdgeOfPlate = 1. / QuadranglesOfPlate;
 }
@@ -27,7 +34,7 @@ TEST(OppositeLayer, IsThereWhereAPartIsThin)
     const double thickness = edges * EdgeOfPlate;
     const PointCloud cloud(platePoints(5000, thickness));
     const Mesh mesh = buildMesh(makePlate(QuadranglesOfPlate, thickness), cloud);
-    const std::vector<VertexIndex> opposite = oppositeVertices(mesh, gridOf(mesh, cloud), {});
+    const std::vector<VertexIndex> opposite = oppositeVertices(mesh, closestIn(mesh, gridOf(mesh, cloud)), {});
     std::size_t found = 0;
     for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
     {
@@ -48,7 +55,7 @@ TEST(OppositeLayer, IsThereWhereAPartIsThin)
     }
   }
   const Mesh sphere = meshOf(makeSphere(12));
-  const std::vector<VertexIndex> none = oppositeVertices(sphere, gridOf(sphere, cleanSphere()), {});
+  const std::vector<VertexIndex> none = oppositeVertices(sphere, closestIn(sphere, gridOf(sphere, cleanSphere())), {});
   EXPECT_TRUE(std::all_of(none.begin(), none.end(), [](VertexIndex v) { return v == NoVertex; }));
 }
 
@@ -59,13 +66,13 @@ TEST(OppositeLayer, OfThoseThatAreAsked)
   const PointCloud cloud(platePoints(5000, thickness));
   const Mesh mesh = buildMesh(makePlate(QuadranglesOfPlate, thickness), cloud);
   const VertexGrid grid = gridOf(mesh, cloud);
-  const std::vector<VertexIndex> all = oppositeVertices(mesh, grid, {});
+  const std::vector<VertexIndex> all = oppositeVertices(mesh, closestIn(mesh, grid), {});
   std::vector<std::uint8_t> isAsked(mesh.indexEnd());
   for (VertexIndex v = 0; v < mesh.indexEnd(); v += 3)
   {
     isAsked[v] = 1;
   }
-  const std::vector<VertexIndex> some = oppositeVertices(mesh, grid, isAsked);
+  const std::vector<VertexIndex> some = oppositeVertices(mesh, closestIn(mesh, grid), isAsked);
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
     EXPECT_EQ(some[v], isAsked[v] != 0 ? all[v] : NoVertex);
@@ -88,7 +95,7 @@ TEST(OppositeLayer, PlacesFaceTheirPoints)
   }
   const Mesh mesh = buildMesh(plate, cloud);
   const VertexGrid grid = gridOf(mesh, cloud);
-  const std::vector<VertexIndex> opposite = oppositeVertices(mesh, grid, {});
+  const std::vector<VertexIndex> opposite = oppositeVertices(mesh, closestIn(mesh, grid), {});
   std::size_t asked = 0, onItsSide = 0, byClosest = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {

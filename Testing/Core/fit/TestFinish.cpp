@@ -3,7 +3,7 @@
 
 #include "cloud/MeshBuilder.h"
 #include "fit/IntersectionRepair.h"
-#include "learn/Learner.h"
+#include "learn/SequentialLearner.h"
 #include "mesh/Pieces.h"
 #include "mesh/SmallPieces.h"
 #include "mesh/SurfaceReport.h"
@@ -47,7 +47,7 @@ Mesh learnt(const PointCloud& cloud)
 {
   Parameters parameters = learningAlone();
   parameters.numberOfVertices = Vertices;
-  Learner learner(cloud, parameters, buildMesh(makeSphere(8), cloud));
+  SequentialLearner learner(cloud, parameters, buildMesh(makeSphere(8), cloud));
   while (!learner.isComplete())
   {
     learner.learn(10000);

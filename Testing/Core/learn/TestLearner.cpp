@@ -51,7 +51,7 @@ Deviation deviationFromSphere(const TriangleMesh& mesh)
 }
 
 /// A learner that starts from the mesh that another has grown.
-Learner goOnWith(Learner& grown, const Parameters& parameters)
+SequentialLearner goOnWith(SequentialLearner& grown, const Parameters& parameters)
 {
   grown.compact();
   const std::size_t count = grown.mesh().indexEnd();
@@ -118,7 +118,7 @@ TEST_P(LearnerSettings, StepsAreWatched)
 {
   Parameters settings = parameters(600);
   settings.topologyLearning = true;
-  Learner watched(cleanSphere(), settings);
+  SequentialLearner watched(cleanSphere(), settings);
   std::map<Step, std::uint64_t> begun;
   Step last = Step::TopologyLearning;
   watched.watchSteps(
@@ -127,7 +127,7 @@ TEST_P(LearnerSettings, StepsAreWatched)
       ++begun[step];
       last = step;
     });
-  Learner other(cleanSphere(), settings);
+  SequentialLearner other(cleanSphere(), settings);
   for (Learner* learner : { &watched, &other })
   {
     learner->learn(std::numeric_limits<std::uint32_t>::max());
@@ -148,7 +148,7 @@ TEST_P(LearnerSettings, StepsAreWatched)
 // While the mesh grows it is a closed manifold all the time, and grid and order know its vertices.
 TEST_P(LearnerSettings, StructuresAgreeAllTheTime)
 {
-  Learner learner(cleanSphere(), parameters(800));
+  SequentialLearner learner(cleanSphere(), parameters(800));
   std::uint64_t iterations = 0;
   while (!learner.hasAllVertices())
   {
@@ -180,7 +180,7 @@ TEST_P(LearnerSettings, StructuresAgreeAllTheTime)
 // Renumbering closes the gaps that removed vertices have left, and keeps the shape.
 TEST_P(LearnerSettings, RenumberKeepsTheShape)
 {
-  Learner learner(cleanSphere(), parameters(700));
+  SequentialLearner learner(cleanSphere(), parameters(700));
   learner.learn(5000000);
   const auto shape = [&]
   {
@@ -215,7 +215,7 @@ TEST(Learner, EntersTheListInTime)
   Parameters parameters = small();
   parameters.order = Order::List;
   parameters.listVertices = 300;
-  Learner learner(cleanSphere(), parameters);
+  SequentialLearner learner(cleanSphere(), parameters);
   const auto highestActivity = [&] { return learner.order().activity(learner.order().top()); };
   while (learner.mesh().vertexCount() < 290)
   {
@@ -327,7 +327,7 @@ TEST(Learner, SparsePartsAreNoOutliers)
 // The learning loop allocates nothing: neither where the mesh only moves ...
 TEST_P(LearnerSettings, MovingAllocatesNothing)
 {
-  Learner grown(cleanSphere(), parameters(2000));
+  SequentialLearner grown(cleanSphere(), parameters(2000));
   grown.learn(5000000);
   ASSERT_EQ(grown.mesh().vertexCount(), 2000u);
 
@@ -355,7 +355,7 @@ TEST_P(LearnerOrders, SteadySizeAllocatesNothing)
 {
   Parameters growing;
   growing.numberOfVertices = 2000;
-  Learner grown(cleanSphere(), growing);
+  SequentialLearner grown(cleanSphere(), growing);
   grown.learn(5000000);
 
   Parameters steady;
@@ -377,7 +377,7 @@ TEST_P(LearnerOrders, SteadySizeAllocatesNothing)
 TEST(Learner, AllocationsAreCounted)
 {
   const std::size_t before = allocationCount();
-  Learner learner(cleanSphere(), small());
+  SequentialLearner learner(cleanSphere(), small());
   EXPECT_GT(allocationCount(), before);
 }
 
@@ -390,7 +390,7 @@ TEST(Learner, WinnersFaceTheirSamples)
   const PointCloud cloud(platePoints(20000, Thickness));
   Parameters parameters;
   parameters.numberOfVertices = 1000;
-  Learner learner(cloud, parameters, buildMesh(makePlate(Side, Thickness), cloud));
+  SequentialLearner learner(cloud, parameters, buildMesh(makePlate(Side, Thickness), cloud));
   learner.learn(1000000);
   ASSERT_TRUE(learner.isComplete());
   const LearntMesh learnt = learner.learntMesh();

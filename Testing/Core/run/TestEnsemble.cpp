@@ -140,7 +140,7 @@ TEST(Ensemble, GoesOnFromMember)
   EXPECT_EQ(defectOf(mesh), "");
   Parameters parameters;
   parameters.numberOfVertices = 2 * mesh.vertexCount();
-  Learner learner(torusCloud(), parameters, mesh);
+  SequentialLearner learner(torusCloud(), parameters, mesh);
   learner.learn(100000);
   EXPECT_EQ(defectOf(learner.mesh()), "");
   EXPECT_GT(learner.mesh().vertexCount(), mesh.vertexCount());

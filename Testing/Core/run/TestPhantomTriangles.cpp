@@ -3,7 +3,7 @@
 
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
-#include "learn/Learner.h"
+#include "learn/SequentialLearner.h"
 #include "MeshTools.h"
 #include "Shapes.h"
 
@@ -23,7 +23,7 @@ PointCloud cloudOn(const TriangleMesh& surface)
 }
 
 /// A learner that has drawn nothing yet, with a grid of the vertices.
-Learner learnerAt(const PointCloud& cloud, const TriangleMesh& mesh)
+SequentialLearner learnerAt(const PointCloud& cloud, const TriangleMesh& mesh)
 {
   return { cloud, Parameters(), buildMesh(mesh, cloud) };
 }
@@ -82,7 +82,7 @@ TEST(PhantomTriangles, OfLearntMeshes)
   for (const bool isTorus : { false, true })
   {
     const PointCloud cloud = cloudOn(isTorus ? makeTorus() : makeSphere());
-    Learner learner(cloud, parameters);
+    SequentialLearner learner(cloud, parameters);
     learner.learn(10000000);
     const Found found = find(cloud, learner);
     if (!isTorus)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The other half of the algorithm: growth and topology learning.
-#include "learn/Learner.h"
+#include "learn/SequentialLearner.h"
 #include "learn/ListOrder.h"
 #include "mesh/VertexRemoval.h"
 #include "mesh/VertexSplit.h"
@@ -20,13 +20,7 @@ constexpr int SplitAttempts = 8;
 constexpr double BusyFactor = 3.;
 }
 
-double Learner::patience() const
-{
-  const bool early = neuralMesh_.vertexCount() < std::size_t(parameters_.earlyVertices);
-  return early ? parameters_.earlyPatience : 1.;
-}
-
-void Learner::grow()
+void SequentialLearner::grow()
 {
   if (isAdditionDue())
   {
@@ -46,16 +40,8 @@ void Learner::grow()
   begin(Step::Basic);
 }
 
-void Learner::begin(Step step) const
-{
-  if (watch_)
-  {
-    watch_(step);
-  }
-}
-
 /// Every C_vs samples. All counters are up to date, as (9.6) and (9.7) have it: they share one decay.
-void Learner::nodeAddition()
+void SequentialLearner::nodeAddition()
 {
   nextAddition_ +=
     std::max<std::uint64_t>(1, std::uint64_t(patience() * parameters_.samplesPerAddition));
@@ -85,7 +71,7 @@ void Learner::nodeAddition()
   }
 }
 
-void Learner::wander()
+void SequentialLearner::wander()
 {
   const double usual = parameters_.counterHalfLife / std::log(2.);
   if (order().activity(neuralMesh_.top()) < BusyFactor * usual)
@@ -113,16 +99,7 @@ void Learner::wander()
   }
 }
 
-/// C_nr additions; in the basic variant n C_ec samples.
-std::uint64_t Learner::removalInterval() const
-{
-  // Growth depends on the ratio of C_ec to C_vs, (6.18): patience is with both.
-  return parameters_.filtersNoise()
-    ? std::uint64_t(parameters_.additionsPerRemoval)
-    : std::uint64_t(patience() * parameters_.removalPatience * double(neuralMesh_.vertexCount()));
-}
-
-void Learner::nodeRemoval()
+void SequentialLearner::nodeRemoval()
 {
   if (parameters_.filtersNoise())
   {
@@ -136,7 +113,7 @@ void Learner::nodeRemoval()
   updateDecay();
 }
 
-void Learner::removeIdleVertices()
+void SequentialLearner::removeIdleVertices()
 {
   const std::span<std::uint8_t> hasWon = neuralMesh_.values(*hasWon_);
   for (VertexIndex v = 0; v < mesh().indexEnd(); ++v)
@@ -149,7 +126,7 @@ void Learner::removeIdleVertices()
   }
 }
 
-void Learner::removeVertices()
+void SequentialLearner::removeVertices()
 {
   // alpha_n^(C_ec n), with alpha_n of (9.4).
   const double threshold = std::exp2(-parameters_.removalPatience / parameters_.counterHalfLife);
@@ -170,7 +147,7 @@ void Learner::removeVertices()
   } while (++tried < limit && neuralMesh_.isBottomBelow(threshold, expectedCount));
 }
 
-bool Learner::removeVertex(VertexIndex v)
+bool SequentialLearner::removeVertex(VertexIndex v)
 {
   const VertexIndex kept = neuralMesh_.planCollapse(v);
   if (kept == NoVertex)
@@ -198,7 +175,7 @@ bool Learner::removeVertex(VertexIndex v)
 
 // --- Topology learning ---------------------------------------------------------------------------
 
-void Learner::learnTopology()
+void SequentialLearner::learnTopology()
 {
   count(neuralMesh_.learnTopology(*topology_));
   nextTopology_ += topologyInterval();
@@ -206,12 +183,12 @@ void Learner::learnTopology()
 }
 
 /// n C_top samples.
-std::uint64_t Learner::topologyInterval() const
+std::uint64_t SequentialLearner::topologyInterval() const
 {
   return std::uint64_t(parameters_.topologyPatience * double(neuralMesh_.vertexCount())) + 1;
 }
 
-bool Learner::removeStar(VertexIndex v)
+bool SequentialLearner::removeStar(VertexIndex v)
 {
   if (!topology_ || !topology_->canRemoveStar(mesh(), v))
   {
@@ -221,14 +198,14 @@ bool Learner::removeStar(VertexIndex v)
   return !mesh().isAlive(v);
 }
 
-void Learner::count(const TopologyLearning::Result& result)
+void SequentialLearner::count(const TopologyLearning::Result& result)
 {
   counts_.removedTriangles += result.removedTriangles;
   counts_.mergedBoundaries += result.mergedBoundaries;
   counts_.filledBoundaries += result.filledBoundaries;
 }
 
-void Learner::enterListIfDue()
+void SequentialLearner::enterListIfDue()
 {
   if (isListDue_ && neuralMesh_.vertexCount() >= std::size_t(parameters_.listVertices))
   {
@@ -236,7 +213,7 @@ void Learner::enterListIfDue()
   }
 }
 
-void Learner::enterList()
+void SequentialLearner::enterList()
 {
   isListDue_ = false;
   winGain_.enterList();
@@ -244,13 +221,5 @@ void Learner::enterList()
     [this](std::span<const VertexIndex> laziestFirst) {
       return std::make_unique<ListOrder>(laziestFirst, parameters_.jumpFraction, parameters_.seed);
     });
-}
-
-void Learner::updateDecay()
-{
-  // (9.4) with the current number of vertices.
-  decay_ = parameters_.variant == Variant::Basic
-    ? parameters_.counterDecay
-    : std::exp2(-1. / (parameters_.counterHalfLife * double(neuralMesh_.vertexCount())));
 }
 }

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/Archive.h"
+#include "base/Random.h"
+#include "base/ThreadPool.h"
+#include "cloud/CloudDistance.h"
+#include "cloud/PlaceOnMesh.h"
+#include "learn/ParallelLearner.h"
+#include "learn/SequentialLearner.h"
+#include "mesh/SelfIntersections.h"
+#include "MeshTools.h"
+#include "OpenShapes.h"
+#include "SphereRuns.h"
+#include "ThinPlate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+constexpr std::uint64_t All = std::numeric_limits<std::uint64_t>::max() / 2;
+
+Parameters ofSize(std::uint64_t vertices)
+{
+  Parameters parameters;
+  parameters.numberOfVertices = vertices;
+  return parameters;
+}
+
+Mesh firstSphere() { return meshOf(makeSphere(12)); }
+
+std::vector<std::byte> bytesOf(Learner& learner)
+{
+  std::vector<std::byte> bytes;
+  Archive archive([&bytes](std::span<const std::byte> part)
+    { bytes.insert(bytes.end(), part.begin(), part.end()); });
+  learner.exchange(archive);
+  archive.finish();
+  return bytes;
+}
+
+void readInto(Learner& learner, const std::vector<std::byte>& bytes)
+{
+  std::size_t place = 0;
+  Archive archive(
+    [&](std::span<std::byte> part)
+    {
+      std::memcpy(part.data(), bytes.data() + place, part.size());
+      place += part.size();
+    },
+    bytes.size());
+  learner.exchange(archive);
+}
+
+/// Part of the vertices of valence 6.
+double regularRatio(const Mesh& mesh)
+{
+  double regular = 0.;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    regular += mesh.isAlive(v) && mesh.valenceExcess(v) == 0 ? 1. : 0.;
+  }
+  return regular / double(mesh.vertexCount());
+}
+
+double distanceOf(Learner& learner, const PointCloud& cloud)
+{
+  learner.compact();
+  return meanDistanceToSurface(
+    cloud.points(), learner.mesh(), gridOf(learner.mesh(), cloud), cloud.points().size());
+}
+}
+
+// It is for large meshes by the defaults; what it has not is left to the other.
+TEST(ParallelLearner, IsForLargeMeshesByDefault)
+{
+  const Parameters large = ofSize(100000);
+  EXPECT_TRUE(ParallelLearner::isFor(large));
+  EXPECT_FALSE(ParallelLearner::isFor(ofSize(99999)));
+  const auto isFor = [&](auto change)
+  {
+    Parameters other = large;
+    change(other);
+    return ParallelLearner::isFor(other);
+  };
+  EXPECT_FALSE(isFor([](Parameters& p) { p.variant = Variant::Basic; }));
+  EXPECT_FALSE(isFor([](Parameters& p) { p.variant = Variant::NormalBased; }));
+  EXPECT_FALSE(isFor([](Parameters& p) { p.order = Order::List; }));
+  EXPECT_FALSE(isFor([](Parameters& p) { p.topologyLearning = true; }));
+  EXPECT_FALSE(isFor([](Parameters& p) { p.computeFeatureStrength = true; }));
+  EXPECT_FALSE(isFor([](Parameters& p) { p.batchSize = 1000; }));
+  EXPECT_FALSE(isFor([](Parameters& p) { p.removalOperation = RemovalOperation::VertexDelete; }));
+}
+
+// As many vertices as were asked for, of a closed sphere, as close to it and as even as one sample after the other
+// gets them.
+TEST(ParallelLearner, IsAsGoodAsOneAfterTheOther)
+{
+  ParallelLearner parallel(cleanSphere(), ofSize(4000), firstSphere());
+  SequentialLearner sequential(cleanSphere(), ofSize(4000), firstSphere());
+  parallel.learn(All);
+  sequential.learn(All);
+  EXPECT_TRUE(parallel.isComplete());
+  EXPECT_EQ(parallel.mesh().vertexCount(), 4000u);
+  EXPECT_EQ(defectOf(parallel.mesh()), "");
+  EXPECT_FALSE(parallel.mesh().isOpen());
+  EXPECT_EQ(parallel.mesh().triangleCount(), 2u * 4000u - 4u);
+  EXPECT_TRUE(intersectingTriangles(parallel.mesh()).empty());
+  EXPECT_LT(distanceOf(parallel, cleanSphere()), 1.05 * distanceOf(sequential, cleanSphere()));
+  EXPECT_GT(regularRatio(parallel.mesh()), 0.97 * regularRatio(sequential.mesh()));
+  EXPECT_LT(double(parallel.counts().iterations), 1.2 * double(sequential.counts().iterations));
+  EXPECT_GT(parallel.counts().removals, 100u);
+}
+
+// An outline stays where it is, and the sheet stays one.
+TEST(ParallelLearner, SheetsStayOpen)
+{
+  const TriangleMesh grid = makeGrid(20);
+  CloudOptions options;
+  options.count = 40000;
+  const PointCloud cloud(generateCloud(grid, options));
+  ParallelLearner learner(cloud, ofSize(3000), buildMesh(grid, cloud));
+  learner.learn(All);
+  EXPECT_EQ(defectOf(learner.mesh()), "");
+  EXPECT_TRUE(learner.mesh().isOpen());
+  EXPECT_EQ(reportOf(learner.mesh()).eulerCharacteristic, 1);
+  EXPECT_LT(distanceOf(learner, cloud), 0.003);
+}
+
+// The same bytes on any number of threads, all the way.
+TEST(ParallelLearner, ThreadsDoNotMatter)
+{
+  const ThreadPool two(2), seven(7);
+  ParallelLearner one(cleanSphere(), ofSize(3000), firstSphere());
+  ParallelLearner onTwo(cleanSphere(), ofSize(3000), firstSphere(), {}, two);
+  ParallelLearner onSeven(cleanSphere(), ofSize(3000), firstSphere(), {}, seven);
+  while (!one.isComplete())
+  {
+    for (Learner* const learner : std::initializer_list<Learner*>{ &one, &onTwo, &onSeven })
+    {
+      learner->learn(5000);
+    }
+    ASSERT_EQ(bytesOf(one), bytesOf(onTwo));
+    ASSERT_EQ(bytesOf(one), bytesOf(onSeven));
+  }
+}
+
+// What another has written goes on to the same bytes.
+TEST(ParallelLearner, GoesOnFromItsState)
+{
+  const std::vector<float> weights(cleanSphere().points().size(), 2.f);
+  ParallelLearner whole(cleanSphere(), ofSize(3000), firstSphere(), weights);
+  ParallelLearner resumed(cleanSphere(), ofSize(3000), firstSphere(), weights);
+  whole.learn(30000);
+  readInto(resumed, bytesOf(whole));
+  whole.learn(All);
+  resumed.learn(All);
+  EXPECT_EQ(bytesOf(whole), bytesOf(resumed));
+}
+
+// Points with a larger weight get more of the vertices.
+TEST(ParallelLearner, WeightsDrawVertices)
+{
+  std::vector<float> weights;
+  for (const Vector4 point : cleanSphere().points())
+  {
+    weights.push_back(point[2] > 0.f ? 4.f : 1.f);
+  }
+  ParallelLearner learner(cleanSphere(), ofSize(3000), firstSphere(), weights);
+  learner.learn(All);
+  const auto positions = learner.mesh().positions();
+  const auto above = double(std::count_if(
+    positions.begin(), positions.end(), [](Vector4 position) { return position[2] > 0.f; }));
+  EXPECT_GT(above, 0.65 * double(positions.size()));
+}
+
+// Nothing is learnt of outliers: as many samples are rejected as one after the other has it.
+TEST(ParallelLearner, OutliersAreRejected)
+{
+  CloudOptions options;
+  options.outliers = 0.05;
+  const PointCloud cloud(sphereCloud(options));
+  ParallelLearner parallel(cloud, ofSize(3000), buildMesh(makeSphere(12), cloud));
+  SequentialLearner sequential(cloud, ofSize(3000), buildMesh(makeSphere(12), cloud));
+  parallel.learn(All);
+  sequential.learn(All);
+  const auto partRejected = [](const Learner& learner)
+  { return double(learner.counts().rejectedSamples) / double(learner.counts().iterations); };
+  EXPECT_GT(partRejected(parallel), 0.01);
+  EXPECT_NEAR(partRejected(parallel), partRejected(sequential), 0.2 * partRejected(sequential));
+}
+
+// A mesh that wanders keeps its size, and brings vertices to where the cloud has become denser.
+TEST(ParallelLearner, Wanders)
+{
+  ParallelLearner learner(cleanSphere(), ofSize(2000), firstSphere());
+  learner.letWander();
+  learner.learn(200000);
+  ASSERT_EQ(learner.mesh().vertexCount(), 2000u);
+  std::vector<Eigen::Vector3d> above;
+  for (const Eigen::Vector3d& point : sphereCloud())
+  {
+    if (point.z() > 0. || above.size() % 10 == 0)
+    {
+      above.push_back(point);
+    }
+  }
+  const PointCloud denser(above);
+  learner.changeCloud(cleanSphere(), denser, ofSize(2000));
+  learner.learn(400000);
+  EXPECT_EQ(learner.mesh().vertexCount(), 2000u);
+  EXPECT_EQ(defectOf(learner.mesh()), "");
+  std::size_t count = 0;
+  for (VertexIndex v = 0; v < learner.mesh().indexEnd(); ++v)
+  {
+    count += learner.mesh().isAlive(v) && denser.toInput(learner.mesh().position(v)).z() > 0. ? 1 : 0;
+  }
+  EXPECT_GT(count, 1200u);
+}
+
+// Vertices of the two sides of a plate do not take each other's samples.
+TEST(ParallelLearner, WinnersFaceTheirSamples)
+{
+  constexpr double Thickness = 0.02;
+  const PointCloud cloud(platePoints(40000, Thickness));
+  ParallelLearner learner(cloud, ofSize(2000), buildMesh(makePlate(24, Thickness), cloud));
+  learner.learn(All);
+  EXPECT_EQ(defectOf(learner.mesh()), "");
+  EXPECT_LT(intersectingTriangles(learner.mesh()).size(), 40u);
+}
+}
