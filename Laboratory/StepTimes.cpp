@@ -3,8 +3,8 @@
 // preset, with the search through all counters that the thesis began with, with its activity list,
 // or with exact counters in heaps. Prints a table of comma-separated values. Times are those of one
 // core.
-#include "learn/SequentialLearner.h"
 #include "learn/LearningCurve.h"
+#include "learn/SequentialLearner.h"
 #include "NaiveOrder.h"
 
 #include <CLI/CLI.hpp>
@@ -153,7 +153,8 @@ SequentialLearner makeLearner(const PointCloud& cloud, const Options& options)
   {
     return learner;
   }
-  return SequentialLearner(cloud, options.parameters, learner.mesh(), std::make_unique<NaiveOrder>(4));
+  return SequentialLearner(
+    cloud, options.parameters, learner.mesh(), std::make_unique<NaiveOrder>(4));
 }
 
 void printRow(const LearningCurve::Row& row, const StopWatch& watch)

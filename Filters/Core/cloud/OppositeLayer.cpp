@@ -51,8 +51,7 @@ VertexIndex oppositeVertex(const Mesh& mesh, const ClosestVertex& closestTo, Ver
   };
   for (const float edges : ProbeEdges)
   {
-    const VertexIndex found =
-      closestTo(mesh.position(v) + edges * edge * unit);
+    const VertexIndex found = closestTo(mesh.position(v) + edges * edge * unit);
     if (isOpposite(found))
     {
       return found;

@@ -73,8 +73,8 @@ unsigned PackedGrid::cellInBlock(Cell cell)
 
 // --- Building ------------------------------------------------------------------------------------
 
-void PackedGrid::build(const Mesh& mesh, Vector4 boxMin, Vector4 boxMax, float cellWidth,
-  const Executor& executor)
+void PackedGrid::build(
+  const Mesh& mesh, Vector4 boxMin, Vector4 boxMax, float cellWidth, const Executor& executor)
 {
   chooseCells(boxMin, boxMax, cellWidth, mesh.vertexCount());
   countVertices(mesh, executor);
@@ -88,11 +88,11 @@ void PackedGrid::build(const Mesh& mesh, Vector4 boxMin, Vector4 boxMax, float c
         sortBlock(block);
       }
     });
-  mostInCell_ = mostInCells_.empty() ? 0 : *std::max_element(mostInCells_.begin(), mostInCells_.end());
+  mostInCell_ =
+    mostInCells_.empty() ? 0 : *std::max_element(mostInCells_.begin(), mostInCells_.end());
 }
 
-void PackedGrid::chooseCells(
-  Vector4 boxMin, Vector4 boxMax, float cellWidth, std::size_t vertices)
+void PackedGrid::chooseCells(Vector4 boxMin, Vector4 boxMax, float cellWidth, std::size_t vertices)
 {
   const Vector4 extent = boxMax - boxMin;
   cellWidth = std::max(cellWidth, std::max({ extent[0], extent[1], extent[2] }) / MostCellsAlong);
@@ -285,8 +285,7 @@ void PackedGrid::searchOutwards(Cell home, Vector4 point, Closest& closest) cons
 }
 
 /// In the cells from x = low to high of a row.
-void PackedGrid::searchRow(
-  int z, int y, int low, int high, Vector4 point, Closest& closest) const
+void PackedGrid::searchRow(int z, int y, int low, int high, Vector4 point, Closest& closest) const
 {
   const Lanes px = { point[0], point[0], point[0], point[0] };
   const Lanes py = { point[1], point[1], point[1], point[1] };
@@ -310,8 +309,8 @@ void PackedGrid::searchRow(
       const Lanes squared = dx * dx + dy * dy + dz * dz;
       IntegerLanes index;
       __builtin_memcpy(&index, &index_[i], sizeof(index));
-      const IntegerLanes isCloser = (squared < closest.squared) |
-        ((squared == closest.squared) & (index < closest.index));
+      const IntegerLanes isCloser =
+        (squared < closest.squared) | ((squared == closest.squared) & (index < closest.index));
       closest.squared = isCloser ? squared : closest.squared;
       closest.index = isCloser ? index : closest.index;
     }

@@ -32,8 +32,7 @@ public:
   Vector4 draw(std::size_t sample, Random& random) const
   {
     const std::size_t places = listed_.empty() ? points_.size() : listed_.size();
-    const double place =
-      (double(sample) + random.uniform()) / double(count_) * double(places);
+    const double place = (double(sample) + random.uniform()) / double(count_) * double(places);
     const std::size_t at = std::min(std::size_t(place), places - 1);
     return points_[listed_.empty() ? at : listed_[at]];
   }

@@ -51,8 +51,9 @@ constexpr std::size_t MostFirstObservations = 1 << 16;
 bool ParallelLearner::isFor(const Parameters& parameters)
 {
   return parameters.numberOfVertices >= LeastVerticesAtOnce &&
-    parameters.batchSize >= Parameters().batchSize && parameters.filtersNoise() && parameters.order == Order::Exact &&
-    !parameters.topologyLearning && !parameters.computeFeatureStrength && parameters.edgeFlips &&
+    parameters.batchSize >= Parameters().batchSize && parameters.filtersNoise() &&
+    parameters.order == Order::Exact && !parameters.topologyLearning &&
+    !parameters.computeFeatureStrength && parameters.edgeFlips &&
     parameters.smoothingIterations == 1 &&
     parameters.additionOperation == AdditionOperation::VertexSplit &&
     parameters.removalOperation == RemovalOperation::HalfEdgeCollapse;
@@ -87,9 +88,8 @@ std::size_t ParallelLearner::batchSize() const
 {
   const auto count = double(mesh_.vertexCount());
   const double left = double(parameters_.numberOfVertices) - count;
-  const double needed = left > 0.
-    ? 1. + SamplesUntilEnd * left * patience() * parameters_.samplesPerAddition
-    : count;
+  const double needed =
+    left > 0. ? 1. + SamplesUntilEnd * left * patience() * parameters_.samplesPerAddition : count;
   return std::size_t(std::max(1., std::min(PartOfBatch * count, needed)));
 }
 
@@ -142,8 +142,8 @@ void ParallelLearner::findWinners(std::size_t size)
         const Vector4 sample = batch_[i];
         VertexIndex winner = closestTo(sample);
         winner = hasThinParts_ ? facingWinner(sample, winner) : winner;
-        nextWon_[i] = std::atomic_ref(firstWon_[winner])
-                        .exchange(std::uint32_t(i), std::memory_order_relaxed);
+        nextWon_[i] =
+          std::atomic_ref(firstWon_[winner]).exchange(std::uint32_t(i), std::memory_order_relaxed);
         if (i % stride == 0)
         {
           observed_[i / stride] = winner;
@@ -246,8 +246,8 @@ VertexIndex ParallelLearner::facingWinner(Vector4 sample, VertexIndex closest) c
 {
   return mesh_.values(isThin_)[closest] == 0
     ? closest
-    : neuralmesh::facingWinner(sample, mesh_, closest,
-        [this](Vector4 point) { return closestTo(point); });
+    : neuralmesh::facingWinner(
+        sample, mesh_, closest, [this](Vector4 point) { return closestTo(point); });
 }
 
 /// Takes the distances to a first mesh before it moves: outliers would pull at it at once.

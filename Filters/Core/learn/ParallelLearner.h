@@ -89,8 +89,8 @@ private:
   void tidyIfGrown();
 
   Mesh mesh_;
-  VertexProperty<float> activity_;       ///< tau
-  VertexProperty<std::uint8_t> isThin_;  ///< where another layer is near; see ThinParts
+  VertexProperty<float> activity_;      ///< tau
+  VertexProperty<std::uint8_t> isThin_; ///< where another layer is near; see ThinParts
   bool hasThinParts_ = false;
   std::size_t nextLook_ = 0; ///< at thin parts: number of vertices
   Vector4 boxMin_, boxMax_;
@@ -108,8 +108,8 @@ private:
   LargeVector<std::uint32_t> firstWon_; ///< of each vertex
   LargeVector<Vector4> moved_;
   LargeVector<std::uint8_t> wins_;
-  std::vector<VertexIndex> observed_; ///< winners of every so-many-th sample
-  std::vector<float> observedDistances_; ///< squared
+  std::vector<VertexIndex> observed_;                     ///< winners of every so-many-th sample
+  std::vector<float> observedDistances_;                  ///< squared
   std::vector<std::vector<Reservations::Request>> found_; ///< by part
   std::vector<Reservations::Request> requests_;
   std::vector<Operation> operations_;

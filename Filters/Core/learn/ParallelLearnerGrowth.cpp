@@ -129,8 +129,7 @@ std::uint64_t ParallelLearner::keyOfRank(bool isSplit, double rank)
   const double part = rank / double(mesh_.vertexCount());
   const auto place = std::ptrdiff_t(
     std::min(double(someKeys_.size() - 1), std::ceil(part * double(someKeys_.size()))));
-  std::nth_element(
-    someKeys_.begin(), someKeys_.begin() + place, someKeys_.end(), std::greater<>());
+  std::nth_element(someKeys_.begin(), someKeys_.begin() + place, someKeys_.end(), std::greater<>());
   return someKeys_[std::size_t(place)];
 }
 
@@ -180,8 +179,7 @@ void ParallelLearner::select(const Quota& quota)
 /// turn.
 void ParallelLearner::plan()
 {
-  const std::span<const std::uint8_t> isGranted =
-    reservations_.decide(mesh_, requests_, executor_);
+  const std::span<const std::uint8_t> isGranted = reservations_.decide(mesh_, requests_, executor_);
   operations_.clear();
   for (std::size_t i = 0; i < requests_.size(); ++i)
   {
@@ -251,8 +249,8 @@ void ParallelLearner::commit(const Quota& quota)
     ++gone;
   }
   keep(collapses, gone);
-  const std::size_t room =
-    std::size_t(parameters_.numberOfVertices) + gone - std::min(mesh_.vertexCount(), std::size_t(parameters_.numberOfVertices) + gone);
+  const std::size_t room = std::size_t(parameters_.numberOfVertices) + gone -
+    std::min(mesh_.vertexCount(), std::size_t(parameters_.numberOfVertices) + gone);
   keep(splits, std::min<std::size_t>(quota.splits, room));
 
   const auto byVertex = [](const Operation& a, const Operation& b)

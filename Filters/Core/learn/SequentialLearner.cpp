@@ -52,14 +52,16 @@ std::unique_ptr<ActivityOrder> orderAfterOneWin(std::size_t count)
 }
 }
 
-SequentialLearner::SequentialLearner(const PointCloud& cloud, const Parameters& parameters, const Executor& executor)
-  : SequentialLearner(cloud, parameters, firstTetrahedron(cloud), std::make_unique<ExactOrder>(4), executor)
+SequentialLearner::SequentialLearner(
+  const PointCloud& cloud, const Parameters& parameters, const Executor& executor)
+  : SequentialLearner(
+      cloud, parameters, firstTetrahedron(cloud), std::make_unique<ExactOrder>(4), executor)
 {
   isListDue_ = parameters.order == Order::List;
 }
 
-SequentialLearner::SequentialLearner(const PointCloud& cloud, const Parameters& parameters, const Mesh& mesh,
-  std::span<const float> weights, const Executor& executor)
+SequentialLearner::SequentialLearner(const PointCloud& cloud, const Parameters& parameters,
+  const Mesh& mesh, std::span<const float> weights, const Executor& executor)
   : SequentialLearner(cloud, parameters, mesh, orderAfterOneWin(mesh.indexEnd()), executor)
 {
   if (!weights.empty())
@@ -72,8 +74,8 @@ SequentialLearner::SequentialLearner(const PointCloud& cloud, const Parameters& 
   observeFirstMesh();
 }
 
-SequentialLearner::SequentialLearner(const PointCloud& cloud, const Parameters& parameters, Mesh mesh,
-  std::unique_ptr<ActivityOrder> order, const Executor& executor)
+SequentialLearner::SequentialLearner(const PointCloud& cloud, const Parameters& parameters,
+  Mesh mesh, std::unique_ptr<ActivityOrder> order, const Executor& executor)
   : Learner(parameters, executor)
   , neuralMesh_(std::move(mesh), std::move(order), cloud.bulkMin(), cloud.bulkMax(),
       std::size_t(parameters.numberOfVertices), executor)

@@ -88,7 +88,7 @@ private:
   std::optional<TopologyLearning> topology_;
   BoundarySmoothing boundarySmoothing_ = BoundarySmoothing::Along;
   std::vector<VertexIndex> winners_; ///< of the samples of a batch
-  bool isListDue_ = false; ///< as soon as the mesh is large enough
+  bool isListDue_ = false;           ///< as soon as the mesh is large enough
   std::uint64_t nextTopology_ = std::numeric_limits<std::uint64_t>::max();
 };
 }

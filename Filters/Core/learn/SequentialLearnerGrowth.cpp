@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The other half of the algorithm: growth and topology learning.
-#include "learn/SequentialLearner.h"
 #include "learn/ListOrder.h"
+#include "learn/SequentialLearner.h"
 #include "mesh/VertexRemoval.h"
 #include "mesh/VertexSplit.h"
 

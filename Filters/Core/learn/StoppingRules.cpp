@@ -157,8 +157,8 @@ bool StoppingRules::meetsCloudDistance(const Learner& learner)
     return false;
   }
   nextCloudDistance_ = std::size_t(GrowthUntilCloudDistance * double(vertices)) + 1;
-  const double distance =
-    meanDistanceToSurface(cloud_.points(), learner.mesh(), gridOf(learner.mesh(), cloud_), PointsForCloudDistance);
+  const double distance = meanDistanceToSurface(
+    cloud_.points(), learner.mesh(), gridOf(learner.mesh(), cloud_), PointsForCloudDistance);
   return distance <= parameters_.targetCloudDistance * cloud_.diagonal();
 }
 }

@@ -29,8 +29,7 @@ void ThinParts::find(NeuralMesh& neuralMesh, const Executor& executor)
 void ThinParts::look(NeuralMesh& neuralMesh, const Executor& executor)
 {
   const std::span<std::uint8_t> isThin = neuralMesh.values(isThin_);
-  const std::vector<VertexIndex> opposite =
-    oppositeVertices(
+  const std::vector<VertexIndex> opposite = oppositeVertices(
     neuralMesh.mesh(), [&](Vector4 point) { return neuralMesh.winner(point); }, isThin, executor);
   std::transform(opposite.begin(), opposite.end(), isThin.begin(),
     [](VertexIndex v) { return std::uint8_t(v == NoVertex ? 0 : 1); });
@@ -52,8 +51,8 @@ VertexIndex ThinParts::facingWinner(
   const Mesh& mesh = neuralMesh.mesh();
   return mesh.values(isThin_)[closest] == 0
     ? closest
-    : neuralmesh::facingWinner(sample, mesh, closest,
-        [&](Vector4 point) { return neuralMesh.winner(point); });
+    : neuralmesh::facingWinner(
+        sample, mesh, closest, [&](Vector4 point) { return neuralMesh.winner(point); });
 }
 
 void ThinParts::exchange(Archive& archive) { archive(any_, nextLook_); }

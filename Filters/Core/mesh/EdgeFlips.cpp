@@ -77,7 +77,8 @@ bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims, E
   }
   const VertexIndex c = ring.next(slot);
   const VertexIndex d = ring.previous(slot);
-  if (c == NoVertex || d == NoVertex || !mayTouch(c) || !mayTouch(d) || (which == EdgesToFlip::Flat && !isFlat(mesh, a, b, c, d)))
+  if (c == NoVertex || d == NoVertex || !mayTouch(c) || !mayTouch(d) ||
+    (which == EdgesToFlip::Flat && !isFlat(mesh, a, b, c, d)))
   {
     return false;
   }
@@ -158,8 +159,7 @@ unsigned flipEdgesAround(Mesh& mesh, VertexIndex v, EdgesToFlip which)
 unsigned flipMarkedEdgesAround(
   Mesh& mesh, VertexIndex v, std::span<const std::uint64_t> marks, std::uint64_t mark)
 {
-  return flipAround(
-    mesh, v, EdgesToFlip::All, [&](VertexIndex u) { return marks[u] == mark; });
+  return flipAround(mesh, v, EdgesToFlip::All, [&](VertexIndex u) { return marks[u] == mark; });
 }
 
 void flipEdges(Mesh& mesh, EdgesToFlip which)

@@ -67,8 +67,7 @@ public:
         continue;
       }
       const double said = agreementOf(from.vertex, other);
-      const double length =
-        0.5 * lengthAt(from.vertex) * double(vertices_.size()) / double(asked);
+      const double length = 0.5 * lengthAt(from.vertex) * double(vertices_.size()) / double(asked);
       result.agreeing += said > LeastSaid ? length : 0.;
       result.contradicting += said < -LeastSaid ? length : 0.;
       if (said < -LeastSaid && squared < closest)

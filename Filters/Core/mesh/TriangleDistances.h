@@ -29,8 +29,8 @@ public:
     const FourVectors toPoint = points - ab_.from;
     const Lanes atB = dot(cross(toPoint, toC_), normal_), atC = dot(cross(toB_, toPoint), normal_);
     const Lanes across = dot(toPoint, normal_);
-    const FourVectors::Mask isAbove = (atB >= zero) & (atC >= zero) &
-      (atB + atC <= squaredNormal_) & (squaredNormal_ > zero);
+    const FourVectors::Mask isAbove =
+      (atB >= zero) & (atC >= zero) & (atB + atC <= squaredNormal_) & (squaredNormal_ > zero);
     const Lanes toEdges =
       lower(ab_.squared(points), lower(bc_.squared(points), ca_.squared(points)));
     return isAbove ? across * across / squaredNormal_ : toEdges;

@@ -70,8 +70,7 @@ public:
   void split(VertexIndex split, VertexIndex added)
   {
     forEachColumn(
-      [=](auto& column)
-      {
+      [=](auto& column) {
         column.values[added] =
           column.onSplit == OnSplit::Copy ? column.values[split] : column.first;
       });

@@ -48,7 +48,7 @@ struct Reconstruction
   OrientationReport orientation;
   /// Of some points, or of all if that was asked for. Nothing if the run was cancelled.
   std::optional<Explanation> explanation;
-  std::vector<SpannedGap> gaps; ///< that the mesh spans; empty if the run was cancelled
+  std::vector<SpannedGap> gaps;      ///< that the mesh spans; empty if the run was cancelled
   std::vector<std::string> warnings; ///< see Warnings.h
   PhaseTimes times;                  ///< of start, learning and finish
 };

@@ -150,8 +150,8 @@ void warnOfBareArea(double share, std::vector<std::string>& warnings)
   }
 }
 
-void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud,
-  std::vector<std::string>& warnings)
+void warnOfGaps(
+  std::vector<SpannedGap> gaps, const PointCloud& cloud, std::vector<std::string>& warnings)
 {
   std::erase_if(gaps, [](const SpannedGap& gap) { return gap.share < LeastGap; });
   if (gaps.empty())
@@ -295,8 +295,8 @@ void warnOfSides(
 {
   if (sides.contradiction)
   {
-    warnings.push_back(
-      "Parts of the surface that face each other across openings look to opposite sides, as around " +
+    warnings.push_back("Parts of the surface that face each other across openings look to opposite "
+                       "sides, as around " +
       placeText(cloud.toInput(*sides.contradiction), cloud) +
       ": some are inside out, and nothing tells which. An up direction (--up) or viewpoints "
       "(--viewpoint) turn pieces; what hangs on to its piece by the wrong side takes more "

@@ -34,7 +34,8 @@ TEST(OppositeLayer, IsThereWhereAPartIsThin)
     const double thickness = edges * EdgeOfPlate;
     const PointCloud cloud(platePoints(5000, thickness));
     const Mesh mesh = buildMesh(makePlate(QuadranglesOfPlate, thickness), cloud);
-    const std::vector<VertexIndex> opposite = oppositeVertices(mesh, closestIn(mesh, gridOf(mesh, cloud)), {});
+    const std::vector<VertexIndex> opposite =
+      oppositeVertices(mesh, closestIn(mesh, gridOf(mesh, cloud)), {});
     std::size_t found = 0;
     for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
     {
@@ -55,7 +56,8 @@ TEST(OppositeLayer, IsThereWhereAPartIsThin)
     }
   }
   const Mesh sphere = meshOf(makeSphere(12));
-  const std::vector<VertexIndex> none = oppositeVertices(sphere, closestIn(sphere, gridOf(sphere, cleanSphere())), {});
+  const std::vector<VertexIndex> none =
+    oppositeVertices(sphere, closestIn(sphere, gridOf(sphere, cleanSphere())), {});
   EXPECT_TRUE(std::all_of(none.begin(), none.end(), [](VertexIndex v) { return v == NoVertex; }));
 }
 

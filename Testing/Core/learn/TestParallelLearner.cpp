@@ -219,7 +219,8 @@ TEST(ParallelLearner, Wanders)
   std::size_t count = 0;
   for (VertexIndex v = 0; v < learner.mesh().indexEnd(); ++v)
   {
-    count += learner.mesh().isAlive(v) && denser.toInput(learner.mesh().position(v)).z() > 0. ? 1 : 0;
+    count +=
+      learner.mesh().isAlive(v) && denser.toInput(learner.mesh().position(v)).z() > 0. ? 1 : 0;
   }
   EXPECT_GT(count, 1200u);
 }

@@ -54,8 +54,7 @@ std::vector<std::uint8_t> oneAfterTheOther(
   for (const std::size_t i : order)
   {
     const std::set<VertexIndex> reach = twoRings(mesh, requests[i].vertex);
-    if (std::none_of(
-          reach.begin(), reach.end(), [&](VertexIndex v) { return taken.count(v) > 0; }))
+    if (std::none_of(reach.begin(), reach.end(), [&](VertexIndex v) { return taken.count(v) > 0; }))
     {
       granted[i] = 1;
       taken.insert(reach.begin(), reach.end());

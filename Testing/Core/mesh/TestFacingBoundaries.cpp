@@ -101,8 +101,7 @@ TEST(FacingBoundaries, RoofTurnedAgainstItsGround)
   const double outline = 8. * HalfWidth / cleanSphere().unit();
   EXPECT_NEAR(said.facing.contradicting, 2. * outline, 0.3 * outline);
   const Eigen::Vector3d place = cleanSphere().toInput(said.facing.place);
-  EXPECT_NEAR(
-    std::max(std::abs(place.x() - 0.5), std::abs(place.y() - 0.5)), HalfWidth, 2. / Side);
+  EXPECT_NEAR(std::max(std::abs(place.x() - 0.5), std::abs(place.y() - 0.5)), HalfWidth, 2. / Side);
 }
 
 TEST(FacingBoundaries, SidesOfAPlateSayNothing)
