@@ -175,7 +175,7 @@ void printRow(const LearningCurve::Row& row, const StopWatch& watch)
 
 void grow(const PointCloud& cloud, const Options& options)
 {
-  Learner learner = makeLearner(cloud, options);
+  SequentialLearner learner = makeLearner(cloud, options);
   std::printf("vertices,iterations,regular_ratio,basic_seconds,addition_seconds,removal_seconds,"
               "topology_seconds,additions,removals,topology_calls,removed\n");
   LearningCurve curve;

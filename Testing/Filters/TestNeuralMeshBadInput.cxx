@@ -220,9 +220,10 @@ int CheckCase(const Case& input, int type, int variant, int preset)
   const int ofPoints = FilterTesting::Count(messages->AllText,
     { "are unexplained", "A part of the cloud is missing",
       "The mesh ends, or is open, where there are points", "coarser than its cloud",
-      "between two layers of points", "has hardly any points", "are slivers" });
-  const int ofSides = FilterTesting::Count(
-    messages->AllText, { "the outer one is unknown", "of the surface is inside out" });
+      "between two layers of points", "has hardly any points", "are slivers",
+      "The cloud has no surface", "spans gaps of the cloud" });
+  const int ofSides = FilterTesting::Count(messages->AllText,
+    { "the outer one is unknown", "of the surface is inside out", "look to opposite sides" });
   CHECK(messages->Warnings == input.Warnings + isStalled + ofDefects + ofPoints + ofSides);
   if (input.Expected == Outcome::Mesh || input.Expected == Outcome::Sheet)
   {

@@ -290,10 +290,11 @@ void warnOfVertices(
   }
 }
 
-void warnOfSides(
-  const OrientationReport& sides, const PointCloud& cloud, std::vector<std::string>& warnings)
+/// Before the fit, gaps are spanned, and parts may face each other that do not hang together.
+void warnOfSides(const OrientationReport& sides, bool isFitted, const PointCloud& cloud,
+  std::vector<std::string>& warnings)
 {
-  if (sides.contradiction)
+  if (isFitted && sides.contradiction)
   {
     warnings.push_back("Parts of the surface that face each other across openings look to opposite "
                        "sides, as around " +
@@ -352,7 +353,7 @@ std::vector<std::string> warningsOf(
   {
     warnOfSharedNoise(*result.finish, cloud.unit(), warnings);
   }
-  warnOfSides(result.orientation, cloud, warnings);
+  warnOfSides(result.orientation, result.finish.has_value(), cloud, warnings);
   return warnings;
 }
 

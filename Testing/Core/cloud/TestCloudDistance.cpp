@@ -119,7 +119,7 @@ TEST(CloudDistance, DegenerateTriangle)
 // Near a mesh the distance to its surface is that to the closest of all triangles.
 TEST(CloudDistance, SurfaceOfSphere)
 {
-  const Learner& learner = sphereLearner();
+  const SequentialLearner& learner = sphereLearner();
   const Mesh& mesh = learner.mesh();
   ASSERT_EQ(mesh.vertexCount(), 1000u);
   Random random(2);
@@ -169,7 +169,7 @@ TEST(CloudDistance, TriangleBesideTheClosestVertex)
 // Vertices of a mesh lie on its surface; points away from a sphere are as far as they are.
 TEST(CloudDistance, KnownDistances)
 {
-  const Learner& learner = sphereLearner();
+  const SequentialLearner& learner = sphereLearner();
   const Mesh& mesh = learner.mesh();
   Eigen::AlignedBox3d box;
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
@@ -193,7 +193,7 @@ TEST(CloudDistance, KnownDistances)
 // The mean over some of the points is that over all, and small where the mesh follows them.
 TEST(CloudDistance, MeanOverPoints)
 {
-  const Learner& learner = sphereLearner();
+  const SequentialLearner& learner = sphereLearner();
   const Mesh& mesh = learner.mesh();
   Random random(4);
   std::vector<Vector4> points;

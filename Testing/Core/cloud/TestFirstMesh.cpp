@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/MeshBuilder.h"
+#include "learn/SequentialLearner.h"
 #include "LearnerSettings.h"
 #include "mesh/SurfaceReport.h"
 #include "MeshTools.h"

@@ -3,6 +3,7 @@
 #include "cloud/MeshBuilder.h"
 #include "learn/ExactOrder.h"
 #include "learn/ListOrder.h"
+#include "learn/SequentialLearner.h"
 #include "LearnerSettings.h"
 #include "MeshTools.h"
 #include "run/Reconstruction.h"
@@ -334,7 +335,7 @@ TEST_P(LearnerSettings, MovingAllocatesNothing)
   Parameters moving = parameters(1000000);
   moving.samplesPerAddition = 1000000000;
   moving.removalPatience = 1e6;
-  Learner learner = goOnWith(grown, moving);
+  SequentialLearner learner = goOnWith(grown, moving);
   learner.learn(10000);
   const std::size_t before = allocationCount();
   learner.learn(100000);
@@ -363,7 +364,7 @@ TEST_P(LearnerOrders, SteadySizeAllocatesNothing)
   steady.numberOfVertices = 1000000;
   steady.additionsPerRemoval = 1;
   steady.removalPatience = 100.;
-  Learner learner = goOnWith(grown, steady);
+  SequentialLearner learner = goOnWith(grown, steady);
   learner.learn(20000);
   const std::size_t before = allocationCount();
   learner.learn(100000);

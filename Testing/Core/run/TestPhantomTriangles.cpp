@@ -40,7 +40,7 @@ struct Found
   }
 };
 
-Found find(const PointCloud& cloud, const Learner& learner)
+Found find(const PointCloud& cloud, const SequentialLearner& learner)
 {
   Found found{ {}, findPhantoms(cloud, learner.mesh(), learner.grid()) };
   for (const auto& [a, b, c] : trianglesOf(learner.mesh()))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Promise: a cloud that is noise alone is told from a surface with noise, however strong that is, and from a thin body
 // that is thicker than its noise, and the run says so.
+#include "base/Random.h"
 #include "run/ScatteredPoints.h"
 
 #include "cloud/CloudGenerator.h"
