@@ -115,7 +115,8 @@ void warnOfPieces(const Explanation& explanation, const PointCloud& cloud, Fate 
 void warnOfPoints(
   const Explanation& explanation, const PointCloud& cloud, std::vector<std::string>& warnings)
 {
-  if (explanation.scatteredShare > MostScattered)
+  // A mesh that misses the cloud tells nothing of its noise.
+  if (explanation.scatteredShare > MostScattered && explanation.unexplainedShare() < MostScattered)
   {
     warnings.push_back("The cloud has no surface, as far as this mesh can tell: around " +
       percent(explanation.scatteredShare) +
