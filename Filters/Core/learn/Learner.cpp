@@ -64,6 +64,17 @@ std::uint64_t Learner::removalInterval() const
     : std::uint64_t(patience() * parameters_.removalPatience * double(mesh().vertexCount()));
 }
 
+double Learner::idleActivity() const
+{
+  return std::exp2(-parameters_.removalPatience / parameters_.counterHalfLife);
+}
+
+double Learner::busyActivity() const
+{
+  constexpr double TimesUsual = 3.;
+  return TimesUsual * (parameters_.counterHalfLife / std::log(2.));
+}
+
 void Learner::updateDecay()
 {
   // (9.4) with the current number of vertices.

@@ -131,6 +131,10 @@ protected:
   double patience() const;
   /// C_nr additions; in the basic variant n C_ec samples.
   std::uint64_t removalInterval() const;
+  /// alpha_n^(C_ec n), with alpha_n of (9.4): that of a vertex which has won once, C_ec n samples ago.
+  double idleActivity() const;
+  /// A multiple of that of all if they won equally often: chance has the most active of a million at less.
+  double busyActivity() const;
   void updateDecay();
 
   Parameters parameters_;

@@ -2,9 +2,9 @@
 #include "learn/NeuralMesh.h"
 
 #include "base/Archive.h"
-#include "base/Morton.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/HalfEdgeCollapse.h"
+#include "mesh/MortonPermutation.h"
 #include "mesh/VertexRemoval.h"
 
 #include <algorithm>
@@ -19,9 +19,6 @@ constexpr std::size_t PrefetchDistance = 8;
 /// the next one.
 constexpr std::size_t VerticesInNearCache = 1 << 12;
 constexpr std::size_t VerticesInCache = 1 << 15;
-
-/// Bounds of the share of activity that a vertex keeps in a split.
-constexpr double LeastShare = 0.05;
 
 /// Width of a grid cell in mean edges.
 constexpr float EdgesPerCell = 2.f;
@@ -113,10 +110,7 @@ VertexIndex NeuralMesh::split(VertexIndex v, const VertexSplit& plan)
   {
     boundaries_->split(v, added);
   }
-  const double area = restrictedVoronoiArea(mesh_, v);
-  const double addedArea = restrictedVoronoiArea(mesh_, added);
-  const double share = area + addedArea > 0. ? area / (area + addedArea) : 0.5;
-  order_->split(v, added, std::clamp(share, LeastShare, 1. - LeastShare));
+  order_->split(v, added, shareOfSplit(mesh_, v, added));
   return added;
 }
 
@@ -184,18 +178,7 @@ void NeuralMesh::replaceOrder(const MakeOrder& make)
 
 void NeuralMesh::compact(const Executor& executor)
 {
-  const std::vector<VertexIndex> alive = vertices();
-  std::vector<Vector4> positions;
-  positions.reserve(alive.size());
-  for (const VertexIndex v : alive)
-  {
-    positions.push_back(mesh_.position(v));
-  }
-  std::vector<VertexIndex> permutation = mortonOrder(positions, boxMin_, boxMax_, executor);
-  for (VertexIndex& v : permutation)
-  {
-    v = alive[v];
-  }
+  const std::vector<VertexIndex> permutation = mortonPermutation(mesh_, boxMin_, boxMax_, executor);
   mesh_.renumber(permutation);
   order_->renumber(permutation);
   if (boundaries_)

@@ -2,9 +2,9 @@
 #include "learn/ParallelLearner.h"
 
 #include "base/Archive.h"
-#include "base/Morton.h"
 #include "cloud/OppositeLayer.h"
 #include "learn/OutlierDistance.h"
+#include "mesh/MortonPermutation.h"
 #include "mesh/Smoothing.h"
 
 #include <algorithm>
@@ -330,23 +330,8 @@ void ParallelLearner::tidyIfGrown()
 
 void ParallelLearner::compact()
 {
-  std::vector<VertexIndex> alive;
-  std::vector<Vector4> positions;
-  alive.reserve(mesh_.vertexCount());
-  positions.reserve(mesh_.vertexCount());
-  for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
-  {
-    if (mesh_.isAlive(v))
-    {
-      alive.push_back(v);
-      positions.push_back(mesh_.position(v));
-    }
-  }
-  std::vector<VertexIndex> permutation = mortonOrder(positions, boxMin_, boxMax_, executor_);
-  for (VertexIndex& v : permutation)
-  {
-    v = alive[v];
-  }
+  const std::vector<VertexIndex> permutation =
+    mortonPermutation(mesh_, boxMin_, boxMax_, executor_);
   mesh_.renumber(permutation);
   reserved_ = mesh_.indexEnd();
   nextRenumbering_ = 1 + std::size_t(GrowthUntilTidy * double(permutation.size()));

@@ -79,8 +79,6 @@ private:
   void plan();
   void commit(const Quota& quota);
   void make();
-  double idleActivity() const;
-  double busyActivity() const;
 
   void lookForThinParts();
   void makeGrid();

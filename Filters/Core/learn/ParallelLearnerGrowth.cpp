@@ -26,10 +26,6 @@ constexpr double MoreCandidates = 2.;
 constexpr double MostBatchesDue = 1.5;
 /// Quantiles of activity are those of so many vertices.
 constexpr std::size_t VerticesOfQuantile = 2048;
-/// A vertex is busy if it is so many times as active as all would be if they won equally often.
-constexpr double TimesOfBusy = 3.;
-/// Bounds of the share of activity that a vertex keeps in a split.
-constexpr double LeastShareOfSplit = 0.05;
 /// Memory for more than all vertices: those that a batch adds before the ones that it removes are used again.
 constexpr double RoomForBatch = 1.03;
 
@@ -96,17 +92,6 @@ ParallelLearner::Quota ParallelLearner::quota() const
     ? std::ceil(parameters_.removalLimit * double(interval)) * double(result.collapses)
     : double(mesh_.vertexCount());
   return result;
-}
-
-/// alpha_n^(C_ec n), with alpha_n of (9.4).
-double ParallelLearner::idleActivity() const
-{
-  return std::exp2(-parameters_.removalPatience / parameters_.counterHalfLife);
-}
-
-double ParallelLearner::busyActivity() const
-{
-  return TimesOfBusy * parameters_.counterHalfLife / std::log(2.);
 }
 
 /// The key that about so many vertices exceed, by some of them.
@@ -298,11 +283,7 @@ void ParallelLearner::make()
         {
           const VertexSplit& split = *operation.split;
           mesh_.splitInto(v, split.first, split.steps, split.position, other);
-          // (6.19)
-          const double area = restrictedVoronoiArea(mesh_, v);
-          const double otherArea = restrictedVoronoiArea(mesh_, other);
-          const double share = area + otherArea > 0. ? area / (area + otherArea) : 0.5;
-          const auto kept = float(std::clamp(share, LeastShareOfSplit, 1. - LeastShareOfSplit));
+          const auto kept = float(shareOfSplit(mesh_, v, other));
           activity[other] = (1.f - kept) * activity[v];
           activity[v] = kept * activity[v];
           flipAround(v);

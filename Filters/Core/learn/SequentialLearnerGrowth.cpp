@@ -15,9 +15,6 @@ namespace
 {
 /// Splits tried in a Node Addition before it is given up.
 constexpr int SplitAttempts = 8;
-/// A vertex is busy if it is so many times as active as all would be if they won equally often: then
-/// chance has the most active of a million at about twice that.
-constexpr double BusyFactor = 3.;
 }
 
 void SequentialLearner::grow()
@@ -73,8 +70,7 @@ void SequentialLearner::nodeAddition()
 
 void SequentialLearner::wander()
 {
-  const double usual = parameters_.counterHalfLife / std::log(2.);
-  if (order().activity(neuralMesh_.top()) < BusyFactor * usual)
+  if (order().activity(neuralMesh_.top()) < busyActivity())
   {
     nextAddition_ += std::uint64_t(parameters_.samplesPerAddition);
     return;
@@ -128,8 +124,7 @@ void SequentialLearner::removeIdleVertices()
 
 void SequentialLearner::removeVertices()
 {
-  // alpha_n^(C_ec n), with alpha_n of (9.4).
-  const double threshold = std::exp2(-parameters_.removalPatience / parameters_.counterHalfLife);
+  const double threshold = idleActivity();
   // n_l of 11.3: how many there are on average, by which a list goes.
   const double expectedCount = parameters_.additionsPerRemoval * parameters_.samplesPerAddition *
     std::exp(-parameters_.removalPatience) / parameters_.removalPatience;

@@ -8,6 +8,8 @@ namespace neuralmesh
 {
 namespace
 {
+/// Of the activity.
+constexpr double LeastShareOfSplit = 0.05;
 unsigned slotOfLongestEdge(const Mesh& mesh, VertexIndex v)
 {
   const Ring& ring = mesh.ring(v);
@@ -98,5 +100,13 @@ double restrictedVoronoiArea(const Mesh& mesh, VertexIndex v)
   }
   const double mean = sum / ring.size();
   return mean * mean;
+}
+
+double shareOfSplit(const Mesh& mesh, VertexIndex v, VertexIndex added)
+{
+  const double area = restrictedVoronoiArea(mesh, v);
+  const double areaOfAdded = restrictedVoronoiArea(mesh, added);
+  const double all = area + areaOfAdded;
+  return std::clamp(all > 0. ? area / all : 0.5, LeastShareOfSplit, 1. - LeastShareOfSplit);
 }
 }

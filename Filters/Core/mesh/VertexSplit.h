@@ -27,4 +27,8 @@ std::optional<VertexSplit> planEdgeSplit(const Mesh& mesh, VertexIndex v);
 
 /// Area of the restricted Voronoi cell of a vertex, F_v of (6.19).
 double restrictedVoronoiArea(const Mesh& mesh, VertexIndex v);
+
+/// The part of the activity of `v` that stays with it once `added` was split off: by their areas, (6.19), but some
+/// with either.
+double shareOfSplit(const Mesh& mesh, VertexIndex v, VertexIndex added);
 }

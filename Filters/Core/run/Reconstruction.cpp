@@ -80,7 +80,7 @@ Reconstruction learnAndFinish(std::uint64_t vertices, const PointCloud& input,
   const std::optional<GapPlan> gaps = beginning.gaps;
 
   result.times.enter(Phase::Learning);
-  std::unique_ptr<Learner> learner = learnerFrom(beginning, cloud, parameters, executor);
+  std::unique_ptr<Learner> learner = learnerFrom(std::move(beginning), cloud, parameters, executor);
   StoppingRules rules(cloud, parameters, learner->mesh().vertexCount());
   LearningState state{ *learner, rules, result.curve };
   result.resumedIterations = checkpoint.resume(state, !isCancelled);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/Stages.h"
 
-#include "learn/SequentialLearner.h"
-
 #include "cloud/MeshBuilder.h"
 #include "cloud/RepeatedPoints.h"
 #include "fit/CreaseRefinement.h"
+#include "learn/SequentialLearner.h"
 #include "mesh/QuadricSimplification.h"
 #include "mesh/SmallPieces.h"
 #include "run/MeshOrientation.h"
@@ -106,7 +105,7 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
   return result;
 }
 
-std::unique_ptr<Learner> learnerFrom(const Beginning& beginning, const PointCloud& cloud,
+std::unique_ptr<Learner> learnerFrom(Beginning beginning, const PointCloud& cloud,
   const Parameters& parameters, const Executor& executor)
 {
   return beginning.mesh

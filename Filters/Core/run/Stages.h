@@ -33,7 +33,7 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
   const Executor& executor = Executor::sequential());
 
 /// A learner of the cloud that starts there. `cloud` and `executor` must outlive it.
-std::unique_ptr<Learner> learnerFrom(const Beginning& beginning, const PointCloud& cloud,
+std::unique_ptr<Learner> learnerFrom(Beginning beginning, const PointCloud& cloud,
   const Parameters& parameters, const Executor& executor = Executor::sequential());
 
 /// The stopping rule that is met, or None; Cancelled if `progress` ends the run.

@@ -236,7 +236,7 @@ bool StreamingReconstruction::beginAnew(
   }
   earlierSamples_ = sampleCount();
   gaps_ = beginning.gaps;
-  learner_ = learnerFrom(beginning, cloud, parameters);
+  learner_ = learnerFrom(std::move(beginning), cloud, parameters);
   learner_->letWander();
   pointsAtBeginning_ = cloud.points().size();
   uncoveredAtBeginning_ = uncoveredPart(cloud, learner_->mesh(), cloud);

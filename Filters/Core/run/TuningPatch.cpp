@@ -166,7 +166,8 @@ void TuningPatch::learn(const Parameters& wanted, const Progress& progress)
   {
     beginning.weights.clear();
   }
-  const std::unique_ptr<Learner> made = learnerFrom(beginning, learntCloud(), parameters);
+  const std::unique_ptr<Learner> made =
+    learnerFrom(std::move(beginning), learntCloud(), parameters);
   Learner& learner = *made;
   StoppingRules rules(learntCloud(), parameters, learner.mesh().vertexCount());
   StopReason reason = ruleMet(learner, rules, progress);
