@@ -99,9 +99,10 @@ std::string pointTextOf(const FileContents& contents)
     text += pointTextOf(contents, i);
     for (Eigen::Index axis = 0; axis < 3 && !contents.normals.empty(); ++axis)
     {
-      text += " " + textOf(contents.normals[i][axis]);
+      text += ' ';
+      text += textOf(contents.normals[i][axis]);
     }
-    text += "\n";
+    text += '\n';
   }
   return text;
 }
