@@ -23,6 +23,8 @@ constexpr std::size_t MostTakenAway = 200;
 constexpr double MostPartTakenAway = 0.02;
 /// Of the time, if more rounds come after them.
 constexpr double PartOfFirstRounds = 0.4;
+/// Of the time of a round.
+constexpr double PartOfPlaces = 0.5;
 /// For them.
 constexpr double LeastSamplesPerVertex = 1.5;
 /// A piece with less than this part of the area has shrunk to a point.
@@ -142,12 +144,24 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
       }
       beginAnew();
     }
+    const Progress part = partOf(progress, double(round) / rounds, double(round + 1) / rounds);
+    if (!surfaceFit->findPlaces(partOf(part, 0., PartOfPlaces)))
+    {
+      return false;
+    }
     if (isLast && round > 0)
     {
+      if (trimsOutlines() && openGaps(*surfaceFit))
+      {
+        beginAnew();
+        if (!surfaceFit->findPlaces(partOf(part, PartOfPlaces, PartOfPlaces)))
+        {
+          return false;
+        }
+      }
       surfaceFit->reachTheEnd();
     }
-    if (!fit(*surfaceFit, smoothness,
-          partOf(progress, double(round) / rounds, double(round + 1) / rounds)))
+    if (!move(*surfaceFit, smoothness, partOf(part, PartOfPlaces, 1.)))
     {
       return false;
     }
@@ -278,10 +292,9 @@ void Finish::collapseDefects()
   }
 }
 
-bool Finish::fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress)
+bool Finish::move(SurfaceFit& surfaceFit, double smoothness, const Progress& progress)
 {
-  if (!surfaceFit.findPlaces(partOf(progress, 0., 0.5)) ||
-    !surfaceFit.moveVertices(smoothness, partOf(progress, 0.5, 1.)))
+  if (!surfaceFit.moveVertices(smoothness, progress))
   {
     return false;
   }
@@ -317,6 +330,13 @@ bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
   return true;
 }
 
+/// Whether gaps are looked for once more: samples that lay on what was left over at an outline have their places
+/// elsewhere by now. What was closed would be opened.
+bool Finish::trimsOutlines() const
+{
+  return plan_.gaps && mesh_.isOpen() && !(plan_.closedOutline > 0.);
+}
+
 bool Finish::closeHoles()
 {
   if (!(plan_.closedOutline > 0.))
@@ -336,7 +356,7 @@ bool Finish::openGaps(const SurfaceFit& surfaceFit)
   {
     return false;
   }
-  report_.gapTriangles = gaps.triangles;
+  report_.gapTriangles += gaps.triangles;
   mesh_.dropErased();
   refine(mesh_, count, [](double) { return true; });
   return true;

@@ -74,9 +74,10 @@ public:
 private:
   bool runRounds(int rounds, FitGuard& guard, const Progress& progress);
   bool isWorseThan(const Mesh& before, FitGuard& guard) const;
-  bool fit(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
+  bool move(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   void tell(const NoiseParts& parts);
   bool openGaps(const SurfaceFit& surfaceFit);
+  bool trimsOutlines() const;
   bool improve(SurfaceFit& surfaceFit, const Progress& progress);
   bool closeHoles();
   void dropShrunkPieces();

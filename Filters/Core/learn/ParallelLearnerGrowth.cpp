@@ -2,6 +2,7 @@
 // The other half of the algorithm: growth, with all splits and collapses that lie apart at once.
 #include "learn/ParallelLearner.h"
 
+#include "base/Scattered.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/HalfEdgeCollapse.h"
 
@@ -28,17 +29,6 @@ constexpr double MostBatchesDue = 1.5;
 constexpr std::size_t VerticesOfQuantile = 2048;
 /// Memory for more than all vertices: those that a batch adds before the ones that it removes are used again.
 constexpr double RoomForBatch = 1.03;
-
-/// A bijection, so that vertices of equal activity are chosen here and there, not side by side.
-std::uint32_t scattered(std::uint32_t x)
-{
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  x ^= x >> 16;
-  return x;
-}
 
 /// Any split is more urgent than any collapse; of splits those of the most active vertices, of collapses those of
 /// the laziest. Numbers above 0 have the order of their bits.

@@ -2,6 +2,7 @@
 #include "learn/SequentialLearner.h"
 
 #include "base/Archive.h"
+#include "base/Scattered.h"
 #include "learn/ExactOrder.h"
 #include "learn/OutlierDistance.h"
 
@@ -20,6 +21,8 @@ constexpr std::size_t VerticesPerSampleOfBatch = 8;
 constexpr int FirstObservations = 8;
 constexpr std::size_t MostFirstSamples = 1 << 16;
 
+/// Of the counters of a first mesh: it tells those apart that have won equally often, and no others.
+constexpr double LargestDifference = 1e-6;
 /// Radius of the first tetrahedron; the bulk of the cloud has a diagonal of 1.
 constexpr float FirstRadius = 0.1f;
 
@@ -40,13 +43,14 @@ Mesh firstTetrahedron(const PointCloud& cloud)
 }
 
 /// Counters with which no vertex counts as idle before it could win: with counters of zero, most of
-/// a large mesh would be removed at once.
+/// a large mesh would be removed at once. They differ a little: with ties, the first removals would take
+/// vertices that are side by side, and with them a corner of the surface.
 std::unique_ptr<ActivityOrder> orderAfterOneWin(std::size_t count)
 {
   auto order = std::make_unique<ExactOrder>(count);
-  for (std::size_t v = 0; v < count; ++v)
+  for (VertexIndex v = 0; v < count; ++v)
   {
-    order->win(VertexIndex(v), 1., 1.);
+    order->win(v, 1. + LargestDifference * 0x1p-32 * double(scattered(v)), 1.);
   }
   return order;
 }

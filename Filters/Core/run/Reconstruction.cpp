@@ -21,8 +21,8 @@ constexpr std::size_t LeastLearnt = 100;
 constexpr std::uint64_t LeastLearntToFit = 1000;
 constexpr std::uint64_t PointsToSimplify = 20;
 
-/// Of residuals.
-constexpr double TimesOfDraw = 1.05;
+/// Of residuals: a few points at creases make most of them, so they are told no better.
+constexpr double TimesOfDraw = 1.2;
 /// Of the progress of the finish.
 constexpr double PartBeforeRefinement = 0.6;
 

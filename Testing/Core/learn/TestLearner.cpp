@@ -323,6 +323,43 @@ TEST(Learner, SparsePartsAreNoOutliers)
     std::ptrdiff_t(coarse.points.size()) / 2);
 }
 
+// The vertices of a first mesh that are removed first do not lie side by side: no corner is lost before it could win.
+TEST(Learner, FirstRemovalsAreSpread)
+{
+  constexpr std::size_t Removals = 20;
+  Parameters parameters;
+  parameters.numberOfVertices = 2000;
+  SequentialLearner grown(cleanSphere(), parameters);
+  grown.learn(5000000);
+  grown.compact();
+  const std::size_t count = grown.mesh().vertexCount();
+  parameters.numberOfVertices = 10000;
+  SequentialLearner learner(cleanSphere(), parameters, grown.mesh());
+  std::set<VertexIndex> removed;
+  while (learner.counts().removals < Removals)
+  {
+    learner.learn(1);
+    for (VertexIndex v = 0; v < count; ++v)
+    {
+      if (!learner.mesh().isAlive(v))
+      {
+        removed.insert(v);
+      }
+    }
+  }
+  ASSERT_GE(removed.size(), Removals / 2); // the others were vertices since then
+  // Vertices are numbered along a curve: so many side by side would be in a tenth of it.
+  const auto inTenth = [&](std::size_t tenth)
+  {
+    return std::count_if(removed.begin(), removed.end(),
+      [&](VertexIndex v) { return v * 10 / count == tenth; });
+  };
+  for (std::size_t tenth = 0; tenth < 10; ++tenth)
+  {
+    EXPECT_LE(inTenth(tenth), std::ptrdiff_t(Removals / 3)) << tenth;
+  }
+}
+
 // --- Memory --------------------------------------------------------------------------------------
 
 // The learning loop allocates nothing: neither where the mesh only moves ...

@@ -14,6 +14,8 @@ namespace neuralmesh::testing
 namespace
 {
 constexpr double NearEdge = 0.05; // of the side, which is 1
+/// Of a mesh of 2,000 vertices, if they are spread evenly.
+constexpr double MeshEdge = 0.0589;
 
 /// Distance to the closest edge of the cube of side 1 around the origin, for points on its surface.
 double distanceToEdge(const Eigen::Vector3d& point)
@@ -101,14 +103,17 @@ TEST_P(NormalBased, IsDenseAtEdges)
   EXPECT_LT(densityRatio(reconstructCube(Variant::Basic, GetParam(), false).mesh), 1.5);
 }
 
-// Of evenly spread vertices, the tenth with the highest feature strength lies at the edges, and all
-// along them.
+// Of evenly spread vertices, the tenth with the highest feature strength lies at the edges, most on them and
+// none farther than their neighbours, and all along them.
 TEST_P(NormalBased, FeatureStrengthFindsEdges)
 {
   const std::vector<Eigen::Vector3d> strongest =
     strongestTenth(reconstructCube(Variant::NoiseFiltering, GetParam(), true));
-  EXPECT_TRUE(std::all_of(strongest.begin(), strongest.end(),
-    [](const Eigen::Vector3d& point) { return distanceToEdge(point) <= NearEdge; }));
+  std::vector<double> distances(strongest.size());
+  std::transform(strongest.begin(), strongest.end(), distances.begin(), distanceToEdge);
+  std::sort(distances.begin(), distances.end());
+  EXPECT_LE(distances[distances.size() * 9 / 10], 0.05 * MeshEdge);
+  EXPECT_LE(distances.back(), MeshEdge);
   EXPECT_GE(coveredEdges(strongest), 0.95);
 }
 }
