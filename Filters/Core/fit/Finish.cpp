@@ -153,6 +153,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     {
       if (trimsOutlines() && openGaps(*surfaceFit))
       {
+        flipEdges(mesh_);
         beginAnew();
         if (!surfaceFit->findPlaces(partOf(part, PartOfPlaces, PartOfPlaces)))
         {

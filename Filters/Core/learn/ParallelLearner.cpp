@@ -5,11 +5,15 @@
 #include "cloud/OppositeLayer.h"
 #include "learn/OutlierDistance.h"
 #include "mesh/MortonPermutation.h"
+#include "mesh/SelfIntersections.h"
 #include "mesh/Smoothing.h"
+#include "mesh/Subdivision.h"
+#include "mesh/TriangleShape.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -25,6 +29,12 @@ constexpr std::uint64_t LeastVerticesAtOnce = 100000;
 constexpr double PartOfBatch = 0.5;
 /// Samples until there are all vertices, against those that would be due: some splits are not legal.
 constexpr double SamplesUntilEnd = 1.12;
+
+/// Of the vertices, how many a mesh has before each of its triangles is made four.
+constexpr double PartOfCoarse = 0.9 / 4.;
+/// ... if at most so many of the edges bend by more than 60 degrees.
+constexpr double MostSharpIfResolved = 0.001;
+constexpr float CosineOfSharpBend = 0.5f;
 
 constexpr std::uint32_t NoWin = 0xffffffffu;
 /// How far ahead what samples need is brought into the cache.
@@ -76,6 +86,7 @@ ParallelLearner::ParallelLearner(const PointCloud& cloud, const Parameters& para
   }
   samplesAfterGrowth_ =
     std::uint64_t(PartOfBatch * double(std::max<std::uint64_t>(parameters.numberOfVertices, 2)));
+  isCoarse_ = mesh_.vertexCount() < std::size_t(PartOfCoarse * double(parameters.numberOfVertices));
   nextRemoval_ = removalInterval();
   updateDecay();
   compact();
@@ -87,7 +98,7 @@ ParallelLearner::ParallelLearner(const PointCloud& cloud, const Parameters& para
 std::size_t ParallelLearner::batchSize() const
 {
   const auto count = double(mesh_.vertexCount());
-  const double left = double(parameters_.numberOfVertices) - count;
+  const double left = double(verticesOfStage()) - count;
   const double needed =
     left > 0. ? 1. + SamplesUntilEnd * left * patience() * parameters_.samplesPerAddition : count;
   return std::size_t(std::max(1., std::min(PartOfBatch * count, needed)));
@@ -112,6 +123,14 @@ void ParallelLearner::learnBatch(std::size_t size)
   if (isGrowing || wanders_)
   {
     grow();
+  }
+  if (isCoarse_ && mesh_.vertexCount() >= verticesOfStage())
+  {
+    isCoarse_ = false;
+    if (isResolved())
+    {
+      subdivideAll();
+    }
   }
   tidyIfGrown();
 }
@@ -242,6 +261,76 @@ void ParallelLearner::smooth()
     });
 }
 
+std::size_t ParallelLearner::verticesOfStage() const
+{
+  const auto count = std::size_t(parameters_.numberOfVertices);
+  return isCoarse_ ? std::size_t(PartOfCoarse * double(count)) : count;
+}
+
+/// Whether hardly any edge bends sharply: where the surface has narrow parts or creases, or follows noise, growth finds
+/// places for vertices that are not in the middle of edges.
+bool ParallelLearner::isResolved() const
+{
+  const auto countWhere = [this](const auto& isCounted)
+  {
+    return executor_.sum(mesh_.indexEnd(), VerticesPerPart,
+      [&](std::size_t v)
+      {
+        double count = 0.;
+        for (const VertexIndex other : mesh_.ring(VertexIndex(v)))
+        {
+          const bool isOnce = v < other && !mesh_.isBoundaryEdge(VertexIndex(v), other);
+          count += isOnce && isCounted(VertexIndex(v), other) ? 1. : 0.;
+        }
+        return count;
+      });
+  };
+  const auto isSharp = [this](VertexIndex a, VertexIndex b)
+  {
+    const auto opposite = oppositeTo(mesh_, { a, b });
+    const Vector4 from = mesh_.position(a), edge = mesh_.position(b) - from;
+    return cosineBetween(cross(edge, mesh_.position(opposite[0]) - from),
+             cross(mesh_.position(opposite[1]) - from, edge)) < CosineOfSharpBend;
+  };
+  const double edges = countWhere([](VertexIndex, VertexIndex) { return true; });
+  return countWhere(isSharp) <= MostSharpIfResolved * edges;
+}
+
+/// A vertex keeps a quarter of its activity; one in the middle of an edge gets an eighth of that of both ends.
+void ParallelLearner::subdivideAll()
+{
+  compact();
+  const auto valuesOf = [this](auto property)
+  {
+    const auto values = std::as_const(mesh_).values(property);
+    return std::vector(values.begin(), values.end());
+  };
+  const std::vector<float> activityBefore = valuesOf(activity_);
+  const std::vector<std::uint8_t> isThinBefore = valuesOf(isThin_);
+  Subdivision finer = subdivide(mesh_, executor_);
+  mesh_ = std::move(finer.mesh);
+  activity_ = mesh_.addProperty(1.f, OnSplit::Copy);
+  isThin_ = mesh_.addProperty(std::uint8_t(1), OnSplit::Copy);
+  const std::span<float> activity = mesh_.values(activity_);
+  const std::span<std::uint8_t> isThin = mesh_.values(isThin_);
+  const std::size_t count = activityBefore.size();
+  for (std::size_t v = 0; v < count; ++v)
+  {
+    activity[v] = 0.25f * activityBefore[v];
+    isThin[v] = isThinBefore[v];
+  }
+  for (std::size_t i = 0; i < finer.edges.size(); ++i)
+  {
+    const auto& [a, b] = finer.edges[i];
+    activity[count + i] = 0.125f * (activityBefore[a] + activityBefore[b]);
+    isThin[count + i] = isThinBefore[a] | isThinBefore[b];
+  }
+  counts_.additions += finer.edges.size();
+  nextRemoval_ = counts_.additions + removalInterval();
+  updateDecay();
+  compact();
+}
+
 VertexIndex ParallelLearner::facingWinner(Vector4 sample, VertexIndex closest) const
 {
   return mesh_.values(isThin_)[closest] == 0
@@ -342,6 +431,7 @@ void ParallelLearner::changeCloud(
 {
   parameters_.numberOfVertices = parameters.numberOfVertices;
   samples_ = StratifiedSamples(to.points(), parameters.seed, to.weights());
+  isCoarse_ = isCoarse_ && mesh_.vertexCount() < verticesOfStage();
   boxMin_ = to.bulkMin();
   boxMax_ = to.bulkMax();
   for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
@@ -371,7 +461,7 @@ void ParallelLearner::exchange(Archive& archive)
   const std::uint64_t mostSamplesAfterGrowth = samplesAfterGrowth_;
   archive(nextAddition_, nextRemoval_, samplesAfterGrowth_);
   archive.require(samplesAfterGrowth_ <= mostSamplesAfterGrowth);
-  archive(hasThinParts_, nextLook_, nextRenumbering_);
+  archive(isCoarse_, hasThinParts_, nextLook_, nextRenumbering_);
   if (archive.isReading())
   {
     updateDecay();

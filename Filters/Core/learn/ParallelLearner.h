@@ -25,6 +25,9 @@ namespace neuralmesh
 /// What differs from one sample after the other: winners are those of the mesh as it was when the batch began; a vertex
 /// is smoothed once for all wins of its neighbours; and of the splits and collapses that are due, those are made
 /// together that lie apart.
+///
+/// A mesh grows to a quarter of its vertices first. If that resolves the shape, each of its triangles is made four, and
+/// growth goes on from there: that takes a third of the samples.
 class ParallelLearner final : public Learner
 {
 public:
@@ -74,11 +77,17 @@ private:
   // Growth
   void grow();
   Quota quota() const;
+  std::uint64_t intervalOfRemovals() const;
   void select(const Quota& quota);
   std::uint64_t keyOfRank(bool isSplit, double rank);
   void plan();
   void commit(const Quota& quota);
   void make();
+
+  // From coarse to fine
+  std::size_t verticesOfStage() const;
+  bool isResolved() const;
+  void subdivideAll();
 
   void lookForThinParts();
   void makeGrid();
@@ -90,6 +99,7 @@ private:
   VertexProperty<float> activity_;      ///< tau
   VertexProperty<std::uint8_t> isThin_; ///< where another layer is near; see ThinParts
   bool hasThinParts_ = false;
+  bool isCoarse_ = false; ///< until each triangle is made four
   std::size_t nextLook_ = 0; ///< at thin parts: number of vertices
   Vector4 boxMin_, boxMax_;
   StratifiedSamples samples_;

@@ -25,6 +25,8 @@ constexpr double CandidatesPerCollapse = 2.7;
 constexpr double MoreCandidates = 2.;
 /// What could not be made stays due, but no more than for so many batches.
 constexpr double MostBatchesDue = 1.5;
+/// Splits for a collapse while the mesh is coarse.
+constexpr std::uint64_t IntervalIfCoarse = 2;
 /// Quantiles of activity are those of so many vertices.
 constexpr std::size_t VerticesOfQuantile = 2048;
 /// Memory for more than all vertices: those that a batch adds before the ones that it removes are used again.
@@ -76,12 +78,18 @@ ParallelLearner::Quota ParallelLearner::quota() const
     return result;
   }
   const std::uint64_t additions = counts_.additions + result.splits;
-  const std::uint64_t interval = removalInterval();
+  const std::uint64_t interval = intervalOfRemovals();
   result.collapses = additions >= nextRemoval_ ? 1 + (additions - nextRemoval_) / interval : 0;
   result.mostCollapses = parameters_.removalLimit > 0.
     ? std::ceil(parameters_.removalLimit * double(interval)) * double(result.collapses)
     : double(mesh_.vertexCount());
   return result;
+}
+
+/// C_nr, or less of it while the mesh is coarse: what is not right then would be so four times.
+std::uint64_t ParallelLearner::intervalOfRemovals() const
+{
+  return isCoarse_ ? std::min(IntervalIfCoarse, removalInterval()) : removalInterval();
 }
 
 /// The key that about so many vertices exceed, by some of them.
@@ -224,8 +232,8 @@ void ParallelLearner::commit(const Quota& quota)
     ++gone;
   }
   keep(collapses, gone);
-  const std::size_t room = std::size_t(parameters_.numberOfVertices) + gone -
-    std::min(mesh_.vertexCount(), std::size_t(parameters_.numberOfVertices) + gone);
+  const std::size_t most = verticesOfStage() + gone;
+  const std::size_t room = most - std::min(mesh_.vertexCount(), most);
   keep(splits, std::min<std::size_t>(quota.splits, room));
 
   const auto byVertex = [](const Operation& a, const Operation& b)
@@ -249,7 +257,7 @@ void ParallelLearner::commit(const Quota& quota)
   }
   else
   {
-    nextRemoval_ += std::min<std::uint64_t>(collapses.size(), quota.collapses) * removalInterval();
+    nextRemoval_ += std::min<std::uint64_t>(collapses.size(), quota.collapses) * intervalOfRemovals();
   }
   operations_ = std::move(splits);
   operations_.insert(operations_.end(), collapses.begin(), collapses.end());

@@ -181,11 +181,19 @@ bool isCloser(const Reconstruction& first, const Reconstruction& second, std::ui
 }
 
 /// Of a mesh that was refined beside its creases, and one that has learnt all of its vertices: whether the first is
-/// to be taken. Few of the points that tell it lie at creases, so a draw goes to that.
+/// to be taken. Few of the points that tell it lie at creases, so a draw goes to that; not where it has more slivers, or
+/// more to be warned of: parts that are thin or small may be lost on a coarser mesh.
 bool isBetterRefined(const Reconstruction& refined, const Reconstruction& learnt)
 {
-  return isCloser(refined, learnt, learnt.surface.vertexCount(), TimesOfDraw) && refined.finish &&
-    refined.finish->left.total() <= learnt.finish->left.total();
+  if (!refined.finish || !refined.quality || !learnt.quality ||
+    refined.finish->left.total() > learnt.finish->left.total() ||
+    refined.warnings.size() > learnt.warnings.size())
+  {
+    return false;
+  }
+  const bool hasMoreSlivers = refined.quality->surface.slivers > learnt.quality->surface.slivers;
+  return isCloser(refined, learnt, learnt.surface.vertexCount(),
+    hasMoreSlivers ? 1. / TimesOfDraw : TimesOfDraw);
 }
 }
 
