@@ -296,6 +296,25 @@ bool ParallelLearner::isResolved() const
   return countWhere(isSharp) <= MostSharpIfResolved * edges;
 }
 
+/// Unit normals of all vertices; 0 where there is none.
+std::vector<Vector4> ParallelLearner::normals() const
+{
+  std::vector<Vector4> result(mesh_.indexEnd());
+  executor_.forEachRange(result.size(), VerticesPerPart,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        const Vector4 normal = mesh_.normal(v);
+        const float length = std::sqrt(squaredNorm(normal));
+        result[v] = length > 0.f ? 1.f / length * normal : Vector4();
+      }
+    });
+  return result;
+}
+
+/// The middle of an edge is that of the cubic curve which is perpendicular to the normals at its ends (curved PN
+/// triangles; Vlachos, Peters, Boyd and Mitchell 2001): that of a chord lies inside of what is round.
 /// A vertex keeps a quarter of its activity; one in the middle of an edge gets an eighth of that of both ends.
 void ParallelLearner::subdivideAll()
 {
@@ -307,6 +326,7 @@ void ParallelLearner::subdivideAll()
   };
   const std::vector<float> activityBefore = valuesOf(activity_);
   const std::vector<std::uint8_t> isThinBefore = valuesOf(isThin_);
+  const std::vector<Vector4> normal = normals();
   Subdivision finer = subdivide(mesh_, executor_);
   mesh_ = std::move(finer.mesh);
   activity_ = mesh_.addProperty(1.f, OnSplit::Copy);
@@ -322,8 +342,13 @@ void ParallelLearner::subdivideAll()
   for (std::size_t i = 0; i < finer.edges.size(); ++i)
   {
     const auto& [a, b] = finer.edges[i];
-    activity[count + i] = 0.125f * (activityBefore[a] + activityBefore[b]);
-    isThin[count + i] = isThinBefore[a] | isThinBefore[b];
+    const auto middle = VertexIndex(count + i);
+    const Vector4 edge = mesh_.position(b) - mesh_.position(a);
+    mesh_.setPosition(middle,
+      mesh_.position(middle) +
+        0.125f * (dot(edge, normal[b]) * normal[b] - dot(edge, normal[a]) * normal[a]));
+    activity[middle] = 0.125f * (activityBefore[a] + activityBefore[b]);
+    isThin[middle] = isThinBefore[a] | isThinBefore[b];
   }
   counts_.additions += finer.edges.size();
   nextRemoval_ = counts_.additions + removalInterval();

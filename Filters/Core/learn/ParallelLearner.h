@@ -87,6 +87,7 @@ private:
   // From coarse to fine
   std::size_t verticesOfStage() const;
   bool isResolved() const;
+  std::vector<Vector4> normals() const;
   void subdivideAll();
 
   void lookForThinParts();
