@@ -29,6 +29,9 @@ constexpr float LaterOutlierEdges = 0.5f;
 /// their places.
 constexpr float OutlierSpacings = 3.f;
 constexpr std::size_t SamplesPerAbortCheck = 65536;
+/// The equations are filled in so many parts for each thread, from lists of so many samples.
+constexpr std::size_t PartsPerThread = 4;
+constexpr std::size_t SamplesPerList = 65536;
 /// Of the residual of the equations, against the largest at the start of a round.
 constexpr double Tolerance = 1e-3;
 
@@ -219,7 +222,7 @@ void SurfaceFit::fillSystem()
         : isSettled_ ? AnchorWeight
                      : 0.f);
   }
-  forEachRows([this](const FitSystem::Rows& rows) { fillRows(rows); });
+  forEachUsed([this](const FitSystem::Rows& rows, std::size_t sample) { fillRows(rows, sample); });
   usedCount_ = std::size_t(executor_.sum(
     places_.size(), SamplesPerRange, [this](std::size_t i) { return isUsed(i) ? 1. : 0.; }));
   if (mesh_.isOpen())
@@ -243,43 +246,76 @@ Vector4 SurfaceFit::beyondBoundary(
   return sample + PartBeyond * (away - dot(away, unit) * unit);
 }
 
-/// Each part goes through all samples for its rows: so these add up in the same order however many
-/// parts there are.
+/// Calls `body(rows, sample)` for the samples that are used, and the rows of those of their corners that a part has:
+/// these add up in the order of the samples, however many parts there are.
 template <typename Body>
-void SurfaceFit::forEachRows(const Body& body) const
+void SurfaceFit::forEachUsed(const Body& body) const
 {
-  const std::size_t parts = executor_.threadCount(), rows = mesh_.indexEnd();
+  const std::size_t count = samples_.size(), end = mesh_.indexEnd();
+  const std::size_t parts = executor_.threadCount() > 1 ? PartsPerThread * executor_.threadCount() : 1;
+  if (parts == 1)
+  {
+    const FitSystem::Rows all{ 0, VertexIndex(end) };
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (isUsed(i))
+      {
+        body(all, i);
+      }
+    }
+    return;
+  }
+  const std::size_t rowsOfPart = std::max<std::size_t>(1, (end + parts - 1) / parts);
+  const std::size_t ranges = (count + SamplesPerList - 1) / SamplesPerList;
+  std::vector<std::vector<std::uint32_t>> samplesOf(ranges * parts);
+  executor_.forEachRange(count, SamplesPerList,
+    [&](std::size_t begin, std::size_t endOfRange)
+    {
+      const auto lists = std::span(samplesOf).subspan(begin / SamplesPerList * parts, parts);
+      for (std::size_t i = begin; i < endOfRange; ++i)
+      {
+        const Triangle& corners = places_[i].triangle;
+        for (std::size_t corner = 0; corner < 3 && isUsed(i); ++corner)
+        {
+          std::vector<std::uint32_t>& list = lists[corners[corner] / rowsOfPart];
+          if (list.empty() || list.back() != i)
+          {
+            list.push_back(std::uint32_t(i));
+          }
+        }
+      }
+    });
   executor_.forEachPart(parts,
     [&](std::size_t part)
     {
-      body(FitSystem::Rows{
-        VertexIndex(part * rows / parts), VertexIndex((part + 1) * rows / parts) });
+      const FitSystem::Rows rows{ VertexIndex(std::min(end, part * rowsOfPart)),
+        VertexIndex(std::min(end, (part + 1) * rowsOfPart)) };
+      for (std::size_t range = 0; range < ranges; ++range)
+      {
+        for (const std::uint32_t i : samplesOf[range * parts + part])
+        {
+          body(rows, i);
+        }
+      }
     });
 }
 
-void SurfaceFit::fillRows(const FitSystem::Rows& rows)
+void SurfaceFit::fillRows(const FitSystem::Rows& rows, std::size_t sample)
 {
-  for (std::size_t i = 0; i < samples_.size(); ++i)
+  const PlaceOnMesh& place = places_[sample];
+  const Vector4 normal = normalAt(place, mesh_.positions());
+  if (isOnBoundary(place, mesh_))
   {
-    const PlaceOnMesh& place = places_[i];
-    const auto& [a, b, c] = place.triangle;
-    if (isUsed(i) && (rows.has(a) || rows.has(b) || rows.has(c)))
-    {
-      const Vector4 normal = normalAt(place, mesh_.positions());
-      if (isOnBoundary(place, mesh_))
-      {
-        // Beyond a boundary the distance along the surface counts in full: there is no other place.
-        system_->add(place, beyondBoundary(samples_[i], place, normal), Vector4(), weight(i), rows);
-      }
-      else
-      {
-        system_->add(place, shifted(i), normal, weight(i), rows);
-        if (normalWeight_ > 0.)
-        {
-          system_->addNormal(place, normals_.at(i), float(normalWeight_) * weight(i), rows);
-        }
-      }
-    }
+    // Beyond a boundary the distance along the surface counts in full: there is no other place.
+    system_->add(
+      place, beyondBoundary(samples_[sample], place, normal), Vector4(), weight(sample), rows);
+    return;
+  }
+  system_->add(place, shifted(sample), normal, weight(sample), rows);
+  if (normalWeight_ > 0.)
+  {
+    system_->addNormal(
+      place, normals_.at(sample), float(normalWeight_) * weight(sample), rows);
   }
 }
 
@@ -296,27 +332,18 @@ void SurfaceFit::pullBoundariesIn()
   };
   const Mesh& mesh = mesh_;
   std::vector<Strip> strips(mesh.indexEnd()); // of the edges to the first neighbour
-  const auto measure = [&](const PlaceOnMesh& place, const FitSystem::Rows& rows)
-  {
-    for (unsigned i = 0; i < 3; ++i)
+  forEachUsed(
+    [&](const FitSystem::Rows& rows, std::size_t sample)
     {
-      const VertexIndex from = place.triangle[(i + 1) % 3], to = place.triangle[(i + 2) % 3];
-      if (rows.has(from) && mesh.isBoundary(from) && mesh.ring(from).front() == to)
+      const PlaceOnMesh& place = places_[sample];
+      for (unsigned i = 0; i < 3; ++i)
       {
-        Strip& strip = strips[from];
-        ++strip.samples;
-        strip.width = std::min(strip.width, place.weights[int(i)]);
-      }
-    }
-  };
-  forEachRows(
-    [&](const FitSystem::Rows& rows)
-    {
-      for (std::size_t i = 0; i < places_.size(); ++i)
-      {
-        if (isUsed(i))
+        const VertexIndex from = place.triangle[(i + 1) % 3], to = place.triangle[(i + 2) % 3];
+        if (rows.has(from) && mesh.isBoundary(from) && mesh.ring(from).front() == to)
         {
-          measure(places_[i], rows);
+          Strip& strip = strips[from];
+          ++strip.samples;
+          strip.width = std::min(strip.width, place.weights[int(i)]);
         }
       }
     });

@@ -132,8 +132,8 @@ private:
   void chooseUsed(float edges);
   void fillSystem();
   template <typename Body>
-  void forEachRows(const Body& body) const;
-  void fillRows(const FitSystem::Rows& rows);
+  void forEachUsed(const Body& body) const;
+  void fillRows(const FitSystem::Rows& rows, std::size_t sample);
   Vector4 beyondBoundary(
     const Vector4& sample, const PlaceOnMesh& place, const Vector4& normal) const;
   void pullBoundariesIn();
