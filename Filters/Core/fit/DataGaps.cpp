@@ -271,7 +271,7 @@ std::vector<Triangle> leftOverPieces(const Mesh& mesh, std::span<const PlaceOnMe
 }
 
 std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
-  std::span<const PlaceOnMesh> places, float medianDistance)
+  std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar)
 {
   const NumberedTriangles triangles(mesh);
   std::vector<std::uint32_t> samples(triangles.all().size(), 0);
@@ -320,7 +320,8 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
     const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
     const auto isFar = [&](std::uint32_t t)
     { return distance(t) > std::max(reach, LeastSpacings * sparseSpacing(t)); };
-    if (piece.isAtBoundary || std::any_of(piece.triangles.begin(), piece.triangles.end(), isFar))
+    if ((piece.isAtBoundary && !mustBeFar) ||
+      std::any_of(piece.triangles.begin(), piece.triangles.end(), isFar))
     {
       for (const std::uint32_t t : piece.triangles)
       {
@@ -335,8 +336,9 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   float medianDistance, const GapPlan& plan)
 {
   OpenedGaps result;
-  const std::vector<Triangle> gaps =
-    plan.mayOpen ? findDataGaps(cloud, mesh, places, medianDistance) : std::vector<Triangle>();
+  const std::vector<Triangle> gaps = plan.mayOpen
+    ? findDataGaps(cloud, mesh, places, medianDistance, plan.mustBeFar)
+    : std::vector<Triangle>();
   result.triangles = gaps.size();
   if (!gaps.empty())
   {

@@ -17,10 +17,11 @@ namespace neuralmesh
 ///   from the mesh; else the mesh does not fit yet.
 /// Where triangles are smaller than the distance between samples, everywhere or around those nearest
 /// to them, those near to a point are no part of such pieces.
+/// With `mustBeFar` those at a boundary have to reach away from the points, too.
 /// `places` are those of samples evenly picked from the cloud, `medianDistance` is that of the
 /// samples to the mesh.
 std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
-  std::span<const PlaceOnMesh> places, float medianDistance);
+  std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar = false);
 
 /// How gaps are to be opened and closed.
 struct GapPlan
@@ -28,6 +29,7 @@ struct GapPlan
   double bridgeWidth = 0.; ///< see openDataGaps()
   bool mayOpen = true;     ///< not where the mesh began with openings where there is no data
   double leastPiece = 0.0005;
+  bool mustBeFar = false; ///< at boundaries, too, see findDataGaps()
 };
 
 struct OpenedGaps

@@ -151,7 +151,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     }
     if (isLast && round > 0)
     {
-      if (trimsOutlines() && openGaps(*surfaceFit))
+      if (trimsOutlines() && openGaps(*surfaceFit, true))
       {
         flipEdges(mesh_);
         beginAnew();
@@ -177,7 +177,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     if (round == 0)
     {
       smoothness = report_.smoothness;
-      const bool isOpened = plan_.gaps && openGaps(*surfaceFit);
+      const bool isOpened = plan_.gaps && openGaps(*surfaceFit, false);
       if (closeHoles() || isOpened)
       {
         beginAnew();
@@ -348,11 +348,13 @@ bool Finish::closeHoles()
   return fillShortBoundaries(mesh_, boundaries, plan_.closedOutline) > 0;
 }
 
-bool Finish::openGaps(const SurfaceFit& surfaceFit)
+bool Finish::openGaps(const SurfaceFit& surfaceFit, bool mustBeFar)
 {
   const std::size_t count = mesh_.vertexCount();
+  GapPlan plan = *plan_.gaps;
+  plan.mustBeFar = mustBeFar;
   const OpenedGaps gaps =
-    openDataGaps(cloud_, mesh_, surfaceFit.places(), surfaceFit.medianDistance(), *plan_.gaps);
+    openDataGaps(cloud_, mesh_, surfaceFit.places(), surfaceFit.medianDistance(), plan);
   if (!gaps.any())
   {
     return false;

@@ -76,7 +76,7 @@ private:
   bool isWorseThan(const Mesh& before, FitGuard& guard) const;
   bool move(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   void tell(const NoiseParts& parts);
-  bool openGaps(const SurfaceFit& surfaceFit);
+  bool openGaps(const SurfaceFit& surfaceFit, bool mustBeFar);
   bool trimsOutlines() const;
   bool improve(SurfaceFit& surfaceFit, const Progress& progress);
   bool closeHoles();

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace neuralmesh
@@ -15,6 +16,8 @@ namespace neuralmesh
 namespace
 {
 const double FoldCosine = std::cos(150. * std::numbers::pi / 180.);
+/// So much of a right angle is left that rounding does not matter.
+constexpr float LeastSquaredCosine = 0.04f;
 
 /// Brings the corners that `other` has, too, to the front; returns how many there are.
 unsigned sharedToFront(Triangle& triangle, const Triangle& other)
@@ -36,7 +39,64 @@ Corners cornersOf(const Mesh& mesh, const Triangle& triangle)
     mesh.position(triangle[2]).toDouble() };
 }
 
-bool doIntersect(const Mesh& mesh, Triangle first, Triangle second)
+/// Whether the triangles around a vertex lie side by side as seen along its normal, each turned by clearly less than a
+/// right angle from it: then no two of them intersect.
+bool isStarSimple(const Mesh& mesh, VertexIndex v)
+{
+  const Ring& ring = mesh.ring(v);
+  const Vector4 normal = mesh.normal(v), center = mesh.position(v);
+  const float squaredNormal = squaredNorm(normal);
+  if (ring.isOpen() || !(squaredNormal > 0.f))
+  {
+    return false;
+  }
+  const Vector4 first = mesh.position(ring.front()) - center;
+  const Vector4 across = cross(normal, first);
+  Vector4 from = mesh.position(ring.back()) - center;
+  unsigned turns = 0;
+  for (const VertexIndex neighbor : ring)
+  {
+    const Vector4 to = mesh.position(neighbor) - center;
+    const Vector4 area = cross(from, to);
+    const float along = dot(area, normal);
+    if (!(along > 0.f) ||
+      !(along * along > LeastSquaredCosine * squaredNorm(area) * squaredNormal))
+    {
+      return false;
+    }
+    turns += dot(across, from) < 0.f && dot(across, to) >= 0.f ? 1 : 0;
+    from = to;
+  }
+  return turns == 1;
+}
+
+/// Whether stars are simple, asked for when it is needed.
+class SimpleStars
+{
+public:
+  SimpleStars(const Mesh& mesh)
+    : mesh_(mesh)
+    , known_(mesh.indexEnd(), Unknown)
+  {
+  }
+
+  bool operator[](VertexIndex v)
+  {
+    if (known_[v] == Unknown)
+    {
+      known_[v] = isStarSimple(mesh_, v) ? 1 : 0;
+    }
+    return known_[v] == 1;
+  }
+
+private:
+  static constexpr std::uint8_t Unknown = 2;
+
+  const Mesh& mesh_;
+  std::vector<std::uint8_t> known_;
+};
+
+bool doIntersect(const Mesh& mesh, SimpleStars& isSimple, Triangle first, Triangle second)
 {
   // Of two that almost lie on each other, it may depend on which one comes first: that is never by chance.
   if (second < first)
@@ -44,6 +104,10 @@ bool doIntersect(const Mesh& mesh, Triangle first, Triangle second)
     std::swap(first, second);
   }
   const unsigned shared = sharedToFront(first, second);
+  if ((shared == 1 || shared == 2) && (isSimple[first[0]] || (shared == 2 && isSimple[first[1]])))
+  {
+    return false;
+  }
   sharedToFront(second, first);
   if (shared == 2 && first[0] != second[0])
   {
@@ -111,11 +175,12 @@ std::vector<Triangle> intersectingTriangles(const Mesh& mesh, const std::vector<
   const Candidates candidates(mesh, isAsked);
   const std::vector<Triangle>& all = candidates.triangles();
   std::vector<bool> isFound(all.size(), false);
+  SimpleStars isSimple(mesh);
   candidates.forEachPair(
     [&](std::uint32_t i, std::uint32_t j)
     {
       // Nothing is to be learnt of two that are found.
-      if (!(isFound[i] && isFound[j]) && doIntersect(mesh, all[i], all[j]))
+      if (!(isFound[i] && isFound[j]) && doIntersect(mesh, isSimple, all[i], all[j]))
       {
         isFound[i] = true;
         isFound[j] = true;
@@ -143,10 +208,11 @@ std::vector<TrianglePair> intersectingPairs(const Mesh& mesh, const std::vector<
   const Candidates candidates(mesh, isAsked);
   const std::vector<Triangle>& all = candidates.triangles();
   std::vector<TrianglePair> pairs;
+  SimpleStars isSimple(mesh);
   candidates.forEachPair(
     [&](std::uint32_t i, std::uint32_t j)
     {
-      if (doIntersect(mesh, all[i], all[j]))
+      if (doIntersect(mesh, isSimple, all[i], all[j]))
       {
         pairs.push_back({ std::min(all[i], all[j]), std::max(all[i], all[j]) });
       }

@@ -24,11 +24,11 @@ Mesh sphereMesh(unsigned resolution, const PointCloud& cloud)
   return buildMesh(makeSphere(resolution), cloud);
 }
 
-std::vector<Triangle> gapsOf(const PointCloud& cloud, Mesh& mesh)
+std::vector<Triangle> gapsOf(const PointCloud& cloud, Mesh& mesh, bool mustBeFar = false)
 {
   SurfaceFit fit(cloud, mesh, SamplesPerVertexOfGaps * mesh.vertexCount());
   EXPECT_TRUE(fit.findPlaces(goOn));
-  return findDataGaps(cloud, mesh, fit.places(), fit.medianDistance());
+  return findDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), mustBeFar);
 }
 
 OpenedGaps openedGaps(const PointCloud& cloud, Mesh& mesh, double bridgeWidth, bool mayOpen = true)
@@ -56,6 +56,32 @@ std::vector<Eigen::Vector3d> scanLines(double spacing, double part)
   }
   return points;
 }
+}
+
+// Beside its data a sheet goes on by one triangle, or by many. Both are gaps at a boundary; only the wide one is far from
+// all points.
+TEST(DataGaps, NarrowStripsAtABoundaryAreNotFar)
+{
+  const TriangleMesh grid = makeGrid(80);
+  const auto gapsBeside = [&](double part, bool mustBeFar)
+  {
+    std::vector<Eigen::Vector3d> points = generateCloud(grid, { .count = 50000 });
+    double low = points[0].x(), high = low;
+    for (const Eigen::Vector3d& point : points)
+    {
+      low = std::min(low, point.x());
+      high = std::max(high, point.x());
+    }
+    std::erase_if(points,
+      [&](const Eigen::Vector3d& point) { return point.x() > high - part * (high - low); });
+    const PointCloud cloud(points);
+    Mesh mesh = buildMesh(grid, cloud);
+    return gapsOf(cloud, mesh, mustBeFar).size();
+  };
+  EXPECT_GE(gapsBeside(0.0125, false), 80u);
+  EXPECT_EQ(gapsBeside(0.0125, true), 0u);
+  EXPECT_GE(gapsBeside(0.2, false), 2000u);
+  EXPECT_GE(gapsBeside(0.2, true), 2000u);
 }
 
 // A full sphere has no gaps, however noisy the cloud is and however fine the mesh.
