@@ -252,7 +252,8 @@ template <typename Body>
 void SurfaceFit::forEachUsed(const Body& body) const
 {
   const std::size_t count = samples_.size(), end = mesh_.indexEnd();
-  const std::size_t parts = executor_.threadCount() > 1 ? PartsPerThread * executor_.threadCount() : 1;
+  const std::size_t parts =
+    executor_.threadCount() > 1 ? PartsPerThread * executor_.threadCount() : 1;
   if (parts == 1)
   {
     const FitSystem::Rows all{ 0, VertexIndex(end) };
@@ -314,8 +315,7 @@ void SurfaceFit::fillRows(const FitSystem::Rows& rows, std::size_t sample)
   system_->add(place, shifted(sample), normal, weight(sample), rows);
   if (normalWeight_ > 0.)
   {
-    system_->addNormal(
-      place, normals_.at(sample), float(normalWeight_) * weight(sample), rows);
+    system_->addNormal(place, normals_.at(sample), float(normalWeight_) * weight(sample), rows);
   }
 }
 

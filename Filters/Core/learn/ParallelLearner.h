@@ -100,7 +100,7 @@ private:
   VertexProperty<float> activity_;      ///< tau
   VertexProperty<std::uint8_t> isThin_; ///< where another layer is near; see ThinParts
   bool hasThinParts_ = false;
-  bool isCoarse_ = false; ///< until each triangle is made four
+  bool isCoarse_ = false;    ///< until each triangle is made four
   std::size_t nextLook_ = 0; ///< at thin parts: number of vertices
   Vector4 boxMin_, boxMax_;
   StratifiedSamples samples_;

@@ -257,7 +257,8 @@ void ParallelLearner::commit(const Quota& quota)
   }
   else
   {
-    nextRemoval_ += std::min<std::uint64_t>(collapses.size(), quota.collapses) * intervalOfRemovals();
+    nextRemoval_ +=
+      std::min<std::uint64_t>(collapses.size(), quota.collapses) * intervalOfRemovals();
   }
   operations_ = std::move(splits);
   operations_.insert(operations_.end(), collapses.begin(), collapses.end());

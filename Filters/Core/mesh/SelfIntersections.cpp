@@ -59,8 +59,7 @@ bool isStarSimple(const Mesh& mesh, VertexIndex v)
     const Vector4 to = mesh.position(neighbor) - center;
     const Vector4 area = cross(from, to);
     const float along = dot(area, normal);
-    if (!(along > 0.f) ||
-      !(along * along > LeastSquaredCosine * squaredNorm(area) * squaredNormal))
+    if (!(along > 0.f) || !(along * along > LeastSquaredCosine * squaredNorm(area) * squaredNormal))
     {
       return false;
     }

@@ -192,8 +192,8 @@ bool isBetterRefined(const Reconstruction& refined, const Reconstruction& learnt
     return false;
   }
   const bool hasMoreSlivers = refined.quality->surface.slivers > learnt.quality->surface.slivers;
-  return isCloser(refined, learnt, learnt.surface.vertexCount(),
-    hasMoreSlivers ? 1. / TimesOfDraw : TimesOfDraw);
+  return isCloser(
+    refined, learnt, learnt.surface.vertexCount(), hasMoreSlivers ? 1. / TimesOfDraw : TimesOfDraw);
 }
 }
 

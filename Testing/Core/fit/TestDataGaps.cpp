@@ -72,8 +72,8 @@ TEST(DataGaps, NarrowStripsAtABoundaryAreNotFar)
       low = std::min(low, point.x());
       high = std::max(high, point.x());
     }
-    std::erase_if(points,
-      [&](const Eigen::Vector3d& point) { return point.x() > high - part * (high - low); });
+    std::erase_if(
+      points, [&](const Eigen::Vector3d& point) { return point.x() > high - part * (high - low); });
     const PointCloud cloud(points);
     Mesh mesh = buildMesh(grid, cloud);
     return gapsOf(cloud, mesh, mustBeFar).size();

@@ -351,8 +351,8 @@ TEST(Learner, FirstRemovalsAreSpread)
   // Vertices are numbered along a curve: so many side by side would be in a tenth of it.
   const auto inTenth = [&](std::size_t tenth)
   {
-    return std::count_if(removed.begin(), removed.end(),
-      [&](VertexIndex v) { return v * 10 / count == tenth; });
+    return std::count_if(
+      removed.begin(), removed.end(), [&](VertexIndex v) { return v * 10 / count == tenth; });
   };
   for (std::size_t tenth = 0; tenth < 10; ++tenth)
   {

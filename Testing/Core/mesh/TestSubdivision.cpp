@@ -65,8 +65,8 @@ TEST(Subdivision, MakesFourOfEach)
       EXPECT_TRUE(mesh.ring(a).contains(b));
       EXPECT_TRUE(finer.mesh.ring(middle).contains(a) && finer.mesh.ring(middle).contains(b));
       EXPECT_EQ(finer.mesh.isBoundary(middle), mesh.isBoundaryEdge(a, b));
-      EXPECT_LT(squaredNorm(finer.mesh.position(middle) -
-                  0.5f * (mesh.position(a) + mesh.position(b))),
+      EXPECT_LT(
+        squaredNorm(finer.mesh.position(middle) - 0.5f * (mesh.position(a) + mesh.position(b))),
         1e-12f);
     }
     mesh.forEachTriangle(
