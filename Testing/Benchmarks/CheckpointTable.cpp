@@ -2,6 +2,7 @@
 // Prints, as a table in Markdown, what checkpoints cost: the size of the file, and the time that it
 // takes to write it and to go on from it.
 #include "cloud/CloudGenerator.h"
+#include "learn/SequentialLearner.h"
 #include "mesh/Refinement.h"
 #include "run/Checkpoint.h"
 #include "Shapes.h"
