@@ -11,7 +11,7 @@ namespace neuralmesh
 {
 namespace
 {
-constexpr std::size_t Lanes = 4; ///< components that are fitted at once
+constexpr std::size_t ComponentsAtOnce = 4; ///< components that are fitted at once
 
 /// What a component is fitted as: without its mean, with a range of 1.
 class ComponentScale
@@ -71,9 +71,9 @@ std::vector<double> carryNumbers(const CloudPlaces& places, std::size_t componen
 
   const std::vector<VertexIndex> nearest = places.nearestSupported();
   std::vector<double> result(components * nearest.size(), std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t first = 0; first < components; first += Lanes)
+  for (std::size_t first = 0; first < components; first += ComponentsAtOnce)
   {
-    const std::size_t lanes = std::min(Lanes, components - first);
+    const std::size_t lanes = std::min(ComponentsAtOnce, components - first);
     AttributeFit fit(places.mesh(), executor);
     forEachTuple(
       [&](const CloudPlaces::Corners& corners, double weight)

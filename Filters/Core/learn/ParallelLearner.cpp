@@ -20,7 +20,7 @@ namespace neuralmesh
 namespace
 {
 /// A part for the executor.
-constexpr std::size_t VerticesPerPart = 2048;
+constexpr std::size_t VerticesOfPart = 2048;
 constexpr std::size_t SamplesPerPart = 1024;
 
 /// Smaller meshes are learnt in a moment, one sample after the other.
@@ -43,7 +43,7 @@ constexpr std::size_t VerticesAhead = 6;
 
 constexpr float GridEdgesPerCell = 2.f;
 /// Where more crowd, as most points are in one place, a grid that divides its cells is faster.
-constexpr std::size_t MostInCell = 400;
+constexpr std::size_t MostInPackedCell = 400;
 /// The mean edge is that of so many vertices.
 constexpr std::size_t VerticesOfMeanEdge = 512;
 /// Vertices are renumbered whenever there are so many times more.
@@ -183,7 +183,7 @@ void ParallelLearner::takeSamples()
   const auto decay = float(std::pow(decay_, double(batch_.size())));
   const auto winnerRate = float(parameters_.winnerRate);
   std::atomic<std::uint64_t> rejected = 0;
-  executor_.forEachRange(count, VerticesPerPart,
+  executor_.forEachRange(count, VerticesOfPart,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<std::uint32_t> won;
@@ -237,7 +237,7 @@ void ParallelLearner::observe()
 /// (6.2) to (6.4), once for as many wins as there were around each vertex: a rate of 1 - (1 - alpha_L)^wins.
 void ParallelLearner::smooth()
 {
-  executor_.forEachRange(mesh_.indexEnd(), VerticesPerPart,
+  executor_.forEachRange(mesh_.indexEnd(), VerticesOfPart,
     [&](std::size_t begin, std::size_t end)
     {
       for (auto v = VertexIndex(begin); v < end; ++v)
@@ -273,7 +273,7 @@ bool ParallelLearner::isResolved() const
 {
   const auto countWhere = [this](const auto& isCounted)
   {
-    return executor_.sum(mesh_.indexEnd(), VerticesPerPart,
+    return executor_.sum(mesh_.indexEnd(), VerticesOfPart,
       [&](std::size_t v)
       {
         double count = 0.;
@@ -300,7 +300,7 @@ bool ParallelLearner::isResolved() const
 std::vector<Vector4> ParallelLearner::normals() const
 {
   std::vector<Vector4> result(mesh_.indexEnd());
-  executor_.forEachRange(result.size(), VerticesPerPart,
+  executor_.forEachRange(result.size(), VerticesOfPart,
     [&](std::size_t begin, std::size_t end)
     {
       for (auto v = VertexIndex(begin); v < end; ++v)
@@ -408,7 +408,7 @@ void ParallelLearner::makeGrid()
   const float width = GridEdgesPerCell * float(sum / std::max(1., count));
   grid_.build(mesh_, boxMin_, boxMax_, width, executor_);
   crowds_.reset();
-  if (grid_.mostInCell() > MostInCell)
+  if (grid_.mostInCell() > MostInPackedCell)
   {
     crowds_.emplace();
     crowds_->reset(boxMin_, boxMax_, width, mesh_.indexEnd());

@@ -9,7 +9,7 @@ namespace neuralmesh
 {
 namespace
 {
-constexpr std::size_t VerticesPerRange = 4096;
+constexpr std::size_t SubdividedPerRange = 4096;
 
 /// Numbers the edges of a mesh, those of each vertex to higher ones in succession.
 class EdgeNumbers
@@ -62,7 +62,7 @@ Subdivision subdivide(const Mesh& mesh, const Executor& executor)
   std::vector<std::array<VertexIndex, 2>> edges(numbers.count());
   const auto middle = [&](VertexIndex a, VertexIndex b)
   { return VertexIndex(count + numbers(a, b)); };
-  executor.forEachRange(count, VerticesPerRange,
+  executor.forEachRange(count, SubdividedPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (auto v = VertexIndex(begin); v < end; ++v)

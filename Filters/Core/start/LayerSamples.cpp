@@ -23,7 +23,7 @@ constexpr std::size_t AroundSparse = 8;
 constexpr float LeastPartInLayer = 0.4f;
 /// Of those that are sparse, or of all: fewer are what ends of a scan have, and stay.
 constexpr double MostSparseScattered = 0.5;
-constexpr double MostScattered = 0.015;
+constexpr double MostScatteredOfLayers = 0.015;
 /// And points that are so much farther apart, and scatter so much more: sparse parts of a surface are as noisy as
 /// others, about.
 constexpr float VerySparseAgainstUsual = 3.f;
@@ -217,8 +217,8 @@ std::vector<bool> findScattered(std::span<const LayerSample> samples, float radi
     result[sparse[i]] = sum < LeastPartInLayer * float(count);
   }
   const auto scattered = double(std::count(result.begin(), result.end(), true));
-  return scattered >
-      std::min(MostSparseScattered * double(sparse.size()), MostScattered * double(samples.size()))
+  return scattered > std::min(MostSparseScattered * double(sparse.size()),
+                       MostScatteredOfLayers * double(samples.size()))
     ? result
     : std::vector<bool>(samples.size(), false);
 }
