@@ -103,8 +103,8 @@ TEST_P(NormalBased, IsDenseAtEdges)
   EXPECT_LT(densityRatio(reconstructCube(Variant::Basic, GetParam(), false).mesh), 1.5);
 }
 
-// Of evenly spread vertices, the tenth with the highest feature strength lies at the edges, most on them and
-// none farther than their neighbours, and all along them.
+// Of evenly spread vertices, the tenth with the highest feature strength lies at the edges, most on them, but for one at
+// most, which is a neighbour of those; and all along them.
 TEST_P(NormalBased, FeatureStrengthFindsEdges)
 {
   const std::vector<Eigen::Vector3d> strongest =
@@ -113,6 +113,7 @@ TEST_P(NormalBased, FeatureStrengthFindsEdges)
   std::transform(strongest.begin(), strongest.end(), distances.begin(), distanceToEdge);
   std::sort(distances.begin(), distances.end());
   EXPECT_LE(distances[distances.size() * 9 / 10], 0.05 * MeshEdge);
+  EXPECT_LE(distances[distances.size() - 2], NearEdge);
   EXPECT_LE(distances.back(), MeshEdge);
   EXPECT_GE(coveredEdges(strongest), 0.95);
 }

@@ -60,8 +60,8 @@ TEST(Robustness, SpreadOutliers)
   }
 }
 
-// Clusters of outliers, beside the surface or on it, leave the mesh whole and right; on it, over some seeds, hardly
-// a bump is left of them.
+// Clusters of outliers, beside the surface or on it, leave the mesh whole and right; on it, hardly a bump is left of
+// them: on average, and at four of six seeds or more.
 TEST(Robustness, Clusters)
 {
   constexpr double Bump = 2.5 * Near;
@@ -69,6 +69,7 @@ TEST(Robustness, Clusters)
   for (const TrueSurface& shape : { trueSphere(), trueTorus() })
   {
     double bumps = 0.;
+    std::size_t flat = 0;
     for (const std::uint64_t seed : seeds)
     {
       SCOPED_TRACE(shape.name + ", " + std::to_string(seed));
@@ -86,9 +87,12 @@ TEST(Robustness, Clusters)
       const TriangleMesh mesh = reconstruct(PointCloud(points), defaults(3000), goOn).mesh;
       expectWhole(shape, mesh);
       EXPECT_LT(largestDistanceTo(mesh, shape, 1000), Near * shape.diagonal);
-      bumps += largestDistance(shape, mesh);
+      const double bump = largestDistance(shape, mesh) / shape.diagonal;
+      bumps += bump;
+      flat += bump < Bump ? 1 : 0;
     }
-    EXPECT_LT(bumps, double(seeds.size()) * Bump * shape.diagonal) << shape.name;
+    EXPECT_GE(flat, 4u) << shape.name;
+    EXPECT_LT(bumps, double(seeds.size()) * Bump) << shape.name;
   }
 }
 
