@@ -125,10 +125,19 @@ void PrintSides(vtkPolyData* mesh)
 {
   auto* by = vtkStringArray::SafeDownCast(mesh->GetFieldData()->GetAbstractArray("OrientedBy"));
   const double unknown = 100.0 * FieldNumber(mesh, "UnorientedShare");
+  const double guessed = 100.0 * FieldNumber(mesh, "GuessedShare");
   std::printf("sides      %s", unknown > 50.0 ? "unknown" : ("by " + by->GetValue(0)).c_str());
+  if (guessed > 50.0)
+  {
+    std::printf(", a guess");
+  }
   if (unknown > 0.0 && unknown <= 50.0)
   {
     std::printf(", %.2g %% of the area unknown", unknown);
+  }
+  if (unknown > 50.0 || guessed > 50.0)
+  {
+    std::printf("%s --viewpoint or --up tells", unknown > 50.0 ? ", most looks up, along z;" : ";");
   }
   std::printf("\n");
 }

@@ -279,4 +279,5 @@ void vtkNeuralMeshOrientation::AddReport(
   vtkMeshArrays::AddFieldValue<vtkIdTypeArray>(
     output, "UnorientedPieces", static_cast<vtkIdType>(report.unknownPieces));
   vtkMeshArrays::AddFieldValue<vtkDoubleArray>(output, "UnorientedShare", report.unknownShare());
+  vtkMeshArrays::AddFieldValue<vtkDoubleArray>(output, "GuessedShare", report.guessedShare);
 }

@@ -74,6 +74,7 @@ void addSides(const OrientationReport& report, nb::dict& fields)
   fields["OrientedBy"] = textOf(name(report.main()));
   fields["UnorientedPieces"] = report.unknownPieces;
   fields["UnorientedShare"] = report.unknownShare();
+  fields["GuessedShare"] = report.guessedShare;
 }
 
 void addQuality(const Reconstruction& result, double unit, nb::dict& fields)

@@ -34,6 +34,7 @@ public:
     : mesh_(mesh)
     , pieces_(pieces)
     , sides_(sides)
+    , isTurnedIfLargest_(pieces.size())
     , pieceOf_(mesh.indexEnd())
     , groupOf_(pieces.size())
     , groups_(pieces.size())
@@ -43,6 +44,10 @@ public:
     {
       groupOf_[piece] = piece;
       groups_[piece].push_back(piece);
+      if (!sides[piece].isKnown())
+      {
+        isTurnedIfLargest_[piece] = std::exchange(sides[piece].isTurned, false);
+      }
       for (const VertexIndex v : pieces[piece].vertices)
       {
         pieceOf_[v] = piece;
@@ -68,7 +73,7 @@ public:
       {
         const std::size_t largest = *std::max_element(group.begin(), group.end(),
           [&](std::size_t a, std::size_t b) { return pieces_[a].area < pieces_[b].area; });
-        turnIf(sides_[largest].isTurned, group);
+        turnIf(sides_[largest].isTurned != isTurnedIfLargest_[largest], group);
       }
     }
   }
@@ -191,6 +196,7 @@ private:
       for (const std::size_t piece : groups_[from])
       {
         sides_[piece].evidence = SideEvidence::Neighbors;
+        sides_[piece].isGuess = sides_[gap.other].isGuess;
       }
     }
     if (groups_[from].size() > groups_[to].size())
@@ -226,7 +232,8 @@ private:
   const Mesh& mesh_;
   std::span<const Piece> pieces_;
   std::span<Side> sides_;
-  VertexGrid grid_; ///< of all vertices
+  std::vector<bool> isTurnedIfLargest_; ///< of its group, if nothing decides for that
+  VertexGrid grid_;                     ///< of all vertices
   std::vector<std::size_t> pieceOf_;
   std::vector<std::size_t> groupOf_;
   std::vector<std::vector<std::size_t>> groups_; ///< of pieces

@@ -10,7 +10,7 @@ namespace neuralmesh
 {
 /// Has pieces whose sides are unknown agree with those near by, as islands of one sheet do: along the
 /// minimum spanning tree of the gaps between them. A piece that is known decides for those that hang on
-/// it; of those that nothing decides for, the largest stays as it is, and the others follow.
+/// it; of those that nothing decides for, the largest is turned if its side says so, and the others follow.
 ///
 /// Of a gap speak the boundary vertices of the one piece that are no farther from the other than twice
 /// its width. Pieces agree if their normals there point the same way, and their boundaries run against

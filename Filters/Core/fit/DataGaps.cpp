@@ -3,7 +3,9 @@
 
 #include "base/DisjointSets.h"
 #include "cloud/VertexGrid.h"
+#include "fit/EmptyPieces.h"
 #include "fit/LocalSpacing.h"
+#include "fit/Webs.h"
 #include "mesh/BoundaryFilling.h"
 #include "mesh/BoundaryManager.h"
 #include "mesh/BoundaryMerging.h"
@@ -14,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -30,6 +33,12 @@ constexpr double LeastSpacings = 3.;
 /// ... and so many times the median distance between samples and mesh: points with noise do not lie
 /// on it.
 constexpr double LeastMedians = 5.;
+/// The two sides of a web are gaps from fewer on: it is unlikely that both are empty.
+constexpr double LeastSpacingsOfWeb = 1.5;
+constexpr double LeastMediansOfWeb = 3.;
+/// ... and so many roots of the area of one. Between the sides of a thin plate there are points everywhere, however
+/// badly they fit.
+constexpr double LeastRootsOfWeb = 0.25;
 /// With less samples, triangles without any are everywhere, and hang together. A triangle is empty
 /// then if it is so many times the distance between samples away from all points: one of e^7 is by
 /// chance.
@@ -46,95 +55,6 @@ constexpr double TimesForLeftOver = 5.;
 constexpr double WidestHole = 5.;
 /// ... if the surface around goes on there.
 constexpr float CosineOfHole = 0.3f;
-
-double areaOf(const Mesh& mesh, const Triangle& triangle)
-{
-  const Vector4 a = mesh.position(triangle[0]);
-  return 0.5 *
-    std::sqrt(
-      double(squaredNorm(cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a))));
-}
-
-Vector4 centerOf(const Mesh& mesh, const Triangle& triangle)
-{
-  return 1.f / 3.f *
-    (mesh.position(triangle[0]) + mesh.position(triangle[1]) + mesh.position(triangle[2]));
-}
-
-/// A piece of triangles without samples.
-struct EmptyPiece
-{
-  std::vector<std::uint32_t> triangles;
-  double area = 0.;
-  double areaAround = 0.; ///< of the triangles that touch it
-  double samplesAround = 0.;
-  bool isAtBoundary = false;
-
-  double density() const { return areaAround > 0. ? samplesAround / areaAround : 0.; }
-};
-
-/// Finds pieces of those triangles that are empty, connected by vertices.
-std::vector<EmptyPiece> findPieces(const Mesh& mesh, const NumberedTriangles& triangles,
-  std::span<const std::uint32_t> samples, const std::vector<bool>& isEmpty)
-{
-  DisjointSets sets(samples.size());
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    const auto around = triangles.at(v);
-    const auto first =
-      std::find_if(around.begin(), around.end(), [&](std::uint32_t t) { return isEmpty[t]; });
-    for (const std::uint32_t t : around)
-    {
-      if (isEmpty[t])
-      {
-        sets.join(t, *first);
-      }
-    }
-  }
-  std::vector<EmptyPiece> pieces;
-  std::vector<std::uint32_t> pieceOf(samples.size(), 0);
-  const auto pieceWith = [&](std::uint32_t t) -> EmptyPiece&
-  {
-    std::uint32_t& number = pieceOf[sets.root(t)];
-    if (number == 0)
-    {
-      pieces.emplace_back();
-      number = std::uint32_t(pieces.size());
-    }
-    return pieces[number - 1];
-  };
-  for (std::uint32_t t = 0; t < samples.size(); ++t)
-  {
-    const double area = areaOf(mesh, triangles.all()[t]);
-    if (isEmpty[t])
-    {
-      EmptyPiece& piece = pieceWith(t);
-      piece.area += area;
-      piece.triangles.push_back(t);
-      const auto& corners = triangles.all()[t];
-      piece.isAtBoundary = piece.isAtBoundary ||
-        std::any_of(
-          corners.begin(), corners.end(), [&](VertexIndex v) { return mesh.isBoundary(v); });
-      continue;
-    }
-    std::vector<std::size_t> touched;
-    for (const VertexIndex v : triangles.all()[t])
-    {
-      for (const std::uint32_t other : triangles.at(v))
-      {
-        const std::size_t root = sets.root(other);
-        if (isEmpty[other] && std::find(touched.begin(), touched.end(), root) == touched.end())
-        {
-          touched.push_back(root);
-          EmptyPiece& piece = pieceWith(other);
-          piece.areaAround += area;
-          piece.samplesAround += samples[t];
-        }
-      }
-    }
-  }
-  return pieces;
-}
 
 /// The closest of some points.
 class SomePoints
@@ -307,26 +227,42 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
     isEmpty[t] = samples[t] == 0 && (!isFine || distance(t) > LeastSpacingsIfEmpty * meanSpacing) &&
       !isTooSmall(t);
   }
-  std::vector<EmptyPiece> pieces = findPieces(mesh, triangles, samples, isEmpty);
+  std::vector<EmptyPiece> pieces = findEmptyPieces(mesh, triangles, samples, isEmpty);
   // Small triangles around a piece may have too few samples to tell.
   const auto densityAt = [&](const EmptyPiece& piece)
   { return isFine && piece.samplesAround < LeastExpectedSamples ? meanDensity : piece.density(); };
   std::erase_if(pieces,
     [&](const EmptyPiece& piece) { return piece.area * densityAt(piece) < LeastExpectedSamples; });
-  std::vector<Triangle> gaps;
-  for (const EmptyPiece& piece : pieces)
+  std::vector<bool> isGap(pieces.size()), isSideOfWeb(pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i)
   {
+    const EmptyPiece& piece = pieces[i];
     const double spacing = std::max(meanSpacing, 1. / std::sqrt(densityAt(piece)));
-    const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
-    const auto isFar = [&](std::uint32_t t)
-    { return distance(t) > std::max(reach, LeastSpacings * sparseSpacing(t)); };
-    if ((piece.isAtBoundary && !mustBeFar) ||
-      std::any_of(piece.triangles.begin(), piece.triangles.end(), isFar))
+    const auto reaches = [&](double spacings, double medians, double least)
     {
-      for (const std::uint32_t t : piece.triangles)
-      {
-        gaps.push_back(triangles.all()[t]);
-      }
+      const double reach =
+        std::max({ spacings * spacing, medians * double(medianDistance), least });
+      return std::any_of(piece.triangles.begin(), piece.triangles.end(),
+        [&](std::uint32_t t)
+        { return distance(t) > std::max(reach, spacings * sparseSpacing(t)); });
+    };
+    isGap[i] = (piece.isAtBoundary && !mustBeFar) || reaches(LeastSpacings, LeastMedians, 0.);
+    isSideOfWeb[i] = !piece.isAtBoundary &&
+      (isGap[i] ||
+        reaches(LeastSpacingsOfWeb, LeastMediansOfWeb, LeastRootsOfWeb * std::sqrt(piece.area)));
+  }
+  for (const auto& [one, other] : findWebs(mesh, triangles.all(), pieces, isSideOfWeb))
+  {
+    isGap[one] = true;
+    isGap[other] = true;
+  }
+  std::vector<Triangle> gaps;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    if (isGap[i])
+    {
+      std::transform(pieces[i].triangles.begin(), pieces[i].triangles.end(),
+        std::back_inserter(gaps), [&](std::uint32_t t) { return triangles.all()[t]; });
     }
   }
   return gaps;

@@ -21,6 +21,9 @@ constexpr double TimesAlongLoop = 3.;
 constexpr double EdgesAlongLoop = 3.;
 /// Of what a pair of vertices says, from -2 to 2: both normals and boundaries must say it.
 constexpr double LeastSaid = 1.;
+/// Of the angle between the way across and the direction in which the surface ends: with less, the way leads over the
+/// surface itself, as from one side of a table's leg to the other.
+constexpr float LeastOutwards = -0.3f;
 
 Vector4 directionOf(Vector4 vector)
 {
@@ -62,7 +65,7 @@ public:
     {
       const BoundaryVertex& from = vertices_[i * vertices_.size() / asked];
       const auto [other, squared] = across(from);
-      if (other == NoVertex || squared > widest)
+      if (other == NoVertex || squared > widest || !isOpenBetween(from.vertex, other))
       {
         continue;
       }
@@ -125,6 +128,24 @@ private:
     const double way = std::abs(one.along - other.along);
     return std::min(way, lengths_[one.loop] - way) >=
       TimesAlongLoop * std::sqrt(squared) + EdgesAlongLoop * meanEdge_;
+  }
+
+  bool isOpenBetween(VertexIndex one, VertexIndex other) const
+  {
+    const Vector4 way = directionOf(mesh_.position(other) - mesh_.position(one));
+    return dot(way, outwardsAt(one)) >= LeastOutwards &&
+      -dot(way, outwardsAt(other)) >= LeastOutwards;
+  }
+
+  /// Where the surface ends: away from the neighbours.
+  Vector4 outwardsAt(VertexIndex v) const
+  {
+    Vector4 sum;
+    for (const VertexIndex neighbor : mesh_.ring(v))
+    {
+      sum += mesh_.position(v) - mesh_.position(neighbor);
+    }
+    return directionOf(sum);
   }
 
   Vector4 alongAt(VertexIndex v) const

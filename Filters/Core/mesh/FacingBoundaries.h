@@ -24,6 +24,6 @@ struct FacingBoundaries
 };
 
 /// The boundary across is the nearest one that is no part of the same stretch, and closer than half the root of the
-/// area. At most a thousand boundary vertices are asked, evenly picked. No vertex may be erased.
+/// area; it says nothing where the way to it leads back over the surface of either. At most a thousand boundary vertices are asked, evenly picked. No vertex may be erased.
 FacingBoundaries findFacingBoundaries(const Mesh& mesh);
 }

@@ -10,6 +10,13 @@ namespace
 {
 /// F^1.5 over the volume.
 constexpr double FlattestThatTells = 60.;
+constexpr double FlattestThatIsCertain = 5.;
+
+/// How wrong the volume may be.
+double uncertaintyOfVolume(const Piece& piece)
+{
+  return piece.isClosed ? 0. : std::pow(std::min(piece.area, piece.closingArea), 1.5);
+}
 }
 
 std::string_view name(SideEvidence evidence)
@@ -26,13 +33,16 @@ SideEvidence OrientationReport::main() const
 
 Side sideByVolume(const Piece& piece)
 {
-  const double uncertainty =
-    piece.isClosed ? 0. : std::pow(std::min(piece.area, piece.closingArea), 1.5);
   const double volume = std::abs(piece.volume);
   // A volume of 0 tells nothing, nor does one that is not finite.
-  return volume > 0. && uncertainty <= FlattestThatTells * volume
-    ? Side{ SideEvidence::Volume, piece.volume < 0. }
+  return volume > 0. && uncertaintyOfVolume(piece) <= FlattestThatTells * volume
+    ? Side{ SideEvidence::Volume, piece.volume < 0., isGuessByVolume(piece) }
     : Side{};
+}
+
+bool isGuessByVolume(const Piece& piece)
+{
+  return uncertaintyOfVolume(piece) > FlattestThatIsCertain * std::abs(piece.volume);
 }
 
 OrientationReport turn(Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> sides)
@@ -48,12 +58,14 @@ OrientationReport turn(Mesh& mesh, std::span<const Piece> pieces, std::span<cons
     }
     report.unknownPieces += sides[i].isKnown() ? 0 : 1;
     report.shares[std::size_t(sides[i].evidence)] += pieces[i].area;
+    report.guessedShare += sides[i].isGuess ? pieces[i].area : 0.;
     area += pieces[i].area;
   }
   for (double& share : report.shares)
   {
     share = area > 0. ? share / area : 0.;
   }
+  report.guessedShare = area > 0. ? report.guessedShare / area : 0.;
   return report;
 }
 

@@ -33,6 +33,7 @@ struct Side
 {
   SideEvidence evidence = SideEvidence::Nothing;
   bool isTurned = false; ///< whether it is to be turned inside out
+  bool isGuess = false;  ///< by the volume of what is hardly bent, see isGuessByVolume()
 
   bool isKnown() const { return evidence != SideEvidence::Nothing; }
 };
@@ -44,6 +45,7 @@ struct OrientationReport
   std::size_t unknownPieces = 0;
   /// Of the area, by what told its side; they add up to 1 where there is an area.
   std::array<double, SideEvidences> shares{};
+  double guessedShare = 0.; ///< of the area, see Side::isGuess
   /// By kind: whether it was given, and told nothing of any piece.
   std::array<bool, SideEvidences> toldNothing{};
   /// Where parts look to opposite sides though they face each other, if they do: see FacingBoundaries.h.
@@ -62,6 +64,10 @@ struct OrientationReport
 /// scanned on a table have 0 to 15, caps of a sphere 20 where they are 20 degrees wide, but terrain
 /// and views of flat things more than 180.
 Side sideByVolume(const Piece& piece);
+
+/// Whether the volume of a piece makes its side likely at best. A wall with a corner, a street with its houses and a
+/// bowl enclose something on their outer side, as they were scanned; half of a sphere has 2.7 of what is 5 here.
+bool isGuessByVolume(const Piece& piece);
 
 /// Turns the pieces that are to be turned, and reports by what.
 OrientationReport turn(Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> sides);

@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <span>
+#include <vector>
 
 namespace neuralmesh
 {
@@ -16,6 +19,45 @@ namespace
 {
 /// Of the largest volume: an open piece of less may be torn off another one, and bulge inwards.
 constexpr double LeastVolume = 0.1;
+/// Of the angle between what looks up or down and z.
+constexpr double CosineOfGround = 0.9;
+/// Of the area of a piece: so much more looks to one of both than to the other if there is a ground in it.
+constexpr double LeastGround = 0.2;
+/// Of the area of a piece, projected onto the ground: with less it is upright, and has no upper side.
+constexpr double LeastUpwards = 0.05;
+
+/// What of a piece looks up, less what looks down, of its area: of what is nearly level, and of all as far as it
+/// does.
+struct Upwards
+{
+  double ground = 0.;
+  double all = 0.;
+};
+
+std::vector<Upwards> upwardsOf(const Mesh& mesh, std::span<const Piece> pieces)
+{
+  std::vector<std::uint32_t> pieceOf(mesh.indexEnd());
+  for (std::uint32_t i = 0; i < pieces.size(); ++i)
+  {
+    for (const VertexIndex v : pieces[i].vertices)
+    {
+      pieceOf[v] = i;
+    }
+  }
+  std::vector<Upwards> result(pieces.size());
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    {
+      const Vector4 normal =
+        cross(mesh.position(b) - mesh.position(a), mesh.position(c) - mesh.position(a));
+      const double z = double(normal[2]), length = std::sqrt(double(squaredNorm(normal)));
+      const double area = std::max(pieces[pieceOf[a]].area, std::numeric_limits<double>::min());
+      Upwards& piece = result[pieceOf[a]];
+      piece.all += 0.5 * z / area;
+      piece.ground += std::abs(z) > CosineOfGround * length ? 0.5 * z / area : 0.;
+    });
+  return result;
+}
 
 /// By the volume of what is closed or large.
 std::vector<Side> sidesOfBodies(std::span<const Piece> pieces, const std::vector<Side>& byVolume)
@@ -36,6 +78,14 @@ std::vector<Side> sidesOfBodies(std::span<const Piece> pieces, const std::vector
   return sides;
 }
 
+/// Which of these sides are more than a guess.
+std::vector<Side> certainOf(std::vector<Side> sides)
+{
+  std::replace_if(
+    sides.begin(), sides.end(), [](const Side& side) { return side.isGuess; }, Side());
+  return sides;
+}
+
 /// What those that are known tell of others near by.
 std::vector<Side> sidesByNeighbors(
   const Mesh& mesh, std::span<const Piece> pieces, const std::vector<Side>& sides)
@@ -45,6 +95,38 @@ std::vector<Side> sidesByNeighbors(
   std::replace_if(
     result.begin(), result.end(), [](const Side& side) { return !side.isKnown(); }, Side());
   return result;
+}
+
+/// Without the guesses that have a ground look down: the volume of streets and tables is that of what stands on them, or of
+/// what is dug into them.
+std::vector<Side> withoutGroundAbove(std::vector<Side> sides, const std::vector<Upwards>& upwards)
+{
+  for (std::size_t i = 0; i < sides.size(); ++i)
+  {
+    const double ground = sides[i].isTurned ? -upwards[i].ground : upwards[i].ground;
+    if (sides[i].isGuess && ground <= -LeastGround)
+    {
+      sides[i] = {};
+    }
+  }
+  return sides;
+}
+
+/// Has what is unknown look up, as most of what is scanned from above does.
+void turnUp(const std::vector<Upwards>& upwards, std::vector<Side>& sides)
+{
+  for (std::size_t i = 0; i < sides.size(); ++i)
+  {
+    if (!sides[i].isKnown())
+    {
+      sides[i].isTurned = upwards[i].all < -LeastUpwards;
+    }
+  }
+}
+
+bool areAllKnown(const std::vector<Side>& sides)
+{
+  return std::all_of(sides.begin(), sides.end(), [](const Side& side) { return side.isKnown(); });
 }
 
 /// Fills in what is not known yet. Returns whether `more` has told nothing.
@@ -66,11 +148,20 @@ OrientationReport orientMesh(
   const bool isUpMute = hints.up && addSides(vote.byUpDirection(), sides);
   const bool areNormalsMute = hints.normalOf && addSides(vote.byNormals(), sides);
   std::transform(pieces.begin(), pieces.end(), byVolume.begin(), sideByVolume);
-  addSides(sidesOfBodies(pieces, byVolume), sides);
+  const std::vector<Side> ofBodies = sidesOfBodies(pieces, byVolume);
+  addSides(certainOf(ofBodies), sides);
   addSides(sidesByOpenings(mesh, pieces, sides), sides);
   addSides(sidesByNeighbors(mesh, pieces, sides), sides);
-  addSides(byVolume, sides);
-  makePiecesAgree(mesh, pieces, sides);
+  if (!areAllKnown(sides))
+  {
+    const std::vector<Upwards> upwards = upwardsOf(mesh, pieces);
+    addSides(withoutGroundAbove(ofBodies, upwards), sides);
+    addSides(sidesByOpenings(mesh, pieces, sides), sides);
+    addSides(sidesByNeighbors(mesh, pieces, sides), sides);
+    addSides(withoutGroundAbove(byVolume, upwards), sides);
+    turnUp(upwards, sides);
+    makePiecesAgree(mesh, pieces, sides);
+  }
   OrientationReport report = turn(mesh, pieces, sides);
   const FacingBoundaries facing = findFacingBoundaries(mesh);
   if (facing.doContradict(areaOf(mesh)))

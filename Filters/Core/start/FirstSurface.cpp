@@ -409,6 +409,15 @@ bool closesMore(const FrontSurface& apart, const FrontSurface& joined)
     BoundaryManager(apart.mesh).loopCount() < BoundaryManager(joined.mesh).loopCount();
 }
 
+/// Whether a front shows the same surface with fewer handles: those of the other one go from one layer to the next.
+bool hasFewerHandles(const FrontSurface& apart, const FrontSurface& joined)
+{
+  return apart.disorder() < MostDisorder &&
+    areaOf(apart.mesh) >= AreaOfSame * areaOf(joined.mesh) &&
+    BoundaryManager(apart.mesh).loopCount() <= BoundaryManager(joined.mesh).loopCount() &&
+    genusOf(apart.mesh) < genusOf(joined.mesh);
+}
+
 /// The front of the candidates that agrees best with itself, if any does. Where there is a closed solid
 /// already, only one that is certain counts.
 std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const NearestPoints& nearest,
@@ -425,7 +434,8 @@ std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const Neares
     const auto isBetter = [&]
     {
       return (best->disorder() >= MostDisorder && front->disorder() < best->disorder()) ||
-        showsBothLayers(*front, *best) || closesMore(*front, *best);
+        showsBothLayers(*front, *best) || closesMore(*front, *best) ||
+        hasFewerHandles(*front, *best);
     };
     if (front && (!best || isBetter()))
     {

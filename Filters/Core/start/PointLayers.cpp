@@ -20,6 +20,19 @@ constexpr float LeastRadius = 0.5f;
 /// Samples for each disk of the radius that points fill, as chance packs them.
 constexpr double Packing = 0.41;
 
+/// Of the gap to the layer beside it is the radius at most ...
+constexpr float PartOfGapBeside = 0.65f;
+/// ... unless it were less than so much of what it is else, or so many distances between points: layers that are closer
+/// are no matter of the radius.
+constexpr float LeastPartOfRadius = 0.5f;
+constexpr float LeastSpacingsOfRadius = 1.5f;
+/// A point is of the layer beside if the way to it rises so much against its length ...
+constexpr float RiseToLayerBeside = 0.8f;
+/// ... and more than so many deviations of the points across the layer.
+constexpr float NoisesToLayerBeside = 8.f;
+/// Of the angle between the normals of both.
+constexpr float CosineOfLayerBeside = 0.7f;
+
 constexpr std::uint32_t NoPlace = ~0u;
 }
 
@@ -75,6 +88,40 @@ PointLayers::Known& PointLayers::known(std::uint32_t point)
 }
 
 PointLayers::Told PointLayers::at(std::uint32_t point, Layers layers)
+{
+  Told result = told(point, layers);
+  LayerSample& sample = result.sample;
+  const float least =
+    std::max(LeastPartOfRadius * sample.radius, LeastSpacingsOfRadius * known(point).spacing.mean);
+  if (result.isInLayer && least < sample.radius)
+  {
+    const float wanted = PartOfGapBeside * gapBeside(sample, layers);
+    sample.radius = wanted >= least ? std::min(sample.radius, wanted) : sample.radius;
+  }
+  return result;
+}
+
+float PointLayers::gapBeside(const LayerSample& sample, Layers layers)
+{
+  float gap = std::numeric_limits<float>::infinity();
+  std::uint32_t beside = NoPlace;
+  nearest().forEachWithin(sample.position, sample.radius / PartOfGapBeside,
+    [&](std::uint32_t other, float squaredDistance)
+    {
+      const float rise = std::abs(dot(nearest().points()[other] - sample.position, sample.normal));
+      if (rise < gap && rise > NoisesToLayerBeside * sample.noise &&
+        rise * rise > RiseToLayerBeside * RiseToLayerBeside * squaredDistance)
+      {
+        gap = rise;
+        beside = other;
+      }
+    });
+  const bool isLayer = beside != NoPlace &&
+    std::abs(dot(told(beside, layers).sample.normal, sample.normal)) >= CosineOfLayerBeside;
+  return isLayer ? gap : std::numeric_limits<float>::infinity();
+}
+
+PointLayers::Told PointLayers::told(std::uint32_t point, Layers layers)
 {
   Known& known = this->known(point);
   if (layers == Layers::Apart)

@@ -32,6 +32,8 @@ public:
     LayerSample sample;
     bool isInLayer = false;
   };
+  /// The radius is less where another layer lies beside that of the sample, as in bores and thin walls: samples as far
+  /// apart as walls are thick leave corners without any, and triangles go from one side to the other there.
   Told at(std::uint32_t point, Layers layers);
 
   /// Whether a point lies in one of two layers almost as close to each other as samples are.
@@ -51,6 +53,8 @@ private:
 
   float radius(const Spacing& spacing) const;
   Known& known(std::uint32_t point);
+  Told told(std::uint32_t point, Layers layers);
+  float gapBeside(const LayerSample& sample, Layers layers);
 
   LayerSearch search_;
   std::size_t count_;

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 namespace neuralmesh::testing
@@ -314,6 +315,59 @@ TEST(DataGaps, WebsAcrossHandlesAreCut)
     EXPECT_EQ(defectOf(mesh), "");
     EXPECT_EQ(reportOf(mesh).boundaryLoops, isJoined ? 0u : 2u);
     EXPECT_EQ(reportOf(mesh).genus(), isJoined ? 1 : 0);
+  }
+}
+
+// A web across a narrow ring is found by its two sides, which are closer to points than a hole must be from all of them; a
+// side alone, and the two sides of a thin plate, are none.
+TEST(DataGaps, NarrowWebsAreToldByBothSides)
+{
+  constexpr double Height = 0.02, Radius = 0.047;
+  constexpr unsigned Side = 30;
+  enum class Empty
+  {
+    Nowhere,
+    Above,
+    Through
+  };
+  TriangleMesh plate = makeGrid(Side);
+  const TriangleMesh below = plate;
+  const auto all = std::uint32_t(below.points.size());
+  plate.points.insert(plate.points.end(), below.points.begin(), below.points.end());
+  for (const auto& [a, b, c] : below.triangles)
+  {
+    plate.triangles.push_back({ all + a, all + c, all + b });
+  }
+  for (std::uint32_t v = 0; v < all; ++v)
+  {
+    plate.points[v].z() = Height;
+  }
+  for (const std::uint64_t seed : { 1u, 2u, 3u, 4u, 5u })
+  {
+    for (const Empty empty : { Empty::Nowhere, Empty::Above, Empty::Through })
+    {
+      std::vector<Eigen::Vector3d> points = generateCloud(plate, { .count = 10000, .seed = seed });
+      std::erase_if(points,
+        [&](const Eigen::Vector3d& point)
+        {
+          return std::hypot(point.x() - 0.5, point.y() - 0.5) < Radius &&
+            (empty == Empty::Through || (empty == Empty::Above && point.z() > 0.5 * Height));
+        });
+      const PointCloud cloud(points);
+      Mesh mesh = buildMesh(plate, cloud);
+      std::array<std::size_t, 2> onSide{};
+      // Others lie at the boundary.
+      for (const Triangle& triangle : gapsOf(cloud, mesh))
+      {
+        const Eigen::Vector3d corner = cloud.toInput(mesh.position(triangle[0]));
+        if (std::hypot(corner.x() - 0.5, corner.y() - 0.5) < 2. * Radius)
+        {
+          ++onSide[corner.z() > 0.5 * Height ? 1 : 0];
+        }
+      }
+      EXPECT_EQ(onSide[0] > 3, empty == Empty::Through) << seed;
+      EXPECT_EQ(onSide[1] > 3, empty == Empty::Through) << seed;
+    }
   }
 }
 

@@ -71,6 +71,23 @@ TriangleMesh plate(double height)
   return result;
 }
 
+/// A floor, and a table's lower side that hangs over an end of it: both are right.
+TriangleMesh floorBelowTable(double height, double overlap)
+{
+  const TriangleMesh grid = makeGrid(Side);
+  TriangleMesh result = grid;
+  for (Eigen::Vector3d point : grid.points)
+  {
+    result.points.emplace_back(point.x() + 1. - overlap, point.y(), height);
+  }
+  const auto all = std::uint32_t(grid.points.size());
+  for (const auto& [a, b, c] : grid.triangles)
+  {
+    result.triangles.push_back({ all + a, all + c, all + b });
+  }
+  return result;
+}
+
 struct Said
 {
   FacingBoundaries facing;
@@ -109,6 +126,12 @@ TEST(FacingBoundaries, SidesOfAPlateSayNothing)
   const Said said = saidBy(plate(0.05));
   EXPECT_FALSE(said.isContradiction);
   EXPECT_EQ(said.facing.contradicting, 0.);
+}
+
+TEST(FacingBoundaries, WaysOverTheSurfaceSayNothing)
+{
+  EXPECT_EQ(saidBy(floorBelowTable(0.05, 0.1)).facing.contradicting, 0.);
+  EXPECT_TRUE(saidBy(floorBelowTable(0.05, -0.1)).isContradiction);
 }
 
 TEST(FacingBoundaries, NothingOnWhatIsClosedOrHasOneOutline)

@@ -48,6 +48,12 @@ TriangleMesh placed(
   return mesh;
 }
 
+/// What looks up looks against y then.
+Eigen::Matrix3d upright()
+{
+  return Eigen::AngleAxisd(std::numbers::pi / 2., Eigen::Vector3d::UnitX()).toRotationMatrix();
+}
+
 /// Those triangles whose centroid is kept.
 template <typename Condition>
 TriangleMesh partOf(const TriangleMesh& mesh, Condition isKept)
@@ -176,7 +182,7 @@ TEST(MeshOrientation, ThinShapes)
   EXPECT_GT(scene.facingOutwards(), 0.99);
 }
 
-// Of sheets the volume tells nothing: they stay as they are, and the report says so.
+// Of sheets the volume tells nothing: they look up, those that are upright stay as they are, and the report says so.
 TEST(MeshOrientation, SheetsAreUnknown)
 {
   for (const double height : { 0., 0.02, 0.3 })
@@ -191,12 +197,53 @@ TEST(MeshOrientation, SheetsAreUnknown)
     {
       Scene scene(isTurned ? turned(saddle) : saddle);
       const OrientationReport report = scene.orient();
-      EXPECT_EQ(scene.facingUp(), isTurned ? 0. : 1.);
+      EXPECT_EQ(scene.facingUp(), 1.);
       EXPECT_EQ(report.unknownPieces, 1u);
       EXPECT_DOUBLE_EQ(report.unknownShare(), 1.);
       EXPECT_EQ(report.main(), SideEvidence::Nothing);
     }
   }
+  const TriangleMesh wall = placed(makeGrid(8), upright(), {});
+  for (const bool isTurned : { false, true })
+  {
+    Scene scene(isTurned ? turned(wall) : wall);
+    EXPECT_EQ(scene.orient().main(), SideEvidence::Nothing);
+    EXPECT_EQ(scene.facing([](const Eigen::Vector3d&) { return -Eigen::Vector3d::UnitY(); }),
+      isTurned ? 0. : 1.);
+  }
+}
+
+// The volume of what is hardly bent is a guess, and the report says so; a ground in it is below what stands there.
+TEST(MeshOrientation, GroundIsBelow)
+{
+  const TriangleMesh square = makeGrid(20);
+  const auto bent = [&](auto heightAt)
+  {
+    TriangleMesh result = square;
+    for (Eigen::Vector3d& point : result.points)
+    {
+      point.z() = heightAt(point.x(), point.y());
+    }
+    return result;
+  };
+  const TriangleMesh street = bent([](double x, double) { return x < 0.3 || x > 0.7 ? 0.3 : 0.; });
+  const TriangleMesh basin =
+    bent([](double x, double y) { return 0.8 * ((x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5)); });
+  for (const TriangleMesh& shape : { street, turned(street), basin, turned(basin) })
+  {
+    Scene scene(shape);
+    const OrientationReport report = scene.orient();
+    EXPECT_EQ(scene.facingUp(), 1.);
+    EXPECT_EQ(report.main(), SideEvidence::Nothing);
+    EXPECT_DOUBLE_EQ(report.guessedShare, 0.);
+  }
+  const TriangleMesh hill =
+    bent([](double x, double y) { return -0.8 * ((x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5)); });
+  Scene scene(turned(hill));
+  const OrientationReport report = scene.orient();
+  EXPECT_EQ(scene.facingUp(), 1.);
+  EXPECT_EQ(report.main(), SideEvidence::Volume);
+  EXPECT_DOUBLE_EQ(report.guessedShare, 1.);
 }
 
 // Sheets look up where an up direction is given; of a closed surface it tells nothing.
@@ -449,17 +496,18 @@ TEST(MeshOrientation, BasesCloseBodies)
   EXPECT_EQ(scene.orient().unknownPieces, 1u);
 }
 
-// Sheets one over the other, and those that are far apart, say nothing of each other.
+// Sheets one beside the other, face to face, and those that are far apart, say nothing of each other.
 TEST(MeshOrientation, StrangersStayAsTheyAre)
 {
   for (const Eigen::Vector3d& shift :
-    { Eigen::Vector3d(0., 0., 0.1), Eigen::Vector3d(1.6, 0., 0.) })
+    { Eigen::Vector3d(0., 0.1, 0.), Eigen::Vector3d(1.6, 0., 0.) })
   {
-    TriangleMesh sheets = makeGrid(8);
-    append(placed(turned(makeGrid(8)), Eigen::Matrix3d::Identity(), shift), sheets);
+    TriangleMesh sheets = placed(makeGrid(8), upright(), {});
+    append(placed(turned(makeGrid(8)), upright(), shift), sheets);
     Scene scene(sheets);
     EXPECT_EQ(scene.orient().unknownPieces, 2u);
-    EXPECT_NEAR(scene.facingUp(), 0.5, 1e-9);
+    EXPECT_NEAR(
+      scene.facing([](const Eigen::Vector3d&) { return Eigen::Vector3d::UnitY(); }), 0.5, 1e-9);
   }
 }
 

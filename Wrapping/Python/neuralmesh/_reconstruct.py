@@ -122,8 +122,8 @@ def reconstruct(
             the quality: `Residual`, `Noise`, `SharedNoise`, `OutlierShare`, `RegularRatio`, `TriangleQuality`,
             `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`,
             `IntersectingTriangles`, `NarrowHandles`, `FitRoundsTakenBack`. How the surface came to its
-            outer side is told by `OrientedBy`, `UnorientedPieces` and `UnorientedShare`; what was left out by
-            `OutlierPoints`, `SmallPiecePoints`, `UnreachablePoints`, `UnexplainedPoints` and
+            outer side is told by `OrientedBy`, `UnorientedPieces`, `UnorientedShare` and `GuessedShare`; what was left
+            out by `OutlierPoints`, `SmallPiecePoints`, `UnreachablePoints`, `UnexplainedPoints` and
             `UnexplainedShare`. `Warnings` has a string for each thing that was warned of. No pipeline is
             behind it.
 

@@ -106,9 +106,15 @@ def _print_phases(run: Any, drawn: Drawn | None) -> None:
 
 def _print_sides(fields: dict[str, Any]) -> None:
     unknown = 100.0 * fields["UnorientedShare"]
+    guessed = 100.0 * fields["GuessedShare"]
     text = "unknown" if unknown > 50.0 else f"by {fields['OrientedBy']}"
+    if guessed > 50.0:
+        text += ", a guess"
     if 0.0 < unknown <= 50.0:
         text += f", {unknown:.2g} % of the area unknown"
+    if unknown > 50.0 or guessed > 50.0:
+        text += ", most looks up, along z;" if unknown > 50.0 else ";"
+        text += " --viewpoint or --up tells"
     print(f"sides      {text}")
 
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/Mesh.h"
+#include "mesh/NumberedTriangles.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+double areaOf(const Mesh& mesh, const Triangle& triangle);
+Vector4 centerOf(const Mesh& mesh, const Triangle& triangle);
+
+/// A piece of triangles without samples.
+struct EmptyPiece
+{
+  std::vector<std::uint32_t> triangles;
+  double area = 0.;
+  double areaAround = 0.; ///< of the triangles that touch it
+  double samplesAround = 0.;
+  bool isAtBoundary = false;
+
+  double density() const { return areaAround > 0. ? samplesAround / areaAround : 0.; }
+};
+
+/// The pieces of those triangles that are empty, connected by vertices. `samples` tells of each triangle how many it
+/// has.
+std::vector<EmptyPiece> findEmptyPieces(const Mesh& mesh, const NumberedTriangles& triangles,
+  std::span<const std::uint32_t> samples, const std::vector<bool>& isEmpty);
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/Webs.h"
+
+#include "cloud/NearestPoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+
+namespace neuralmesh
+{
+namespace
+{
+/// So far behind a side is the other one at most: in roots of its area, and edges.
+constexpr double RootsBehind = 1.;
+constexpr double EdgesBehind = 1.5;
+/// Of the angle between the normals of both.
+constexpr float MostCosineBehind = -0.5f;
+/// A triangle is behind another one if the way there leads backwards by so much of its length.
+constexpr float LeastBackwards = 0.8f;
+/// Of the area of a side: behind which is the other one.
+constexpr double LeastOfSide = 0.5;
+
+constexpr std::uint32_t NoTriangle = ~0u;
+constexpr std::size_t NoPiece = ~std::size_t(0);
+
+class WebSearch
+{
+public:
+  WebSearch(
+    const Mesh& mesh, std::span<const Triangle> triangles, std::span<const EmptyPiece> pieces)
+    : mesh_(mesh)
+    , triangles_(triangles)
+    , pieces_(pieces)
+    , centers_(centersOf(mesh, triangles))
+    , nearest_(centers_)
+    , pieceOf_(triangles.size(), NoPiece)
+  {
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+    {
+      for (const std::uint32_t t : pieces[i].triangles)
+      {
+        pieceOf_[t] = i;
+      }
+    }
+  }
+
+  /// The piece behind most of the area of one, if there is one.
+  std::size_t behind(const EmptyPiece& piece) const
+  {
+    const double reach =
+      std::max(RootsBehind * std::sqrt(piece.area), EdgesBehind * double(mesh_.meanEdge()));
+    std::map<std::size_t, double> areas;
+    for (const std::uint32_t t : piece.triangles)
+    {
+      const std::uint32_t other = triangleBehind(t, float(reach));
+      if (other != NoTriangle && pieceOf_[other] != NoPiece)
+      {
+        areas[pieceOf_[other]] += areaOf(mesh_, triangles_[t]);
+      }
+    }
+    const auto largest = std::max_element(
+      areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    return largest != areas.end() && largest->second >= LeastOfSide * piece.area ? largest->first
+                                                                                 : NoPiece;
+  }
+
+private:
+  static std::vector<Vector4> centersOf(const Mesh& mesh, std::span<const Triangle> triangles)
+  {
+    std::vector<Vector4> centers(triangles.size());
+    std::transform(triangles.begin(), triangles.end(), centers.begin(),
+      [&](const Triangle& triangle) { return centerOf(mesh, triangle); });
+    return centers;
+  }
+
+  Vector4 normalOf(std::uint32_t t) const
+  {
+    const auto& [a, b, c] = triangles_[t];
+    const Vector4 normal =
+      cross(mesh_.position(b) - mesh_.position(a), mesh_.position(c) - mesh_.position(a));
+    const float squared = squaredNorm(normal);
+    return squared > 0.f ? 1.f / std::sqrt(squared) * normal : Vector4();
+  }
+
+  /// The nearest one that looks the other way.
+  std::uint32_t triangleBehind(std::uint32_t t, float reach) const
+  {
+    const Vector4 normal = normalOf(t);
+    std::uint32_t result = NoTriangle;
+    float closest = std::numeric_limits<float>::infinity();
+    nearest_.forEachWithin(centers_[t], reach,
+      [&](std::uint32_t other, float squaredDistance)
+      {
+        const float backwards = -dot(centers_[other] - centers_[t], normal);
+        if (other != t && squaredDistance < closest &&
+          backwards >= LeastBackwards * std::sqrt(squaredDistance) &&
+          dot(normal, normalOf(other)) <= MostCosineBehind)
+        {
+          closest = squaredDistance;
+          result = other;
+        }
+      });
+    return result;
+  }
+
+  const Mesh& mesh_;
+  std::span<const Triangle> triangles_;
+  std::span<const EmptyPiece> pieces_;
+  std::vector<Vector4> centers_;
+  NearestPoints nearest_;
+  std::vector<std::size_t> pieceOf_;
+};
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> findWebs(const Mesh& mesh,
+  std::span<const Triangle> triangles, std::span<const EmptyPiece> pieces,
+  const std::vector<bool>& mayBeSide)
+{
+  std::vector<std::pair<std::size_t, std::size_t>> webs;
+  if (std::count(mayBeSide.begin(), mayBeSide.end(), true) < 2)
+  {
+    return webs;
+  }
+  const WebSearch search(mesh, triangles, pieces);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    const std::size_t other = mayBeSide[i] ? search.behind(pieces[i]) : NoPiece;
+    if (other != NoPiece && other != i && mayBeSide[other])
+    {
+      webs.emplace_back(i, other);
+    }
+  }
+  return webs;
+}
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fit/EmptyPieces.h"
+#include "mesh/Mesh.h"
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace neuralmesh
+{
+/// Finds webs: membranes that a mesh spans across a ring, or between limbs that touch. Both of their sides are there, back to
+/// back, and without samples. Tells pairs of the pieces that may be a side: one lies behind most of the area of the other, as
+/// close as that is wide, and nothing lies between.
+std::vector<std::pair<std::size_t, std::size_t>> findWebs(const Mesh& mesh,
+  std::span<const Triangle> triangles, std::span<const EmptyPiece> pieces,
+  const std::vector<bool>& mayBeSide);
+}
