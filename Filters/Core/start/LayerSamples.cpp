@@ -291,16 +291,17 @@ LayerSamples layerSamples(PointLayers& pointLayers, Layers layers, std::uint64_t
       ++asked;
       inOneOfTwo += pointLayers.isInOneOfTwo(point) ? 1 : 0;
     }
-    const auto [sample, isInLayer] = pointLayers.at(point, layers);
+    const PointLayers::Told told = pointLayers.at(point, layers);
+    const LayerSample& sample = told.sample;
     // Noise had it look as if it were in another layer than what is there.
-    if (isInLayer && reachedBy[point] != NoSample &&
+    if (told.isInLayer && reachedBy[point] != NoSample &&
       isOnDisk(samples[reachedBy[point]], sample.position))
     {
       continue;
     }
-    const bool coversAll = layers == Layers::Joined || !isInLayer;
+    const bool coversAll = layers == Layers::Joined || !told.isInLayer;
     nearest.forEachWithin(points[point], sample.radius,
-      [&, &sample = sample](std::uint32_t other, float)
+      [&](std::uint32_t other, float)
       {
         if (coversAll || isOnDisk(sample, points[other]))
         {
@@ -311,7 +312,7 @@ LayerSamples layerSamples(PointLayers& pointLayers, Layers layers, std::uint64_t
           reachedBy[other] = std::uint32_t(samples.size());
         }
       });
-    if (isInLayer)
+    if (told.isInLayer)
     {
       samples.push_back(sample);
     }

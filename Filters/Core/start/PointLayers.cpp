@@ -29,7 +29,7 @@ constexpr float LeastSpacingsOfRadius = 1.5f;
 /// A point is of the layer beside if the way to it rises so much against its length ...
 constexpr float RiseToLayerBeside = 0.8f;
 /// ... and more than so many deviations of the points across the layer.
-constexpr float NoisesToLayerBeside = 8.f;
+constexpr float NoisesToLayerBeside = 12.f;
 /// Of the angle between the normals of both.
 constexpr float CosineOfLayerBeside = 0.7f;
 
@@ -93,7 +93,7 @@ PointLayers::Told PointLayers::at(std::uint32_t point, Layers layers)
   LayerSample& sample = result.sample;
   const float least =
     std::max(LeastPartOfRadius * sample.radius, LeastSpacingsOfRadius * known(point).spacing.mean);
-  if (result.isInLayer && least < sample.radius)
+  if (result.isInLayer && !result.isOneOfTwo && least < sample.radius)
   {
     const float wanted = PartOfGapBeside * gapBeside(sample, layers);
     sample.radius = wanted >= least ? std::min(sample.radius, wanted) : sample.radius;
@@ -131,7 +131,7 @@ PointLayers::Told PointLayers::told(std::uint32_t point, Layers layers)
     sample.radius = known.joined.sample.radius;
     if (const auto isInLayer = search_.moveOntoOneOfTwo(sample, known.spacing.mean))
     {
-      return { sample, *isInLayer };
+      return { sample, *isInLayer, true };
     }
   }
   if (!known.isTold)

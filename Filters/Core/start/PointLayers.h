@@ -31,6 +31,7 @@ public:
   {
     LayerSample sample;
     bool isInLayer = false;
+    bool isOneOfTwo = false; ///< layers almost as close to each other as samples are
   };
   /// The radius is less where another layer lies beside that of the sample, as in bores and thin walls: samples as far
   /// apart as walls are thick leave corners without any, and triangles go from one side to the other there.
