@@ -22,8 +22,8 @@ constexpr double LeastUnknownSide = 0.001;
 constexpr double MostTurned = 0.005;
 /// Of the area: bridges over gaps have less.
 constexpr double MostBare = 0.04;
-/// ... and one bridge has less than a piece that is not dropped.
-constexpr double LeastGap = 0.0005;
+/// ... and so has one bridge.
+constexpr double LeastGap = 0.0002;
 /// Of the points.
 constexpr double MostScattered = 0.5;
 /// Of the triangles.
