@@ -57,6 +57,8 @@ constexpr std::size_t AskedIfLeaky = 16000;
 constexpr double LeastUnexplainedBySheet = 0.002;
 /// Of a sheet, in edges: with more it lies between layers.
 constexpr double MostMedianOfSheet = 0.1;
+/// Of a closed solid, which may jump from one layer to the other: noise of 0.5 % of the diagonal has 0.14.
+constexpr double MostMedianOfSolid = 0.2;
 /// A sheet with more boundaries was torn.
 constexpr std::size_t MostLoopsOfSheet = 2;
 /// Of a front.
@@ -330,8 +332,9 @@ bool hasRightSize(const FirstSurface& surface, std::size_t mostVertices)
 struct Candidate
 {
   FirstSurface surface;
-  Evidence evidence;
-  bool explains = false; ///< the points, so that no other needs to be tried
+  Evidence evidence = {};
+  bool explains = false;        ///< the points, so that no other needs to be tried
+  bool isBetweenLayers = false; ///< of points, or jumps from one to the other
 };
 
 /// The closed solid, fitted, and opened where there is no data if that is to be. Nothing if it has too
@@ -346,6 +349,7 @@ std::optional<Candidate> solidCandidate(const PointCloud& cloud, const NearestPo
   {
     return {};
   }
+  const bool isBetweenLayers = fit.isBetweenLayers();
   if (boundaries == Boundaries::Keep)
   {
     fit.openGaps(solid.bridgeWidth, leastPiece);
@@ -356,9 +360,11 @@ std::optional<Candidate> solidCandidate(const PointCloud& cloud, const NearestPo
   }
   const Evidence evidence =
     evidenceFor(cloud, nearest, solid.mesh, solid.isLeaky ? AskedIfLeaky : UsuallyAsked);
-  const bool explains = solid.isCertain &&
-    evidence.unexplained < (solid.isLeaky ? LeastUnexplainedIfLeaky : LeastUnexplained);
-  return Candidate{ std::move(solid), evidence, explains };
+  Candidate result{ std::move(solid), evidence };
+  result.isBetweenLayers = isBetweenLayers || evidence.medianInEdges >= MostMedianOfSolid;
+  result.explains = result.surface.isCertain && !result.isBetweenLayers &&
+    evidence.unexplained < (result.surface.isLeaky ? LeastUnexplainedIfLeaky : LeastUnexplained);
+  return result;
 }
 
 /// One sheet of the skin, if that is one.
@@ -371,7 +377,7 @@ std::optional<Candidate> sheetCandidate(const PointCloud& cloud, const NearestPo
   {
     return {};
   }
-  Candidate result{ std::move(*sheet), {}, false };
+  Candidate result{ std::move(*sheet) };
   const Mesh& mesh = result.surface.mesh;
   result.evidence = evidenceFor(cloud, nearest, mesh);
   result.explains = result.evidence.unexplained < LeastUnexplainedBySheet &&
@@ -506,7 +512,8 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
     // What the grid gave does not explain the points for another reason, if not for this.
     const double most = front->isCertain ? std::max(left, LeastUnexplainedBySheet) : left;
     // Of a closed solid that explains nearly all points the handles are known.
-    const bool hasMoreHandles = isClosed && grid->evidence.unexplained < LeastUnexplained &&
+    const bool hasMoreHandles = isClosed && !grid->isBetweenLayers &&
+      grid->evidence.unexplained < LeastUnexplained &&
       genusOf(front->mesh) > genusOf(grid->surface.mesh);
     if ((front->isCertain || !isClosed) && !hasMoreHandles &&
       evidenceFor(cloud, nearest, front->mesh).unexplained <= most)

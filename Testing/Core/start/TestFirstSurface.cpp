@@ -218,6 +218,37 @@ TEST(FirstSurface, SeparateSpheres)
   }
 }
 
+// A hollow body has two surfaces: the first one is neither between them nor jumps from one to the other, however
+// thick the wall is, with noise and without.
+TEST(FirstSurface, HollowBodiesHaveTwoSurfaces)
+{
+  constexpr std::size_t MostOfFront = 15000;
+  for (const double wall : { 0.05, 0.12 })
+  {
+    for (const double noise : { 0., 0.001 })
+    {
+      SCOPED_TRACE(std::to_string(wall) + ", " + std::to_string(noise));
+      TriangleMesh shell = twoSpheres(0.);
+      for (std::size_t v = shell.points.size() / 2; v < shell.points.size(); ++v)
+      {
+        shell.points[v] *= 1. - wall;
+      }
+      const PointCloud cloud = cloudOf(shell, { .count = 150000, .noise = noise });
+      const auto first = firstSurface(cloud, MostOfFront, MostOfFront, Boundaries::Keep, goOn);
+      ASSERT_TRUE(first.has_value());
+      const ManifoldReport report = reportOf(first->mesh);
+      EXPECT_TRUE(report.isClosed());
+      EXPECT_EQ(report.components, 2u);
+      EXPECT_EQ(report.genus(), 0);
+      for (VertexIndex v = 0; v < first->mesh.indexEnd(); ++v)
+      {
+        const double radius = cloud.toInput(first->mesh.position(v)).norm();
+        EXPECT_GT(std::abs(radius - 1. + 0.5 * wall), 0.25 * wall);
+      }
+    }
+  }
+}
+
 // However many objects of one size a scan has, none is taken for a stray piece.
 TEST(FirstSurface, ManyEqualSpheres)
 {
