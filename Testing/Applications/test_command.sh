@@ -187,7 +187,7 @@ test_mistyped_options()
   done <<'CASES'
 --vertexes --vertices
 --vertex --vertices
---see --seed
+--sead --seed
 --Quite --quiet
 CASES
   expect 2 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertexes=500 --xyzzy
@@ -385,7 +385,7 @@ test_report()
 {
   expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 500
   tail -n 4 out > report
-  grep -Eq '^residual   [0-9.e-]+ from held-out points to the mesh, noise about [0-9.e-]+, 0 % out' \
+  grep -Eq '^residual   [0-9.e-]+ from held-out points to the mesh, noise about [0-9.e-]+, 0 % too' \
     report || { cat out; fail "no residual"; }
   grep -Eq '^shape      1 piece, no handles, no boundaries, (no|[0-9]+) folded edges?, no intersecting triangles$' report ||
     { cat out; fail "no shape"; }
