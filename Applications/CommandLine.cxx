@@ -6,12 +6,14 @@
 #include "InfoCommand.h"
 #include "ReconstructCommand.h"
 #include "TuneCommand.h"
+#include "UsageMessage.h"
 
 CommandLine::CommandLine()
   : Application("Triangle meshes from point clouds, by learning", "neuralmesh")
 {
   this->Application.set_version_flag("--version", NEURALMESH_VERSION);
   this->Application.require_subcommand(1);
+  this->Application.failure_message(UsageMessage);
   for (const auto& add :
     { AddReconstructCommand, AddTuneCommand, AddCompareCommand, AddExplainCommand, AddInfoCommand })
   {

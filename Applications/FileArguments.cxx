@@ -6,7 +6,7 @@
 namespace
 {
 const std::string PointFileFormats =
-  "Points: .ply .vtp .vtk .vtu .obj .stl .off .pcd .ptx .pwn, or text: .xyz .pts .txt .csv";
+  "Points: .ply .vtp .vtk .vtu .obj .stl .off .pcd .ptx .pwn, or text: .xyz .pts .txt .csv .asc";
 }
 
 CLI::Option* AddFile(

@@ -154,12 +154,9 @@ std::string DescribeUnknown(const std::string& name)
     names.push_back(parameter.Name);
   }
   std::string message = "--set: there is no parameter " + neuralmesh::oneLine(name) + "; ";
-  const std::vector<std::string> nearest = NearestNames(name, names);
-  for (std::size_t i = 0; i < nearest.size(); ++i)
-  {
-    message += (i == 0 ? "did you mean " : " or ") + nearest[i];
-  }
-  return message + (nearest.empty() ? "" : "? ") + "'neuralmesh reconstruct --help' lists them all";
+  const std::string question = DidYouMean(name, names);
+  return message + question + (question.empty() ? "" : " ") +
+    "'neuralmesh reconstruct --help' lists them all";
 }
 }
 

@@ -74,3 +74,13 @@ std::vector<std::string> NearestNames(
   }
   return nearest;
 }
+
+std::string DidYouMean(const std::string& mistyped, const std::vector<std::string>& names)
+{
+  std::string question;
+  for (const std::string& name : NearestNames(mistyped, names))
+  {
+    question += (question.empty() ? "did you mean " : " or ") + name;
+  }
+  return question.empty() ? "" : question + "?";
+}

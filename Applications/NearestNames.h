@@ -13,4 +13,7 @@
 std::vector<std::string> NearestNames(
   const std::string& mistyped, const std::vector<std::string>& names);
 
+/** "did you mean A or B?" of these; empty if there are none. */
+std::string DidYouMean(const std::string& mistyped, const std::vector<std::string>& names);
+
 #endif

@@ -158,6 +158,7 @@ const std::map<std::string, Read>& Readers()
     { ".pts", ReadOther },
     { ".txt", ReadOther },
     { ".csv", ReadOther },
+    { ".asc", ReadOther },
   };
   return readers;
 }
@@ -195,7 +196,7 @@ vtkSmartPointer<vtkPointSet> ReadPoints(const std::string& path)
     throw std::runtime_error(path + ": " +
       (conversion.empty()
           ? "unknown extension; readable are .ply .vtp .vtk .vtu .obj .stl .off .pcd "
-            ".ptx .pwn .xyz .pts .txt .csv"
+            ".ptx .pwn .xyz .pts .txt .csv .asc"
           : conversion));
   }
   auto points = reader->second(path);

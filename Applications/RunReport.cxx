@@ -85,7 +85,7 @@ void PrintReport(vtkPolyData* mesh)
   {
     std::printf(" (shared %.3g)", shared);
   }
-  std::printf(", %.2g %% outliers\n", 100.0 * FieldNumber(mesh, "OutlierShare"));
+  std::printf(", %.2g %% too far off to count\n", 100.0 * FieldNumber(mesh, "OutlierShare"));
   PrintReasons(mesh);
   if (const long long rounds = FieldValue(mesh, "FitRoundsTakenBack"); rounds > 0)
   {

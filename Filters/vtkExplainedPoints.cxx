@@ -40,6 +40,10 @@ void vtkExplainedPoints::Fill(const vtkPointCloudCollector& collector,
   reasons->SetName("Reason");
   reasons->SetNumberOfValues(count);
   reasons->Fill(static_cast<double>(neuralmesh::Reason::Dropped));
+  for (const std::uint32_t point : cloud.farPoints())
+  {
+    reasons->SetValue(point, static_cast<unsigned char>(neuralmesh::Reason::Outlier));
+  }
   for (std::size_t i = 0; i < explanation.reasons.size(); ++i)
   {
     const auto id = static_cast<vtkIdType>(cloud.origins()[explanation.asked.points[i]]);

@@ -47,8 +47,12 @@ int vtkNeuralMeshReader::RequestData(
   }
   try
   {
-    vtkFileContents::Store(
-      neuralmesh::readFile(this->FileName), vtkPolyData::GetData(outputVector));
+    const neuralmesh::FileContents contents = neuralmesh::readFile(this->FileName);
+    vtkFileContents::Store(contents, vtkPolyData::GetData(outputVector));
+    if (!contents.remark.empty())
+    {
+      vtkWarningMacro(<< this->FileName << ": " << contents.remark);
+    }
   }
   catch (const std::exception& error) // there may be too little memory, too
   {

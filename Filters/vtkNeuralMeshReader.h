@@ -5,7 +5,7 @@
  *
  * vtkNeuralMeshReader reads what VTK has no reader for, in the format that the extension of FileName
  * tells, in small letters or capitals: .pcd (text, binary, compressed), .ptx, .pwn, .off, and points as
- * text (.xyz .pts .txt .csv). It also knows .ply, .obj and .stl, with all digits.
+ * text (.xyz .pts .txt .csv .asc). It also knows .ply, .obj and .stl, with all digits.
  *
  * @par Output
  * vtkPolyData: points of single or double precision, as the file has them; normals; colours as the

@@ -173,6 +173,39 @@ test_mistyped()
   [ "$(wc -c < err)" -lt 500 ] || fail "the message about a long name is long"
 }
 
+# Promise: an option that does not exist is answered with those of like names, behind the message that there
+# is without; a subcommand that does not exist, or none, with the short help and those of like names.
+test_mistyped_options()
+{
+  local message='The following argument was not expected: '
+  local more='Run with --help for more information.'
+  local mistyped meant
+  while read -r mistyped meant; do
+    expect 2 "$neuralmesh" reconstruct cloud.xyz mesh.ply "$mistyped" 500
+    printf '%s%s\n%s: did you mean %s?\n%s\n' "$message" "$mistyped" "$mistyped" "$meant" "$more" > wanted
+    cmp err wanted || { cat err; fail "another message about $mistyped"; }
+  done <<'CASES'
+--vertexes --vertices
+--vertex --vertices
+--sead --seed
+--Quite --quiet
+CASES
+  expect 2 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertexes=500 --xyzzy
+  grep -qx -e '--vertexes: did you mean --vertices?' err || { cat err; fail "no option is meant"; }
+  grep -q 'xyzzy:' err && fail "an option is like --xyzzy"
+  [ ! -s out ] && [ ! -e mesh.ply ] || fail "something was written"
+
+  "$neuralmesh" --help > help
+  for mistyped in recontruct cloud.xyz; do
+    expect 2 "$neuralmesh" $mistyped mesh.ply
+    [ "$(head -n 1 err)" = "A subcommand is required" ] || { cat err; fail "another message"; }
+    tail -n "$(wc -l < help)" err | cmp - help || fail "there is no help for $mistyped"
+    mv err "$mistyped.err"
+  done
+  grep -qx 'recontruct: did you mean reconstruct?' recontruct.err || fail "no subcommand is meant"
+  ! grep -q 'did you mean' cloud.xyz.err || fail "a subcommand is like cloud.xyz"
+}
+
 # Promise: the command alone prints its help, the same as --help does, with status 0.
 test_help()
 {
@@ -352,7 +385,7 @@ test_report()
 {
   expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 500
   tail -n 4 out > report
-  grep -Eq '^residual   [0-9.e-]+ from held-out points to the mesh, noise about [0-9.e-]+, 0 % out' \
+  grep -Eq '^residual   [0-9.e-]+ from held-out points to the mesh, noise about [0-9.e-]+, 0 % too' \
     report || { cat out; fail "no residual"; }
   grep -Eq '^shape      1 piece, no handles, no boundaries, (no|[0-9]+) folded edges?, no intersecting triangles$' report ||
     { cat out; fail "no shape"; }
@@ -503,6 +536,25 @@ PYTHON
   grep -q '^shift      none$' out || { cat out; fail "a shift for nothing"; }
   header plain.ply | grep -aq '^property float x$' || fail "there are doubles for nothing"
   cmp plain.ply auto.ply || fail "another mesh"
+}
+
+# Promise: names of columns decide which are the coordinates; names that tell nothing are warned of, in a
+# line, and the mesh is that of the first three columns.
+test_columns()
+{
+  awk 'BEGIN { print "id;z;y;x" } { print NR ";" $3 ";" $2 ";" $1 }' cloud.xyz | tr . , > named.csv
+  awk 'BEGIN { print "east,north,height" } { print $1 "," $2 "," $3 }' cloud.xyz > other.csv
+  local name
+  for name in cloud.xyz named.csv other.csv; do
+    expect 0 "$neuralmesh" reconstruct $name mesh.ply --vertices 200 --quiet
+    mv mesh.ply "$name.ply"
+    mv err "$name.err"
+  done
+  cmp cloud.xyz.ply named.csv.ply || fail "another mesh with named columns"
+  cmp cloud.xyz.ply other.csv.ply || fail "another mesh with other names"
+  [ ! -s named.csv.err ] || { cat named.csv.err; fail "names are warned of"; }
+  [ "$(cat other.csv.err)" = "neuralmesh: warning: other.csv: no columns are named x, y and z; \
+the first three are taken for these" ] || { cat other.csv.err; fail "another warning"; }
 }
 
 # Promise: a dry run says what it will take, and writes nothing.

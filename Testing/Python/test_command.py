@@ -95,6 +95,7 @@ class Alone(CommandTest):
             (["reconstruct", "ball.xyz", "b.ply", "--vertices", "3"], 2, "no integer from 4 to"),
             (["reconstruct", "ball.xyz", "b.ply", "--vertices"], 2, "--vertices: 1 required N missing"),
             (["reconstruct", "ball.xyz", "b.ply", "--vertex", "3"], 2, "not expected: --vertex"),
+            (["reconstruct", "ball.xyz", "b.ply", "--vertexes=3"], 2, "--vertexes: did you mean --vertices"),
             (["reconstruct", "ball.xyz", "b.ply", "--set", "WinerRate=1"], 2, "did you mean WinnerRate"),
             (["reconstruct", "ball.xyz", "b.ply", "--set", "WinnerRate=nan"], 2, "a number from 0 to 1"),
             (["reconstruct", "ball.xyz", "b.ply", "--up", "0,0,0"], 2, "is no direction"),
@@ -108,7 +109,9 @@ class Alone(CommandTest):
             (["reconstruct", "ball.xyz", "b.ply", "--weights", "Trust"], 1, "called Trust"),
             (["compare", "mesh.ply", "ball.xyz"], 1, "no mesh is read from this extension"),
             (["info", "none.ply"], 1, "there is no such file"),
-            (["nothing"], 2, "A subcommand is required"),
+            (["nothing"], 2, "A subcommand is required\n\nTriangle meshes"),
+            (["ball.xyz", "b.ply"], 2, "  reconstruct  "),
+            (["recontruct", "ball.xyz", "b.ply"], 2, "recontruct: did you mean reconstruct?"),
             (["batch", "none.json"], 2, "none.json"),
         ):
             with self.subTest(arguments):

@@ -141,6 +141,7 @@ nb::dict readPoints(const std::string& path)
   }
   result["arrays"] = arrays;
   result["missing_returns"] = contents.missingReturns;
+  result["remark"] = contents.remark;
   return result;
 }
 

@@ -175,6 +175,10 @@ nb::dict explainedOf(
 {
   std::vector<double> distances(pointCount, std::numeric_limits<double>::quiet_NaN());
   std::vector<std::uint8_t> reasons(pointCount, std::uint8_t(Reason::Dropped));
+  for (const std::uint32_t point : cloud.farPoints())
+  {
+    reasons[point] = std::uint8_t(Reason::Outlier);
+  }
   for (std::size_t i = 0; i < explanation.reasons.size(); ++i)
   {
     const std::uint32_t point = cloud.origins()[explanation.asked.points[i]];

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace neuralmesh
@@ -32,6 +33,14 @@ int bucketBits(std::size_t points)
   }
   return 3 * bitsPerAxis;
 }
+
+/// Points are far off if there is nothing else from the farthest of the others to so many times its
+/// distance from the middle, and if they are no more than this part of all, or ...
+constexpr double FarGap = 4.;
+constexpr double PartOfFar = 0.0005;
+/// ... of few points one of so many, up to some.
+constexpr std::size_t PointsPerFar = 20;
+constexpr std::size_t FarOfFew = 32;
 
 /// A key along a Morton curve, and the place of a point.
 using KeyAndPlace = std::pair<std::uint64_t, std::uint32_t>;
@@ -75,6 +84,12 @@ void sortAlongCurve(std::span<KeyAndPlace> order, std::span<const Vector4> point
 /// What a cloud is made of.
 struct PointCloud::Input
 {
+  Input(const PointSpans& inputPoints, std::span<const double> inputWeights)
+    : points(inputPoints)
+    , weights(inputWeights)
+  {
+  }
+
   const PointSpans& points;
   std::span<const double> weights;
 
@@ -83,14 +98,15 @@ struct PointCloud::Input
     return weights.empty() || (weights[index] > 0. && std::isfinite(weights[index]));
   }
 
-  /// Calls `use(index, point)` for the points of a range that are finite and have a weight.
+  /// Calls `use(index, point)` for the points of a range that are finite, have a weight, and are not
+  /// left out.
   template <typename Use>
   void forEachFinite(std::size_t begin, std::size_t end, Use use) const
   {
     points.forEach(begin, end,
       [&](std::size_t index, const Eigen::Vector3d& point)
       {
-        if (hasWeight(index) && point.allFinite())
+        if (hasWeight(index) && point.allFinite() && isInReach(point))
         {
           use(index, point);
         }
@@ -114,38 +130,144 @@ struct PointCloud::Input
     return count;
   }
 
-  /// The box that holds all but the outermost hundredth of `count` finite points at each side of each
-  /// axis.
-  Eigen::AlignedBox3d bulk(std::size_t count, const Executor& executor) const
+  /// Whether coordinates are numbers in single precision, by some of them: they may come as others.
+  bool hasFloats() const
   {
-    Eigen::Vector3d low, high;
+    bool result = true;
+    const std::size_t stride = 1 + points.size() / SampleSize;
+    for (std::size_t i = 0; result && i < points.size(); i += stride)
+    {
+      forEachFinite(i, i + 1,
+        [&](std::size_t, const Eigen::Vector3d& point)
+        { result = (point.array() == point.cast<float>().cast<double>().array()).all(); });
+    }
+    return result;
+  }
+
+  /// Of `count` finite points, the coordinates that come at these places if each axis is sorted by itself.
+  std::vector<Eigen::Vector3d> sortedAt(
+    const std::vector<std::size_t>& ranks, std::size_t count, const Executor& executor) const
+  {
+    std::vector<Eigen::Vector3d> result(ranks.size());
     executor.forEachPart(3,
       [&](std::size_t part)
       {
         const auto axis = Eigen::Index(part);
         const std::vector<double> sample = sortedSample(axis);
-        const std::size_t lowest = count / 100, highest = count - 1 - lowest;
-        OrderStatisticSearch lowSearch(lowest, bracketOf(lowest, count, sample));
-        OrderStatisticSearch highSearch(highest, bracketOf(highest, count, sample));
-        while (!lowSearch.isFound() || !highSearch.isFound())
+        std::vector<OrderStatisticSearch> searches;
+        searches.reserve(ranks.size());
+        for (const std::size_t rank : ranks)
+        {
+          searches.emplace_back(rank, bracketOf(rank, count, sample));
+        }
+        while (!std::all_of(searches.begin(), searches.end(),
+          [](const OrderStatisticSearch& search) { return search.isFound(); }))
         {
           forEachFinite(0, points.size(),
             [&](std::size_t, const Eigen::Vector3d& point)
             {
-              lowSearch.add(point[axis]);
-              highSearch.add(point[axis]);
+              for (OrderStatisticSearch& search : searches)
+              {
+                search.add(point[axis]);
+              }
             });
-          lowSearch.endSweep();
-          highSearch.endSweep();
+          for (OrderStatisticSearch& search : searches)
+          {
+            search.endSweep();
+          }
         }
-        low[axis] = lowSearch.value();
-        high[axis] = highSearch.value();
+        for (std::size_t i = 0; i < ranks.size(); ++i)
+        {
+          result[i][axis] = searches[i].value();
+        }
       });
-    return { low, high };
+    return result;
+  }
+
+  /// Leaves out the few that are by far farther from the others than these are from each other, and
+  /// tells how many of `count` there are. `median` is that of all.
+  std::size_t leaveOutFar(
+    std::size_t count, const Eigen::Vector3d& median, const Executor& executor)
+  {
+    const std::size_t most =
+      std::max(std::size_t(PartOfFar * double(count)), std::min(count / PointsPerFar, FarOfFew));
+    const std::vector<double> distances = farthestFrom(median, most + 1, executor);
+    for (std::size_t far = most; far > 0; --far)
+    {
+      if (distances[far] > 0. && distances[far - 1] >= FarGap * distances[far])
+      {
+        center_ = median;
+        reach_ = distances[far];
+        return far;
+      }
+    }
+    return 0;
+  }
+
+  /// The indices of those.
+  std::vector<std::uint32_t> leftOut() const
+  {
+    std::vector<std::uint32_t> result;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const Eigen::Vector3d point = points[i];
+      if (hasWeight(i) && point.allFinite() && !isInReach(point))
+      {
+        result.push_back(std::uint32_t(i));
+      }
+    }
+    return result;
   }
 
 private:
   static constexpr std::size_t SampleSize = 8192;
+  static constexpr std::size_t MostParts = 16;
+
+  static double distanceBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+  {
+    return (a - b).cwiseAbs().maxCoeff(); // a square may be beyond all numbers
+  }
+
+  bool isInReach(const Eigen::Vector3d& point) const
+  {
+    return reach_ == Everywhere || distanceBetween(point, center_) <= reach_;
+  }
+
+  /// The largest distances of points, the largest first.
+  std::vector<double> farthestFrom(
+    const Eigen::Vector3d& place, std::size_t most, const Executor& executor) const
+  {
+    const std::size_t parts = std::clamp<std::size_t>(points.size() / PointsPerRange, 1, MostParts);
+    std::vector<std::vector<double>> largest(parts); // heaps with the smallest on top
+    executor.forEachPart(parts,
+      [&](std::size_t part)
+      {
+        std::vector<double>& heap = largest[part];
+        forEachFinite(part * points.size() / parts, (part + 1) * points.size() / parts,
+          [&](std::size_t, const Eigen::Vector3d& point)
+          {
+            const double distance = distanceBetween(point, place);
+            if (heap.size() == most && distance > heap.front())
+            {
+              std::pop_heap(heap.begin(), heap.end(), std::greater<>());
+              heap.pop_back();
+            }
+            if (heap.size() < most)
+            {
+              heap.push_back(distance);
+              std::push_heap(heap.begin(), heap.end(), std::greater<>());
+            }
+          });
+      });
+    std::vector<double> result;
+    for (const std::vector<double>& heap : largest)
+    {
+      result.insert(result.end(), heap.begin(), heap.end());
+    }
+    std::sort(result.begin(), result.end(), std::greater<>());
+    result.resize(std::min(result.size(), most));
+    return result;
+  }
 
   /// Coordinates of points that are spread over the input.
   std::vector<double> sortedSample(Eigen::Index axis) const
@@ -173,19 +295,34 @@ private:
     return { first < 0. ? -Infinity : sample[std::size_t(first)],
       last >= size ? Infinity : sample[std::size_t(last)], std::min(count, most) + 1 };
   }
+
+  static constexpr double Everywhere = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
+  double reach_ = Everywhere;
 };
 
 PointCloud::PointCloud(const PointSpans& points, std::span<const double> weights, bool keepsOrigins,
   const Executor& executor)
 {
-  const Input input{ points, weights };
-  const std::size_t finite = input.finiteCount();
+  Input input(points, weights);
+  std::size_t finite = input.finiteCount();
   droppedCount_ = input.weightCount() - finite;
   if (finite == 0)
   {
     return;
   }
-  Eigen::AlignedBox3d bulk = input.bulk(finite, executor);
+  // Without the outermost hundredth at each side of each axis.
+  const auto bulkRanks = [](std::size_t count) {
+    return std::vector<std::size_t>{ count / 100, count - 1 - count / 100, count / 2 };
+  };
+  std::vector<Eigen::Vector3d> places = input.sortedAt(bulkRanks(finite), finite, executor);
+  if (const std::size_t far = input.leaveOutFar(finite, places.back(), executor); far > 0)
+  {
+    farPoints_ = input.leftOut();
+    finite -= far;
+    places = input.sortedAt(bulkRanks(finite), finite, executor);
+  }
+  Eigen::AlignedBox3d bulk(places[0], places[1]);
   if (!(bulk.diagonal().norm() > 0.))
   {
     // Nearly all points on one spot: the rest is what there is.
@@ -196,6 +333,7 @@ PointCloud::PointCloud(const PointSpans& points, std::span<const double> weights
   const double size = bulk.diagonal().stableNorm();
   size_ = size > 0. && std::isfinite(size) ? size : 1.;
   findBoxes(input, bulk);
+  findFloatStep(input, bulk);
   takePoints(input, keepsOrigins || !weights.empty(), executor);
   droppedCount_ += finite - points_.size();
   if (!weights.empty())
@@ -231,6 +369,14 @@ void PointCloud::findBoxes(const Input& input, const Eigen::AlignedBox3d& bulk)
   enlarged = enlarged.intersection(box);
   bulkMin_ = Vector4(enlarged.min());
   bulkMax_ = Vector4(enlarged.max());
+}
+
+void PointCloud::findFloatStep(const Input& input, const Eigen::AlignedBox3d& bulk)
+{
+  constexpr double Step = std::numeric_limits<float>::epsilon();
+  const double largest =
+    std::max(bulk.min().cwiseAbs().maxCoeff(), bulk.max().cwiseAbs().maxCoeff());
+  floatStep_ = input.hasFloats() ? std::max(Step, Step * largest / size_) : Step;
 }
 
 /// The points in Morton order, and where they come from: first by buckets that follow each other along

@@ -16,7 +16,8 @@
 
 namespace neuralmesh
 {
-/// The point cloud P, made ready for learning: without points that are not finite, moved and scaled
+/// The point cloud P, made ready for learning: without points that are not finite, and without a few
+/// that lie very far from all others, whatever their number is; moved and scaled
 /// so that its bulk has about unit size around the origin (whatever the units and the offset of the
 /// input are, single precision then resolves 10^-7 of the object), in Morton order.
 ///
@@ -47,6 +48,9 @@ public:
   /// For each point, its index in the input; empty unless it was asked for.
   std::span<const std::uint32_t> origins() const { return origins_; }
   std::size_t droppedCount() const { return droppedCount_; }
+  /// Indices of points in the input, in their order, that were left out as outliers: a few that lie at
+  /// least four times as far from the middle as all others.
+  std::span<const std::uint32_t> farPoints() const { return farPoints_; }
   /// How many points there are that are apart from each other.
   std::size_t differentCount() const;
   /// Whether there are two points apart from each other.
@@ -63,6 +67,10 @@ public:
   /// The box of the bulk: without the outermost points, enlarged.
   Vector4 bulkMin() const { return bulkMin_; }
   Vector4 bulkMax() const { return bulkMax_; }
+
+  /// How far numbers in single precision are apart at most, in units of this cloud: those of its points,
+  /// and those of the input, where they are such numbers. What is narrower is rounding.
+  double floatStep() const { return floatStep_; }
 
   /// To the units of the input and back.
   Eigen::Vector3d toInput(Vector4 point) const { return center_ + size_ * point.toDouble(); }
@@ -81,16 +89,19 @@ private:
     return scaled.cwiseAbs().maxCoeff() <= FarthestPoint;
   }
   void findBoxes(const Input& input, const Eigen::AlignedBox3d& bulk);
+  void findFloatStep(const Input& input, const Eigen::AlignedBox3d& bulk);
   void takePoints(const Input& input, bool keepsOrigins, const Executor& executor);
   void takeWeights(const Input& input);
 
   LargeVector<Vector4> points_;
   std::vector<float> weights_;
   std::vector<std::uint32_t> origins_;
+  std::vector<std::uint32_t> farPoints_;
   std::size_t droppedCount_ = 0;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double size_ = 1.;
   double diagonal_ = 0.;
+  double floatStep_ = 0.;
   Vector4 bulkMin_;
   Vector4 bulkMax_;
 };

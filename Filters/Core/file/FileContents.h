@@ -45,6 +45,8 @@ struct FileContents
   std::optional<Eigen::Vector3d> shift;
   /// Directions in which the scanner saw nothing: they are no points.
   std::uint64_t missingReturns = 0;
+  /// What the reader took for granted, and a user should know; empty for nothing.
+  std::string remark;
 
   std::size_t size() const { return (floats.size() + doubles.size()) / 3; }
   /// Of the coordinates here, which must outlive it.

@@ -27,7 +27,7 @@ const std::map<std::string, Decode>& decoders()
   static const std::map<std::string, Decode> all{ { ".ply", readPly }, { ".stl", readStl },
     { ".obj", readObj }, { ".off", readOff }, { ".pcd", readPcd }, { ".pwn", readPwn },
     { ".ptx", readPtx }, { ".xyz", readPointText }, { ".pts", readPointText },
-    { ".txt", readPointText }, { ".csv", readPointText } };
+    { ".txt", readPointText }, { ".csv", readPointText }, { ".asc", readPointText } };
   return all;
 }
 
@@ -67,7 +67,7 @@ FileContents readFile(const std::string& path)
     const std::string conversion = conversionOf(path);
     throw std::runtime_error(path + ": " +
       (conversion.empty() ? "unknown extension; readable are .ply .stl .obj .off .pcd .pwn .ptx "
-                            ".xyz .pts .txt .csv"
+                            ".xyz .pts .txt .csv .asc"
                           : conversion));
   }
   try

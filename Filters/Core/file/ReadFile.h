@@ -6,7 +6,7 @@
 namespace neuralmesh
 {
 /// Reads points, or a mesh, in the format that the extension tells, in small letters or capitals: .ply
-/// .stl .obj .off .pcd .pwn .ptx, and as text .xyz .pts .txt .csv. What was written with a shift lies
+/// .stl .obj .off .pcd .pwn .ptx, and as text .xyz .pts .txt .csv .asc. What was written with a shift lies
 /// where it lay before.
 ///
 /// Throws std::runtime_error, with a message of one line that begins with the name of the file, if it is

@@ -184,7 +184,7 @@ PatchOfLayers cumulantsOf(std::span<const PatchSample> patch)
 }
 
 /// Of samples in the order of their patches.
-NoiseParts partsByLayers(std::span<const PatchSample> samples)
+NoiseParts partsByLayers(std::span<const PatchSample> samples, double step)
 {
   std::vector<PatchOfLayers> patches;
   std::vector<double> variances;
@@ -221,6 +221,10 @@ NoiseParts partsByLayers(std::span<const PatchSample> samples)
       cumulant += patch.count * patch.cumulant;
       chance += patch.count * patch.count * patch.cumulant * patch.cumulant;
     }
+  }
+  if (squares < usual * step * step)
+  {
+    return { std::sqrt(variance), 0. };
   }
   // Against the square of the variance.
   const double square = squares * squares / usual;
@@ -300,9 +304,9 @@ NoiseParts partsByViews(std::span<const PatchSample> samples)
 }
 
 NoiseParts noisePartsOf(const Mesh& mesh, const PlacedSamples& samples,
-  std::span<const std::uint8_t> isLeftOut, std::span<const std::uint32_t> views)
+  std::span<const std::uint8_t> isLeftOut, std::span<const std::uint32_t> views, double step)
 {
   const std::vector<PatchSample> onPatches = samplesOnPatches(mesh, samples, isLeftOut, views);
-  return views.empty() ? partsByLayers(onPatches) : partsByViews(onPatches);
+  return views.empty() ? partsByLayers(onPatches, step) : partsByViews(onPatches);
 }
 }

@@ -35,9 +35,10 @@ struct NoiseParts
 /// that has more outliers or differs from point to point, and negative for layers: for n of them, which lie apart by
 /// chance with the variance b^2, it is expected to be -6 b^4 (n - 1) / n^2, about -5/4 b^4 for two to six. So a shared
 /// part is told that is larger than some two thirds of all noise. What else is spread flatly counts as shared:
-/// depths that are rounded by more than their noise.
+/// depths that are rounded by more than their noise. So no layers are told where all noise is less than `step`, by
+/// which coordinates are rounded in single precision.
 ///
 /// O(n log n); one thread, so that there is one result.
 NoiseParts noisePartsOf(const Mesh& mesh, const PlacedSamples& samples,
-  std::span<const std::uint8_t> isLeftOut, std::span<const std::uint32_t> views);
+  std::span<const std::uint8_t> isLeftOut, std::span<const std::uint32_t> views, double step = 0.);
 }

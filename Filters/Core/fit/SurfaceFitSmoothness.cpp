@@ -223,7 +223,7 @@ NoiseParts SurfaceFit::noiseParts() const
   {
     isLeftOut[v] = parts[v] < LeastPartOfNoise || opposite_[v] != NoVertex ? 1 : 0;
   }
-  return noisePartsOf(mesh_, placedSamples(), isLeftOut, views_);
+  return noisePartsOf(mesh_, placedSamples(), isLeftOut, views_, cloud_.floatStep());
 }
 
 bool SurfaceFit::chooseSmoothnessByRisk(double first, const Progress& progress)

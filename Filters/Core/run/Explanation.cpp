@@ -377,6 +377,7 @@ private:
     {
       result_.counts[std::size_t(reason)] += pointsPerAsked();
     }
+    result_.counts[std::size_t(Reason::Outlier)] += double(cloud_.farPoints().size());
     result_.counts[std::size_t(Reason::Dropped)] = double(cloud_.droppedCount());
   }
 

@@ -19,7 +19,8 @@ namespace neuralmesh
 enum class Reason : std::uint8_t
 {
   Explained, ///< the mesh is there
-  Outlier,   ///< away from the mesh, and apart from other points, or in a cluster that was left out
+  Outlier, ///< away from the mesh, and apart from other points, or in a cluster that was left out; or very
+           ///< far from all others (PointCloud::farPoints())
   SmallPiece,  ///< away from the mesh, with few others, and not beside what is explained
   Unreachable, ///< away from the mesh, though there are others: the surface is missing there
   Dropped      ///< no coordinates, no weight, or too far off to be taken in

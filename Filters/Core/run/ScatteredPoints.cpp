@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/ScatteredPoints.h"
 
-#include "base/Median.h"
 #include "cloud/NearestPoints.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,58 +15,107 @@ namespace neuralmesh
 namespace
 {
 constexpr std::size_t CentersAsked = 200;
-/// Noise about a surface is narrower than this part of the variance within the smaller radius, and much narrower
-/// within the larger one; a thin body with noise is so within one of them at least. What is filled with points is
-/// wider, even at its surface. Radii in median distances from the mesh.
-constexpr double LeastScatter = 0.125;
-constexpr std::array<float, 2> MediansAround{ 6.f, 12.f };
-/// Fewer points are narrow by chance, or in no direction.
-constexpr std::size_t LeastAround = 12;
+/// More would cost more, and tell the same.
+constexpr std::size_t MostPoints = 200000;
+/// In the smallest ball that is looked at.
+constexpr std::size_t PointsInBall = 16;
+constexpr float GrowthOfBall = 1.5f;
+/// The ball to either side is so many radii away, and not farther than this part of the size of the cloud.
+constexpr float RadiiAway = 1.f / 0.7f;
+constexpr float FarthestAway = 0.07f;
+/// What has less than this part of the points in the middle is empty.
+constexpr double MostInEmpty = 0.35;
+/// Balls move to where their points are so often: onto the surface, if there is one.
+constexpr int MovesToMiddle = 3;
 
-/// Whether the points within a radius spread in all directions.
-bool isScattered(const NearestPoints& nearest, Vector4 center, float radius)
+/// Along the edges, the diagonals of the sides, and those of a cube.
+std::array<Vector4, 13> axesOfCube()
+{
+  std::array<Vector4, 13> axes;
+  std::size_t count = 0;
+  for (int i = 14; i < 27; ++i)
+  {
+    const Eigen::Vector3d axis(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1);
+    axes[count] = Vector4(Eigen::Vector3d(axis.normalized()));
+    ++count;
+  }
+  return axes;
+}
+
+struct BallOfPoints
 {
   std::size_t count = 0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  Vector4 middle;
+};
+
+BallOfPoints ballAt(const NearestPoints& nearest, Vector4 center, float radius)
+{
+  BallOfPoints ball;
+  Vector4 sum;
   nearest.forEachWithin(center, radius,
     [&](std::uint32_t index, float)
     {
-      const Eigen::Vector3d offset = (nearest.points()[index] - center).toDouble();
-      sum += offset;
-      squares += offset * offset.transpose();
-      ++count;
+      sum += nearest.points()[index] - center;
+      ++ball.count;
     });
-  if (count < LeastAround)
+  ball.middle = center + (ball.count > 0 ? 1.f / float(ball.count) * sum : Vector4());
+  return ball;
+}
+
+/// Whether there is an axis with few points to either side.
+bool isFlat(const NearestPoints& nearest, Vector4 center, float radius)
+{
+  static const std::array<Vector4, 13> Axes = axesOfCube();
+  for (int move = 0; move < MovesToMiddle; ++move)
   {
-    return false;
+    center = ballAt(nearest, center, radius).middle;
   }
-  const Eigen::Matrix3d covariance = squares - sum * sum.transpose() / double(count);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0] > LeastScatter * covariance.trace();
+  const double most = MostInEmpty * double(ballAt(nearest, center, radius).count);
+  return std::any_of(Axes.begin(), Axes.end(),
+    [&](Vector4 axis)
+    {
+      const Vector4 away = RadiiAway * radius * axis;
+      return double(ballAt(nearest, center + away, radius).count) <= most &&
+        double(ballAt(nearest, center - away, radius).count) <= most;
+    });
+}
+
+bool isScattered(const NearestPoints& nearest, Vector4 center)
+{
+  std::array<NearPoint, PointsInBall> near;
+  const std::size_t found = nearest.find(center, near);
+  // Many on one spot: one look from there.
+  float radius = found == PointsInBall ? std::sqrt(near.back().squaredDistance) : 0.f;
+  radius = radius > 0.f ? radius : FarthestAway / RadiiAway;
+  do
+  {
+    if (isFlat(nearest, center, radius))
+    {
+      return false;
+    }
+    radius *= GrowthOfBall;
+  } while (RadiiAway * radius <= FarthestAway);
+  return true;
 }
 }
 
-double scatteredShare(
-  const PointCloud& cloud, const PointDistances& distances, const Executor& executor)
+double scatteredShare(const PointCloud& cloud, const Executor& executor)
 {
-  const std::vector<std::size_t>& points = distances.points;
-  if (points.empty())
+  const std::size_t all = cloud.points().size();
+  if (all == 0)
   {
     return 0.;
   }
-  const NearestPoints nearest(cloud.points());
-  const float median = medianOf(distances.distances);
+  std::vector<Vector4> points(std::min(all, MostPoints));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[i] = cloud.points()[i * all / points.size()];
+  }
+  const NearestPoints nearest(points);
   const std::size_t asked = std::min(points.size(), CentersAsked);
   return executor.sum(asked, 1,
            [&](std::size_t i)
-           {
-             const Vector4 center = cloud.points()[points[i * points.size() / asked]];
-             return std::all_of(MediansAround.begin(), MediansAround.end(),
-                      [&](float medians) { return isScattered(nearest, center, medians * median); })
-               ? 1.
-               : 0.;
-           }) /
+           { return isScattered(nearest, points[i * points.size() / asked]) ? 1. : 0.; }) /
     double(asked);
 }
 }

@@ -229,7 +229,7 @@ void explainPoints(const PointCloud& cloud, const PointCloud* left, double least
     std::max(FewestExplained, PointsPerVertexExplained * result.surface.vertexCount());
   result.explanation = explain(
     cloud, distancesTo(result.surface, cloud, mostOf(explained), executor), rules, executor);
-  result.explanation->scatteredShare = scatteredShare(cloud, result.explanation->asked, executor);
+  result.explanation->scatteredShare = scatteredShare(cloud, executor);
   result.support = supportOf(result.surface, cloud,
     mostOf(PointsPerVertexOfSupport * result.surface.vertexCount()), executor);
   result.gaps = spannedGaps(result.surface, result.support, cloud, result.explanation->asked);

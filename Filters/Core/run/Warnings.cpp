@@ -143,11 +143,9 @@ void warnOfBareArea(double share, std::vector<std::string>& warnings)
   if (share > MostBare)
   {
     warnings.push_back(percent(share) +
-      " of the surface has hardly any points: it is spanned between outliers, or over gaps. Look "
-      "at it "
-      "before you use the mesh: where Support is 0. Points that do not belong to the scan can be "
-      "cut "
-      "off, and bodies that are far apart be taken one by one.");
+      " of the surface has hardly any points: its triangles reach out to stray points, or across "
+      "gaps. Look at it before you use the mesh: where the point data Support is 0. Cut points off "
+      "that do not belong to the scan, and take bodies that are far apart one by one.");
   }
 }
 
@@ -237,8 +235,9 @@ void warnOfTurnedParts(double share, std::vector<std::string>& warnings)
   {
     warnings.push_back(percent(share) +
       " of the surface is inside out: it hangs on to the rest by the wrong side, as bodies do that "
-      "touch each other. More vertices or another seed may part them, and so does a cloud for each "
-      "body.");
+      "touch each other. More vertices may part them, and so does a cloud for each body; then an "
+      "up "
+      "direction (--up) or viewpoints (--viewpoint) turn each of them.");
   }
 }
 
@@ -302,7 +301,7 @@ void warnOfSides(const OrientationReport& sides, bool isFitted, const PointCloud
       placeText(cloud.toInput(*sides.contradiction), cloud) +
       ": some are inside out, and nothing tells which. An up direction (--up) or viewpoints "
       "(--viewpoint) turn pieces; what hangs on to its piece by the wrong side takes more "
-      "vertices, another seed, or a cloud of its own.");
+      "vertices, or a cloud of its own.");
   }
   if (sides.hasToldNothing(SideEvidence::Viewpoints))
   {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -190,29 +192,84 @@ TEST(PointCloud, AnyExtent)
   }
 }
 
-// An outlier beyond FarthestPoint is dropped and changes nothing; a nearer one stays, and leaves
-// the bulk as large as it was.
+// A few points that are very far from all others are left out, wherever they are in the input, and are
+// counted: the cloud is that without them.
 TEST(PointCloud, FarOutliers)
 {
-  const std::vector<Eigen::Vector3d> points = cube(2000);
-  const PointCloud plain(points);
+  const double large = std::numeric_limits<double>::max();
+  for (const std::size_t size : { 100u, 2000u, 200000u })
+  {
+    const std::vector<Eigen::Vector3d> points = cube(size);
+    const PointCloud plain(points, {}, true);
+    EXPECT_TRUE(plain.farPoints().empty());
+    for (const double distance : { 5., 20., 1e3, 3. * PointCloud::FarthestPoint, 1e200, large })
+    {
+      for (const std::size_t count : { 1u, 5u, 20u })
+      {
+        SCOPED_TRACE(std::to_string(size) + ", " + std::to_string(distance));
+        auto far = points;
+        Random random(size);
+        for (std::size_t i = 0; i < std::min(count, size / 20); ++i)
+        {
+          const Eigen::Vector3d direction = randomInCube(random) - Eigen::Vector3d::Constant(0.5);
+          far.emplace_back(distance * direction / direction.cwiseAbs().maxCoeff());
+        }
+        const PointCloud cloud(far, {}, true);
+        ASSERT_EQ(cloud.farPoints().size(), far.size() - size);
+        EXPECT_EQ(cloud.farPoints().front(), size);
+        EXPECT_EQ(cloud.droppedCount(), 0u);
+        EXPECT_EQ(cloud.unit(), plain.unit());
+        EXPECT_EQ(cloud.diagonal(), plain.diagonal());
+        ASSERT_EQ(cloud.points().size(), size);
+        for (std::size_t i = 0; i < size; ++i)
+        {
+          ASSERT_TRUE(sameCoordinates(cloud.points()[i], plain.points()[i]));
+        }
+        EXPECT_TRUE(std::ranges::equal(cloud.origins(), plain.origins()));
+      }
+    }
+  }
+}
 
-  auto farther = points;
-  farther.push_back({ 3. * PointCloud::FarthestPoint, 0., 0. });
-  farther.push_back({ 0., 0., -1e200 });
-  const PointCloud dropped(farther);
-  EXPECT_EQ(dropped.droppedCount(), 2u);
-  EXPECT_EQ(dropped.points().size(), 2000u);
-  EXPECT_LT(dropped.diagonal(), 1.1);
+// More of them, and what goes on outwards step by step, are of the cloud; what is then beyond FarthestPoint
+// is dropped, and leaves the bulk as large as it was.
+TEST(PointCloud, FarPartsStay)
+{
+  const std::vector<Eigen::Vector3d> points = cube(20000);
+  const auto body =
+    changed(cube(200, 2), [](Eigen::Vector3d& point) { point += Eigen::Vector3d(100., 0., 0.); });
+  auto both = points;
+  both.insert(both.end(), body.begin(), body.end());
+  EXPECT_EQ(PointCloud(both).points().size(), both.size());
 
-  auto far = points;
-  far.push_back({ 0.1 * PointCloud::FarthestPoint, 0., 0. });
-  const PointCloud kept(far);
-  EXPECT_EQ(kept.droppedCount(), 0u);
-  EXPECT_EQ(kept.points().size(), 2001u);
-  EXPECT_GT(kept.diagonal(), 1000.);
-  EXPECT_NEAR(kept.unit(), plain.unit(), 0.01 * plain.unit());
-  EXPECT_LT((kept.bulkMax() - kept.bulkMin()).toDouble().norm(), 2.);
+  auto line = points;
+  for (double distance = 1.5; distance < 1e7; distance *= 3.)
+  {
+    line.emplace_back(distance, 0., 0.);
+  }
+  const PointCloud cloud(line), plain(points);
+  EXPECT_TRUE(cloud.farPoints().empty());
+  EXPECT_EQ(cloud.droppedCount(), 2u);
+  EXPECT_GT(cloud.diagonal(), 1000.);
+  EXPECT_NEAR(cloud.unit(), plain.unit(), 0.01 * plain.unit());
+  EXPECT_LT((cloud.bulkMax() - cloud.bulkMin()).toDouble().norm(), 2.);
+
+  // All on one spot but one: that one is what tells an extent.
+  std::vector<Eigen::Vector3d> spot(1000, Eigen::Vector3d(1., 2., 3.));
+  spot.emplace_back(4., 2., 3.);
+  EXPECT_TRUE(PointCloud(spot).hasExtent());
+}
+
+// The step of single precision is that of the input where it has such numbers, however they come.
+TEST(PointCloud, FloatStep)
+{
+  const double step = std::numeric_limits<float>::epsilon();
+  const auto far = changed(cube(1000), [](Eigen::Vector3d& point) { point.x() += 500.; });
+  const auto rounded =
+    changed(far, [](Eigen::Vector3d& point) { point = point.cast<float>().cast<double>(); });
+  EXPECT_EQ(PointCloud(cube(1000)).floatStep(), step);
+  EXPECT_EQ(PointCloud(far).floatStep(), step);
+  EXPECT_NEAR(PointCloud(rounded).floatStep(), 501. * step / PointCloud(rounded).unit(), step);
 }
 
 // The order of the input does not matter: shuffled, the points come in the same sequence.
@@ -270,7 +327,8 @@ TEST(PointCloud, Origins)
   const PointCloud plain(points), cloud(points, {}, true);
   EXPECT_TRUE(plain.origins().empty());
   ASSERT_EQ(cloud.origins().size(), cloud.points().size());
-  EXPECT_EQ(cloud.droppedCount(), 2u);
+  EXPECT_EQ(cloud.droppedCount(), 1u);
+  EXPECT_TRUE(std::ranges::equal(cloud.farPoints(), std::array{ 70u }));
   for (std::size_t i = 0; i < cloud.points().size(); ++i)
   {
     ASSERT_TRUE(sameCoordinates(cloud.points()[i], plain.points()[i]));

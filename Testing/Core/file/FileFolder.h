@@ -62,7 +62,7 @@ protected:
 };
 
 /// A tetrahedron with normals and colours, far enough from the origin that its digits are seen.
-inline FileContents tetrahedron()
+inline FileContents tetrahedronContents()
 {
   FileContents contents;
   for (const Eigen::Vector3d& point :

@@ -43,7 +43,7 @@ std::vector<Sample> samples()
     bytesOf(std::uint32_t(compressed.size())) + bytesOf(std::uint32_t(floats.size())) + compressed;
   const std::string scan =
     "30\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n" + lines;
-  const FileContents mesh = tetrahedron();
+  const FileContents mesh = tetrahedronContents();
   return { { "binary.ply", meshBytesOf(".ply", mesh) },
     { "text.ply",
       "ply\nformat ascii 1.0\nelement vertex 30\nproperty double x\nproperty double y\n"

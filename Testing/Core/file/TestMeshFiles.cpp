@@ -26,7 +26,7 @@ void expectSamePoints(const FileContents& one, const FileContents& other, double
 // floats, triangles, normals, colours; and no other file stays behind.
 TEST_F(MeshFiles, ComeBackAsWritten)
 {
-  const FileContents mesh = tetrahedron();
+  const FileContents mesh = tetrahedronContents();
   struct Format
   {
     std::string name;
@@ -58,7 +58,7 @@ TEST_F(MeshFiles, ComeBackAsWritten)
 // it has not, leaving what was there; with a shift each format takes it, notes it, and has it undone.
 TEST_F(MeshFiles, FarFromTheOrigin)
 {
-  FileContents mesh = tetrahedron();
+  FileContents mesh = tetrahedronContents();
   mesh.move({ 500000., 5400000., 0. });
   for (const char* name : { "a.ply", "a.obj", "a.off", "a.xyz" })
   {
@@ -90,13 +90,14 @@ TEST_F(MeshFiles, FarFromTheOrigin)
   }
   EXPECT_NE(bytesOfFile("a.ply").find("property float x"), std::string::npos);
   // Nothing to gain, so nothing is shifted.
-  EXPECT_TRUE(writeMesh(pathOf("near.ply"), tetrahedron(), options).isZero(0.));
+  EXPECT_TRUE(writeMesh(pathOf("near.ply"), tetrahedronContents(), options).isZero(0.));
 }
 
 // Promise: what cannot be written is an error that leaves no file.
 TEST_F(MeshFiles, RefuseWhatIsNoMesh)
 {
-  FileContents corner = tetrahedron(), normals = tetrahedron(), infinite = tetrahedron();
+  FileContents corner = tetrahedronContents(), normals = tetrahedronContents(),
+               infinite = tetrahedronContents();
   corner.triangles.push_back({ 0, 1, 4 });
   normals.normals.pop_back();
   infinite.doubles[4] = std::numeric_limits<double>::infinity();
@@ -104,13 +105,13 @@ TEST_F(MeshFiles, RefuseWhatIsNoMesh)
   EXPECT_THROW(writeMesh(pathOf("a.ply"), corner), std::runtime_error);
   EXPECT_THROW(writeMesh(pathOf("a.ply"), normals), std::runtime_error);
   EXPECT_THROW(writeMesh(pathOf("a.glb"), infinite), std::runtime_error);
-  EXPECT_THROW(writeMesh(pathOf("a.doc"), tetrahedron()), std::runtime_error);
-  EXPECT_THROW(writeMesh(pathOf("nowhere/a.ply"), tetrahedron()), std::runtime_error);
+  EXPECT_THROW(writeMesh(pathOf("a.doc"), tetrahedronContents()), std::runtime_error);
+  EXPECT_THROW(writeMesh(pathOf("nowhere/a.ply"), tetrahedronContents()), std::runtime_error);
   WritingOptions options;
   options.shift[0] = std::nan("");
-  EXPECT_THROW(writeMesh(pathOf("a.ply"), tetrahedron(), options), std::runtime_error);
+  EXPECT_THROW(writeMesh(pathOf("a.ply"), tetrahedronContents(), options), std::runtime_error);
   options.shift[0] = 1e100;
-  EXPECT_THROW(writeMesh(pathOf("a.stl"), tetrahedron(), options), std::runtime_error);
+  EXPECT_THROW(writeMesh(pathOf("a.stl"), tetrahedronContents(), options), std::runtime_error);
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
@@ -196,7 +197,7 @@ TEST_F(MeshFiles, PlyInItsForms)
 // says.
 TEST_F(MeshFiles, StlIsWhole)
 {
-  writeMesh(pathOf("a.stl"), tetrahedron());
+  writeMesh(pathOf("a.stl"), tetrahedronContents());
   EXPECT_EQ(bytesOfFile("a.stl").size(), 84u + 4 * 50);
 }
 }

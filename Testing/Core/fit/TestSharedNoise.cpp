@@ -129,6 +129,34 @@ TEST(SharedNoise, IsNoneOnThinPlatesAndAtCreases)
   EXPECT_NEAR(parts.own, options.noise * std::sqrt(3.), 0.001); // of the diagonal
 }
 
+// Numbers in single precision lie in layers, the wider the farther off they are.
+TEST(SharedNoise, IsNoneWherePointsAreRounded)
+{
+  const Eigen::Vector3d along = Eigen::Vector3d(0.8, 0.5, 0.331).normalized();
+  const Eigen::Vector3d across = along.cross(Eigen::Vector3d::UnitX()).normalized();
+  for (const double offset : { 0., 100., 3000. })
+  {
+    const Eigen::Vector3d corner = offset * Eigen::Vector3d(1., 0.5, 0.2);
+    Random random(8);
+    std::vector<Eigen::Vector3d> exact, rounded;
+    for (std::size_t i = 0; i < PointsOfViews; ++i)
+    {
+      const double s = random.uniform();
+      exact.push_back(corner + s * along + random.uniform() * across);
+      rounded.push_back(exact.back().cast<float>().cast<double>());
+    }
+    TriangleMesh grid = makeGrid(Side);
+    for (Eigen::Vector3d& point : grid.points)
+    {
+      point = Eigen::Vector3d(corner + point[0] * along + point[1] * across);
+    }
+    EXPECT_DOUBLE_EQ(partsOn(grid, PointCloud(exact)).shared, 0.) << offset;
+    const PointCloud cloud(rounded);
+    EXPECT_DOUBLE_EQ(partsOn(grid, cloud).shared, 0.) << offset;
+    EXPECT_LT(partsOn(grid, cloud).own, cloud.floatStep() * cloud.unit()) << offset;
+  }
+}
+
 TEST(SharedNoise, IsReportedByTheFinish)
 {
   const auto reportOf = [](double own, double shared, Fidelity fidelity)

@@ -60,6 +60,41 @@ TEST(Robustness, SpreadOutliers)
   }
 }
 
+// A few points that are very far away change nothing: the mesh and all that is told of it are those of the cloud
+// without them, but for the outliers, of which there are as many more.
+TEST(Robustness, FarPoints)
+{
+  for (const std::size_t count : { 2000u, 30000u })
+  {
+    CloudOptions options;
+    options.count = count;
+    options.noise = 0.002;
+    const std::vector<Eigen::Vector3d> points = generateCloud(trueTorus().triangles, options);
+    const Reconstruction wanted = reconstruct(PointCloud(points), defaults(1000), goOn);
+    for (const double diagonals : { 20., 100., 1e6 })
+    {
+      for (const std::size_t far : { 1u, 20u })
+      {
+        SCOPED_TRACE(std::to_string(count) + ", " + std::to_string(diagonals));
+        std::vector<Eigen::Vector3d> all = points;
+        Random random(far);
+        for (std::size_t i = 0; i < far; ++i)
+        {
+          const Eigen::Vector3d direction(
+            random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5);
+          all.emplace_back(diagonals * trueTorus().diagonal * direction.normalized());
+        }
+        const Reconstruction result = reconstruct(PointCloud(all), defaults(1000), goOn);
+        EXPECT_EQ(result.mesh.points, wanted.mesh.points);
+        EXPECT_EQ(result.mesh.triangles, wanted.mesh.triangles);
+        EXPECT_EQ(result.warnings, wanted.warnings);
+        EXPECT_EQ(result.explanation->count(Reason::Outlier),
+          wanted.explanation->count(Reason::Outlier) + double(far));
+      }
+    }
+  }
+}
+
 // Clusters of outliers, beside the surface or on it, leave the mesh whole and right; on it, hardly a bump is left of
 // them: on average, and at four of six seeds or more.
 TEST(Robustness, Clusters)

@@ -30,7 +30,7 @@ A recipe is JSON; of its keys only `scans` must be there:
   }}
 
 scans    files of points, relative to the recipe, with wildcards or without:
-         .ply .obj .stl .off .pcd .ptx .pwn .xyz .pts .txt .csv, with VTK .vtp .vtk .vtu
+         .ply .obj .stl .off .pcd .ptx .pwn .xyz .pts .txt .csv .asc, with VTK .vtp .vtk .vtu
 matrix   parameters of neuralmesh.reconstruct(), except progress; a list holds the values to try,
          and all lists are crossed; first_mesh is a path, relative to the recipe
 format   of the meshes: vtp (default with VTK), ply (default without), obj, stl, glb, off or vtk

@@ -33,7 +33,7 @@ _MORE_FIGURES = {
     "regular_ratio": "regular vertices",
     "folded_edges": "folded edges",
     "intersecting_triangles": "intersecting triangles",
-    "outlier_share": "outliers",
+    "outlier_share": "too far off to count",
     "dropped_points": "dropped points",
     "stop_reason": "ended by",
 }

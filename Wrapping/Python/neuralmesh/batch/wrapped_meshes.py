@@ -54,7 +54,7 @@ def why_no_pictures() -> str:
 
 
 def read_points(path: Path) -> vtkPointSet:
-    """Read a scan: .ply .vtp .vtk .vtu .obj .stl .off .pcd .ptx .pwn, or text: .xyz .pts .txt .csv.
+    """Read a scan: .ply .vtp .vtk .vtu .obj .stl .off .pcd .ptx .pwn, or text: .xyz .pts .txt .csv .asc.
 
     OSError or ValueError say what is wrong with the file; of .las, .laz and .e57 with the command that
     makes text of them.
@@ -142,7 +142,7 @@ def write_mesh(mesh: vtkPolyData, path: Path, shift: Any = None) -> list[float]:
     return list(writer.GetStoredShift())
 
 
-_TEXT = (".xyz", ".pts", ".txt", ".csv")
+_TEXT = (".xyz", ".pts", ".txt", ".csv", ".asc")
 _READERS = {
     ".ply": vtkNeuralMeshPLYReader,
     ".vtp": vtkXMLPolyDataReader,
@@ -158,6 +158,7 @@ _READERS = {
     ".pts": vtkNeuralMeshReader,
     ".txt": vtkNeuralMeshReader,
     ".csv": vtkNeuralMeshReader,
+    ".asc": vtkNeuralMeshReader,
 }
 
 

@@ -10,6 +10,7 @@ import sys
 from typing import Callable, Sequence
 
 from .. import __version__
+from .._parameters import hint
 from .parsing import WRONG_USE, UsageError
 
 _FAILED = 1
@@ -36,17 +37,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(__version__)
         return 0
     if words[0] not in _SUBCOMMANDS:
-        unknown = words[0].startswith("-")
-        print(
-            (
-                f"The following argument was not expected: {words[0]}"
-                if unknown
-                else "A subcommand is required"
-            ),
-            "Run with --help for more information.",
-            sep="\n",
-            file=sys.stderr,
-        )
+        question = hint(words[0], _SUBCOMMANDS)
+        meant = f"{words[0]}: {question}\n" if question else ""
+        print(f"A subcommand is required\n{meant}\n{_help()}", end="", file=sys.stderr)
         return WRONG_USE
     return _run(_command(words[0]), words[1:])
 

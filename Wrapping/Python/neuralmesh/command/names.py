@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import os
+import sys
+import warnings
 from dataclasses import dataclass
 
 from .. import _engine
@@ -11,7 +13,7 @@ from ..engine import files
 from ..engine.mesh import Mesh
 from .parsing import UsageError
 
-POINTS = "Points: .ply .stl .obj .off .pcd .pwn .ptx .npy, or text: .xyz .pts .txt .csv; .vtp .vtk .vtu by VTK; .las .laz .e57 with neuralmesh[lidar]"  # fmt: skip
+POINTS = "Points: .ply .stl .obj .off .pcd .pwn .ptx .npy, or text: .xyz .pts .txt .csv .asc; .vtp .vtk .vtu by VTK; .las .laz .e57 with neuralmesh[lidar]"  # fmt: skip
 MESHES = ".ply .stl .obj .off, .vtp .vtk by VTK"
 OUTPUTS = (".vtp", ".ply", ".obj", ".stl", ".glb", ".off", ".vtk")
 _MESHES = (".ply", ".vtp", ".vtk", ".obj", ".stl", ".off")
@@ -69,7 +71,12 @@ def read_points(path: str) -> Mesh:
     """Points, or a mesh. Readers of VTK may end the process where a file is damaged: not without words."""
     if files.extension_of(path) in files.BY_VTK and os.path.isfile(path):
         return _engine.read_guarded(path, files.read)
-    return files.read(path)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        points = files.read(path)
+    for warning in told:
+        print(f"neuralmesh: warning: {warning.message}", file=sys.stderr)
+    return points
 
 
 def read_mesh(path: str) -> Mesh:

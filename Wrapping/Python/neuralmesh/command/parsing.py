@@ -9,7 +9,7 @@ import sys
 from typing import Any, Callable, NoReturn, Sequence
 
 from .._list import PROPERTIES
-from .._parameters import snake_case
+from .._parameters import hint, snake_case
 from .._property import Property
 
 WRONG_USE = 2
@@ -76,13 +76,23 @@ class Parser(argparse.ArgumentParser):
             text = f"{names.split(', ')[0]} is required"
         unknown = text.removeprefix("unrecognized arguments: ")
         if unknown != text:
-            text = f"The following argument was not expected: {unknown}"
+            text = f"The following argument was not expected: {unknown}{self._hints(unknown)}"
         option, expected, _ = text.partition(": expected one argument")
         if expected:
             metavar = self._option_string_actions[option].metavar
             text = f"{option}: 1 required {metavar} missing"
         print(f"{text}\nRun with --help for more information.", file=sys.stderr)
         sys.exit(WRONG_USE)
+
+    def _hints(self, unknown: str) -> str:
+        """A line for each option that does not exist, with those that have a name like that."""
+        known = [option for option in self._option_string_actions if option.startswith("--")]
+        lines = ""
+        for word in unknown.split():
+            name = word.partition("=")[0]
+            question = hint(name, known) if name.startswith("--") else ""
+            lines += f"\n{name}: {question}" if question else ""
+        return lines
 
     def add_number(self, option: str, name: str, text: str, metavar: str, **more: Any) -> None:
         """An option for a property, with its default."""

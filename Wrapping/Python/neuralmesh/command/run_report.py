@@ -127,7 +127,7 @@ def _print_quality(fields: dict[str, Any]) -> None:
         f"residual   {fields['Residual']:.3g} from held-out points to the mesh"
         + (f", noise about {noise:.3g}" if math.isfinite(noise) else "")
         + (f" (shared {shared:.3g})" if shared > 0 else "")
-        + f", {100.0 * fields['OutlierShare']:.2g} % outliers"
+        + f", {100.0 * fields['OutlierShare']:.2g} % too far off to count"
     )
     print_reasons(fields)
     rounds = fields["FitRoundsTakenBack"]

@@ -16,10 +16,12 @@ import numpy as np
 from .. import _engine
 from .._arrays import as_points
 from .._kinds import vtk_package
+from .._warning import warn
 from .mesh import Mesh, as_mesh
 
 _BY_ENGINE = (
     ".ply", ".stl", ".obj", ".off", ".pcd", ".pwn", ".ptx", ".xyz", ".pts", ".txt", ".csv",
+    ".asc",
 )  # fmt: skip
 BY_VTK = (".vtp", ".vtk", ".vtu")
 _BY_LASPY, _BY_PYE57 = (".las", ".laz"), (".e57",)
@@ -41,7 +43,7 @@ def extension_of(path: str | os.PathLike[str]) -> str:
 def read(path: str | os.PathLike[str]) -> Mesh:
     """Read points or a mesh, in the format that the extension tells.
 
-    Always: .ply .stl .obj .off .pcd .pwn .ptx .npy, and text .xyz .pts .txt .csv. Where VTK is installed:
+    Always: .ply .stl .obj .off .pcd .pwn .ptx .npy, and text .xyz .pts .txt .csv .asc. Where VTK is installed:
     .vtp .vtk .vtu, too. With neuralmesh[lidar]: .las .laz .e57. See Documentation/Formats.md.
 
     Args:
@@ -56,6 +58,7 @@ def read(path: str | os.PathLike[str]) -> Mesh:
         OSError: There is no such file.
         ValueError: It is of another kind, damaged, or ends early; or it takes a package that is not
             installed, which the message names.
+        RuntimeWarning: The names of the columns of a text do not tell which are x, y and z.
     """
     name = os.fspath(path)
     if not os.path.exists(name):
@@ -188,6 +191,8 @@ def _read_by_engine(path: str) -> Mesh:
         data["View"] = view_numbers(found["views"])
     if found["missing_returns"]:
         fields["MissingReturns"] = found["missing_returns"]
+    if found["remark"]:
+        warn(f"{path}: {found['remark']}")
     triangles = found["triangles"].astype(np.int64)
     return Mesh(found["points"], triangles, data, fields, "RGB" if "colors" in found else "")
 
