@@ -218,6 +218,18 @@ void warnOfSharedNoise(const FinishReport& finish, double unit, std::vector<std:
   }
 }
 
+void warnOfMissingBars(const Reconstruction& result, std::vector<std::string>& warnings)
+{
+  if (result.uncertainties.empty())
+  {
+    warnings.push_back("The mesh has no error bars: " +
+      std::string(result.finish
+          ? "all rounds of the fit were taken back, and they are those of the fit."
+          : "the run ended before its fit. More time, or none of the rules that end a run early, "
+            "may help."));
+  }
+}
+
 void warnOfSlivers(const SurfaceReport& surface, std::vector<std::string>& warnings)
 {
   const double share =
@@ -349,6 +361,10 @@ std::vector<std::string> warningsOf(
     warnOfTurnedParts(result.quality->turnedShare, warnings);
     warnOfHandles(result.quality->narrowHandles, cloud, warnings);
     warnOfVertices(result, cloud, warnings);
+  }
+  if (parameters.computeUncertainty && result.stopReason != StopReason::Cancelled)
+  {
+    warnOfMissingBars(result, warnings);
   }
   if (result.finish)
   {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Executor.h"
+#include "base/Progress.h"
+#include "cloud/PointCloud.h"
+#include "fit/Finish.h"
+#include "fit/SurfaceFit.h"
+#include "mesh/Mesh.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+struct UncertaintyPlan
+{
+  std::size_t samples = 0; ///< of the cloud, as the fit took them
+  std::uint64_t seed = 1;
+};
+
+/// How far each vertex of a finished mesh may lie off the surface, across it: the standard deviation of the
+/// posterior of the fit. With Gaussian noise of the samples and bends L x that scatter as its lambda supposes, the
+/// covariance of the vertices is the inverse of the matrix of the fit. Vertices are drawn from it: other samples are
+/// put at the same places, and other bends at the vertices, by as much as they scatter, and the same equations are
+/// solved for them. What these vertices scatter by is told.
+///
+/// How much samples scatter is measured around each vertex. What all points of a view are off together does not
+/// average out, and is added; so is what the triangles are too coarse for.
+///
+/// The same to the bit with any number of threads.
+class Uncertainty
+{
+public:
+  /// The mesh and its report must have the lambda of each vertex; the mesh stays as it is. All must outlive this.
+  Uncertainty(const PointCloud& cloud, Mesh& mesh, const FinishReport& report,
+    const UncertaintyPlan& plan, const Executor& executor = Executor::sequential(),
+    const PointViews& viewOf = {});
+
+  /// Returns false if it was ended before.
+  bool run(const Progress& progress);
+
+  /// Whether there is an answer: a round of the fit was done, and left.
+  bool isTold() const { return !deviations_.empty(); }
+  /// Of each vertex, in units of the cloud.
+  std::span<const float> deviations() const { return deviations_; }
+
+private:
+  bool findPlaces(const Progress& progress);
+  void measureNoise();
+  bool sample(const Progress& progress);
+  void drawPulls(FitSystem& system, std::uint64_t draw) const;
+  void spread(std::vector<float>& values, int rings) const;
+  float noiseAt(const PlaceOnMesh& place) const;
+
+  Mesh& mesh_;
+  const FinishReport& report_;
+  UncertaintyPlan plan_;
+  const Executor& executor_;
+  SurfaceFit fit_;
+  std::vector<float> noise_;     ///< of the samples around each vertex, as a standard deviation
+  std::vector<float> variances_; ///< of each vertex
+  std::vector<float> deviations_;
+};
+}
