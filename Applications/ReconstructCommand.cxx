@@ -311,8 +311,8 @@ int Reconstruct(const ReconstructOptions& options)
   const MeshShift shift = ParseShift(options.Shift);
   const std::string extension = FileExtension(options.Output);
   const bool keepsArrays = extension == ".vtp" || extension == ".vtk";
-  for (const auto& [name, isWanted] : { std::pair("--features", options.Features),
-         std::pair("--uncertainty", options.Uncertainty) })
+  for (const auto& [name, isWanted] :
+    { std::pair("--features", options.Features), std::pair("--uncertainty", options.Uncertainty) })
   {
     if (isWanted && !keepsArrays)
     {
@@ -509,7 +509,8 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   command->add_flag("--features", options->Features,
     "Give each vertex its FeatureStrength, high at edges and corners; OUTPUT must be .vtp or .vtk");
   command->add_flag("--uncertainty", options->Uncertainty,
-    "Give each vertex its Uncertainty, how far it may be off, in units of INPUT; OUTPUT must be .vtp or .vtk");
+    "Give each vertex its Uncertainty, how far it may be off, in units of INPUT; OUTPUT must be "
+    ".vtp or .vtk");
   AddNumber(command, "--time-limit", options->TimeLimit, seconds,
     "Learn for so many seconds at most, " + Described(seconds) +
       ", and write the mesh learnt so far; 0: as long as it takes",

@@ -182,8 +182,8 @@ private:
   std::vector<std::uint8_t>
     isKept_;                    ///< of each vertex, whether it stays where it is; empty: none does
   std::vector<Vector4> shifts_; ///< of samples, at each vertex; empty: none
-  std::vector<float> localParts_;       ///< by the risk, likewise
-  std::vector<float> smoothnessParts_;  ///< of lambda, for each vertex; empty: all 1
+  std::vector<float> localParts_;      ///< by the risk, likewise
+  std::vector<float> smoothnessParts_; ///< of lambda, for each vertex; empty: all 1
   std::optional<VertexProperty<float>> smoothnessOfVertices_;
   std::optional<LocalSpacing> spacing_; ///< at the last findPlaces()
   std::size_t usedCount_ = 0;

@@ -125,8 +125,8 @@ Reconstruction learnAndFinish(std::uint64_t vertices, const PointCloud& input,
     }
     if (!result.finish ||
       (isTold &&
-        !tellUncertainty(learnt, cloud, parameters, *result.finish,
-          partOf(finishing, endOfFit, 1.), executor, hints)))
+        !tellUncertainty(
+          learnt, cloud, parameters, result, partOf(finishing, endOfFit, 1.), executor, hints)))
     {
       result.stopReason = isCancelled ? StopReason::Cancelled : StopReason::TimeLimit;
     }

@@ -69,9 +69,9 @@ double densityExponent(const Parameters& parameters, const Mesh& first)
 /// Of the points of what is fitted.
 PointViews viewsOf(const PointCloud& cloud, const OrientationHints& hints)
 {
-  return hints.viewOf && !cloud.origins().empty()
-    ? [&](std::size_t point) { return hints.viewOf(cloud.origins()[point]); }
-    : PointViews();
+  return hints.viewOf && !cloud.origins().empty() ? [&](std::size_t point)
+  { return hints.viewOf(cloud.origins()[point]); }
+                                                  : PointViews();
 }
 
 /// Of length 1; 0 if it tells nothing.
@@ -205,16 +205,16 @@ bool refineFinished(LearntMesh& learnt, const PointCloud& cloud, const Parameter
 }
 
 bool tellUncertainty(LearntMesh& learnt, const PointCloud& cloud, const Parameters& parameters,
-  const FinishReport& report, const Progress& progress, const Executor& executor,
+  Reconstruction& result, const Progress& progress, const Executor& executor,
   const OrientationHints& hints)
 {
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
   const PointCloud& fitted = once ? *once : cloud;
-  const UncertaintyPlan plan{
-    .samples = std::size_t(parameters.fitSamples * double(learnt.mesh.vertexCount())),
-    .seed = std::uint64_t(parameters.seed)
-  };
-  Uncertainty uncertainty(fitted, learnt.mesh, report, plan, executor, viewsOf(fitted, hints));
+  const UncertaintyPlan plan{ .samples = std::size_t(
+                                parameters.fitSamples * double(learnt.mesh.vertexCount())),
+    .seed = std::uint64_t(parameters.seed) };
+  Uncertainty uncertainty(
+    fitted, learnt.mesh, *result.finish, plan, executor, viewsOf(fitted, hints));
   if (!uncertainty.run(progress))
   {
     return false;
@@ -224,6 +224,8 @@ bool tellUncertainty(LearntMesh& learnt, const PointCloud& cloud, const Paramete
     learnt.uncertainty = learnt.mesh.addProperty(0.f, OnSplit::Copy);
     std::copy(uncertainty.deviations().begin(), uncertainty.deviations().end(),
       learnt.mesh.values(*learnt.uncertainty).begin());
+    result.disagreeingShare = uncertainty.disagreement().share;
+    result.disagreement = uncertainty.disagreement().place;
   }
   return true;
 }

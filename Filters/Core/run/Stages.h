@@ -65,10 +65,10 @@ bool refineFinished(LearntMesh& learnt, const PointCloud& cloud, const Parameter
 /// Of the progress of finish() and tellUncertainty().
 inline constexpr double PartBeforeUncertainty = 0.7;
 
-/// Tells each vertex of what is finished how far it may be off; see Uncertainty.h. Nothing is told if no round of the
-/// fit is left. Returns false if it was ended before.
+/// Tells each vertex of what is finished, as `result` has it, how far it may be off; see Uncertainty.h. Nothing is told
+/// if no round of the fit is left. Returns false if it was ended before.
 bool tellUncertainty(LearntMesh& learnt, const PointCloud& cloud, const Parameters& parameters,
-  const FinishReport& report, const Progress& progress,
+  Reconstruction& result, const Progress& progress,
   const Executor& executor = Executor::sequential(), const OrientationHints& hints = {});
 
 /// Turns the mesh to its outer side, and adds to `result` all that a user gets of it. Its quality is

@@ -262,8 +262,7 @@ Reconstruction StreamingReconstruction::mesh(
       finish(learnt, *cloud_, parameters_, gaps_, vertices, partOf(progress, 0., endOfFit));
     const bool isDone = result.finish &&
       (!isTold ||
-        tellUncertainty(
-          learnt, *cloud_, parameters_, *result.finish, partOf(progress, endOfFit, 1.)));
+        tellUncertainty(learnt, *cloud_, parameters_, result, partOf(progress, endOfFit, 1.)));
     result.stopReason = isDone ? StopReason::None : StopReason::Cancelled;
   }
   OrientationHints allHints{ hints.viewpoints, {}, {}, hints.up };

@@ -29,6 +29,8 @@ constexpr double MostScattered = 0.5;
 /// Of the triangles.
 constexpr double MostSlivers = 0.002;
 constexpr double WholeArea = 0.999;
+/// Of the vertices.
+constexpr double MostDisagreeing = 0.02;
 /// Named in one sentence; the others are counted.
 constexpr std::size_t MostPiecesNamed = 2;
 /// What is no farther from the mesh than this part of an edge is there, but coarse.
@@ -230,6 +232,25 @@ void warnOfMissingBars(const Reconstruction& result, std::vector<std::string>& w
   }
 }
 
+/// Without views, what lies between two layers is all that tells it.
+void warnOfShortBars(
+  const Reconstruction& result, const PointCloud& cloud, std::vector<std::string>& warnings)
+{
+  const bool isBetween = result.finish && result.finish->shareBetweenLayers > MostBetweenLayers;
+  if (result.disagreeingShare > MostDisagreeing)
+  {
+    warnings.push_back("Views lie apart by more than was estimated at " +
+      percent(result.disagreeingShare) + " of the vertices, as around " +
+      placeText(cloud.toInput(result.disagreement), cloud) +
+      ": error bars are too short there. Views can be registered anew.");
+  }
+  else if (isBetween && !result.uncertainties.empty())
+  {
+    warnings.push_back("Where the mesh lies between two layers of points, error bars are too "
+                       "short: they take what is between for the surface.");
+  }
+}
+
 void warnOfSlivers(const SurfaceReport& surface, std::vector<std::string>& warnings)
 {
   const double share =
@@ -365,6 +386,7 @@ std::vector<std::string> warningsOf(
   if (parameters.computeUncertainty && result.stopReason != StopReason::Cancelled)
   {
     warnOfMissingBars(result, warnings);
+    warnOfShortBars(result, cloud, warnings);
   }
   if (result.finish)
   {

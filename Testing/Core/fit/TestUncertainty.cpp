@@ -89,7 +89,8 @@ TEST(Uncertainty, IsLargestWhereThereIsNoData)
   ASSERT_EQ(run.uncertainties.size(), run.mesh.points.size());
   EXPECT_TRUE(std::all_of(run.uncertainties.begin(), run.uncertainties.end(),
     [](float bar) { return std::isfinite(bar) && bar > 0.f; }));
-  const double inGap = meanBar(run, [](const Eigen::Vector3d& p) { return p.normalized().z() > 0.9; });
+  const double inGap =
+    meanBar(run, [](const Eigen::Vector3d& p) { return p.normalized().z() > 0.9; });
   const double elsewhere = meanBar(run, [](const Eigen::Vector3d& p) { return p.z() < 0.5; });
   EXPECT_GT(inGap, 5. * elsewhere);
 }
