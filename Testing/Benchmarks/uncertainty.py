@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Prints how often the truth lies within the error bars of the vertices, as tables in Markdown.
 
-    uncertainty.py COMMAND [--seeds 1,2,3] [--vertices N] [--set NAME=VALUE] [--curve FILE] [ROW...]
+    uncertainty.py COMMAND [--seeds 1,2,3] [--vertices N] [--set NAME=VALUE] [--picture FILE] [ROW...]
 
 Noise is in percent of the diagonal, on each coordinate. Of a cloud with a gradient the density falls to a tenth from
 one end to the other. The error of a vertex is its distance from the surface of which the cloud was made. A row is
@@ -10,9 +10,9 @@ excused where the errors on the same cloud without noise (root of the mean squar
 """
 
 import argparse
-import csv
 import fnmatch
 import functools
+import math
 import os
 import resource
 import subprocess
@@ -199,18 +199,39 @@ def verdict(cloud, one, two, is_coarse):
     return "excused" if is_coarse else "no"
 
 
-def print_curve(pooled, path):
+def within_gaussian(deviations):
+    return 100 * math.erf(deviations / math.sqrt(2))
+
+
+def print_curve(ratios):
     """Which part of the truth lies within how many error bars, over all rows but the scans."""
-    ratios = np.concatenate([errors / bars for errors, bars in pooled])
-    gaussian = [np.vectorize(__import__("math").erf)(k / np.sqrt(2)) for k in DEVIATIONS]
-    print("\n| within, error bars | " + " | ".join(f"{k:g}" for k in DEVIATIONS) + " |")
-    print("|---" * (len(DEVIATIONS) + 1) + "|")
-    found = [100 * np.mean(ratios <= k) for k in DEVIATIONS]
-    print("| of a Gaussian, % | " + " | ".join(f"{100 * float(part):.0f}" for part in gaussian) + " |")
-    print("| of the vertices, % | " + " | ".join(f"{part:.0f}" for part in found) + " |")
-    if path:
-        with open(path, "w", encoding="ascii", newline="") as file:
-            csv.writer(file).writerows(zip(DEVIATIONS, (100 * float(part) for part in gaussian), found))
+    print("\n| within so many error bars | " + " | ".join(f"{k:g}" for k in DEVIATIONS) + " |")
+    print("|---" + "|--:" * len(DEVIATIONS) + "|")
+    print("| of a Gaussian, % | " + " | ".join(f"{within_gaussian(k):.0f}" for k in DEVIATIONS) + " |")
+    print("| of the vertices, % | " + " | ".join(f"{100 * np.mean(ratios <= k):.0f}" for k in DEVIATIONS) + " |")
+
+
+def draw_curves(curves, path):
+    """The curve of each row over that of a Gaussian: what is on the diagonal is as sure as it says."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(5, 5), layout="constrained")
+    steps = np.linspace(0, 3.5, 60)
+    expected = [within_gaussian(k) for k in steps]
+    named = set()
+    for name, ratios in curves:
+        shape = name.split()[0]
+        axes.plot(expected, [100 * np.mean(ratios <= k) for k in steps], linewidth=0.8, alpha=0.6,
+                  color=f"C{SHAPES.index(shape)}", label=None if shape in named else shape)
+        named.add(shape)
+    axes.plot([0, 100], [0, 100], color="black", linewidth=0.8, linestyle="dashed")
+    axes.set_xlabel("of a Gaussian within so many deviations, %")
+    axes.set_ylabel("of the vertices within so many error bars, %")
+    axes.legend(frameon=False)
+    figure.savefig(path, dpi=100, metadata={"Software": None})
 
 
 def main():
@@ -219,14 +240,14 @@ def main():
     parser.add_argument("--seeds", default="1", type=lambda text: [int(seed) for seed in text.split(",")])
     parser.add_argument("--vertices", default=VERTICES, type=int)
     parser.add_argument("--set", action="append", default=[])
-    parser.add_argument("--curve")
+    parser.add_argument("--picture")
     parser.add_argument("rows", nargs="*")
     given = parser.parse_args()
     chosen = [cloud for cloud in rows()
               if not given.rows or any(fnmatch.fnmatch(cloud.name, pattern) for pattern in given.rows)]
     print("| cloud | seed | within one, % | within two, % | error | error bar | error without noise | CPU | met |")
     print("|---|--:|--:|--:|--:|--:|--:|--:|---|")
-    pooled, missed = [], 0
+    curves, missed = [], 0
     with tempfile.TemporaryDirectory() as folder:
         for cloud in chosen:
             for seed in given.seeds:
@@ -237,12 +258,14 @@ def main():
                 met = verdict(cloud, one, two, clean > root_mean_square(bars) / 2)
                 missed += met == "no"
                 if not cloud.scan:
-                    pooled.append((errors, bars))
+                    curves.append((cloud.name, errors / bars))
                 print(f"| {cloud.name} | {seed} | {one:.0f} | {two:.0f} | {100 * root_mean_square(errors):.4f} | "
                       f"{100 * root_mean_square(bars):.4f} | "
                       f"{'' if cloud.scan else format(100 * clean, '.4f')} | {ratio:.2f} | {met} |", flush=True)
-    if pooled:
-        print_curve(pooled, given.curve)
+    if curves:
+        print_curve(np.concatenate([ratios for _, ratios in curves]))
+    if given.picture:
+        draw_curves(curves, given.picture)
     return 1 if missed else 0
 
 

@@ -308,7 +308,9 @@ void Uncertainty::addCoarseness()
 /// by more than such errors is told.
 void Uncertainty::addSharedNoise()
 {
-  const auto shared = float(report_.sharedNoise * report_.sharedNoise);
+  const auto sharedByAll = float(report_.sharedNoise * report_.sharedNoise);
+  // No more than there is of all noise.
+  const auto sharedAt = [&](std::size_t v) { return std::min(sharedByAll, noise_[v] * noise_[v]); };
   const auto own = float(report_.ownNoise * report_.ownNoise);
   std::vector<std::uint32_t> seen;
   std::copy_if(views_.begin(), views_.end(), std::back_inserter(seen),
@@ -317,9 +319,9 @@ void Uncertainty::addSharedNoise()
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   if (seen.empty() || seen.size() > MostViews)
   {
-    for (float& variance : variances_)
+    for (std::size_t v = 0; v < variances_.size(); ++v)
     {
-      variance += PartIfUnknown * shared;
+      variances_[v] += PartIfUnknown * sharedAt(v);
     }
     return;
   }
@@ -365,13 +367,13 @@ void Uncertainty::addSharedNoise()
   {
     const float n = counts[v];
     const float alike = n > 0.f ? squaredCounts[v] / (n * n) : 1.f;
-    variances_[v] += alike * shared;
+    variances_[v] += alike * sharedAt(v);
     if (views[v] > 1.f)
     {
       // Of the means of views about that of all.
       const float apart = squares[v] / n - sums[v] * sums[v] / (n * n);
       const float expected =
-        (1.f - alike) * shared + (views[v] - 1.f) * own / (VerticesOfViews * n);
+        (1.f - alike) * sharedByAll + (views[v] - 1.f) * own / (VerticesOfViews * n);
       const float times = expected > 0.f ? apart / expected : 0.f;
       disagreeing += times > TimesExpected ? 1. : 0.;
       if (times > most)

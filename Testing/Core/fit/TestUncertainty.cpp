@@ -108,7 +108,7 @@ TEST(Uncertainty, GrowsWithNoiseAndWithFewerPoints)
 
 TEST(Uncertainty, HoldsTheTruthAsOftenAsItShould)
 {
-  for (const double noise : { 0.001, 0.003 })
+  for (const double noise : { 0.003, 0.006 })
   {
     SCOPED_TRACE(noise);
     const Reconstruction run = runOf(PointCloud(sphereWith(noise)));
@@ -130,6 +130,40 @@ TEST(Uncertainty, KnowsTheNoiseOfEachPlace)
   const double low = meanBar(run, [](const Eigen::Vector3d& p) { return p.x() < -0.3; });
   const double high = meanBar(run, [](const Eigen::Vector3d& p) { return p.x() > 0.3; });
   EXPECT_GT(high, 2. * low);
+}
+
+// Errors that views share do not average out; where views lie apart by more than elsewhere, that is warned of.
+TEST(Uncertainty, KnowsWhatViewsShareAndWarnsWhereTheyDisagree)
+{
+  constexpr double Shared = 0.004;
+  const auto viewOf = [](std::uint32_t point) { return point % 4; };
+  const auto runOfViews = [&](double atPole)
+  {
+    std::vector<Eigen::Vector3d> points = sphereWith(0.001);
+    for (std::uint32_t i = 0; i < points.size(); ++i)
+    {
+      const double off = Shared * (double(viewOf(i)) - 1.5) / 1.118;
+      points[i] *= 1. + (points[i].z() > 0.8 ? atPole : 1.) * off;
+    }
+    OrientationHints hints;
+    hints.viewOf = viewOf;
+    return reconstruct(
+      PointCloud(points, {}, true), withBars(), goOn, {}, {}, {}, Executor::sequential(), hints);
+  };
+  const auto isWarned = [](const Reconstruction& run)
+  {
+    return std::any_of(run.warnings.begin(), run.warnings.end(),
+      [](const std::string& text)
+      { return text.find("error bars are too short") != std::string::npos; });
+  };
+  const Reconstruction even = runOfViews(1.);
+  // Of four views.
+  EXPECT_NEAR(meanBar(even), 0.5 * Shared, 0.2 * Shared);
+  EXPECT_FALSE(isWarned(even));
+  EXPECT_LT(even.disagreeingShare, 0.01);
+  const Reconstruction apart = runOfViews(4.);
+  EXPECT_TRUE(isWarned(apart));
+  EXPECT_GT(apart.disagreement[2], 0.f);
 }
 
 TEST(Uncertainty, IsTheSameOnAnyNumberOfThreads)
