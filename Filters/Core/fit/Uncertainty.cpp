@@ -34,7 +34,7 @@ constexpr double SamplesOfAll = 1.;
 /// Where a vertex has this part of the usual samples, they tell how the surface bends: bends have so much left of the
 /// variance by lambda. Where it has none they have more than that: bends of a gap are alike.
 constexpr float EnoughSamples = 0.5f;
-constexpr float PartOfBendsTold = 0.1f;
+constexpr float PartOfBendsTold = 0.05f;
 constexpr float TimesOfBendsUntold = 2.f;
 /// What smoothness would take once more is less than what it took, and is a mean over so many rings.
 constexpr float TimesOfBias = 2.75f;
