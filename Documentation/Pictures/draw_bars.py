@@ -69,7 +69,7 @@ def show(path, most, direction, up):
     return view
 
 
-def main():
+def draw_error_bars(path):
     layout = simple.CreateLayout("bars")
     with tempfile.TemporaryDirectory() as folder:
         views = []
@@ -84,8 +84,12 @@ def main():
             layout.AssignView(place, view)
             place += 1
         layout.SetSize(*SIZE)
-        simple.SaveScreenshot(os.path.join(sys.argv[1], "error_bars.png"), layout, ImageResolution=SIZE,
-                              CompressionLevel=9, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
+        simple.SaveScreenshot(path, layout, ImageResolution=SIZE, CompressionLevel=9, SeparatorWidth=0,
+                              OverrideColorPalette="WhiteBackground")
+
+
+def main():
+    draw_error_bars(os.path.join(sys.argv[1], "error_bars.png"))
     # Views that are left to the end of the process end it with an error of X.
     for view in simple.GetViews():
         simple.Delete(view)
