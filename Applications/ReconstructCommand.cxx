@@ -74,6 +74,7 @@ struct ReconstructOptions
   std::string Shift;
   OrientationOptions Orientation;
   bool Features = false;
+  bool Uncertainty = false;
   bool Automatic = false;
   int Preset = 0;
   std::vector<std::string> Assignments;
@@ -159,6 +160,7 @@ void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
   filter->SetFidelity(options.Fidelity);
   filter->SetKeepPieces(options.KeepPieces);
   filter->SetComputeFeatureStrength(options.Features);
+  filter->SetComputeUncertainty(options.Uncertainty);
   filter->SetPreset(options.Preset);
   filter->SetAutomatic(options.Automatic);
   filter->SetExplainPoints(!options.Explanation.empty());
@@ -308,10 +310,15 @@ int Reconstruct(const ReconstructOptions& options)
   RequireWritableExtension(options.Output);
   const MeshShift shift = ParseShift(options.Shift);
   const std::string extension = FileExtension(options.Output);
-  if (options.Features && extension != ".vtp" && extension != ".vtk")
+  const bool keepsArrays = extension == ".vtp" || extension == ".vtk";
+  for (const auto& [name, isWanted] :
+    { std::pair("--features", options.Features), std::pair("--uncertainty", options.Uncertainty) })
   {
-    throw UsageError(
-      "--features: " + options.Output + " must be a .vtp or .vtk; no other format keeps it");
+    if (isWanted && !keepsArrays)
+    {
+      throw UsageError(std::string(name) + ": " + options.Output +
+        " must be a .vtp or .vtk; no other format keeps it");
+    }
   }
   neuralmesh::requireWritablePlace(options.Output);
   if (!options.Statistics.empty())
@@ -407,6 +414,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   options->Preset = defaults->GetPreset();
   options->Automatic = defaults->GetAutomatic();
   options->Features = defaults->GetComputeFeatureStrength();
+  options->Uncertainty = defaults->GetComputeUncertainty();
   const auto vertices = NEURAL_MESH_NUMBERS(defaults, NumberOfVertices);
   const auto seed = NEURAL_MESH_NUMBERS(defaults, Seed);
   const auto members = NEURAL_MESH_NUMBERS(ensemble, NumberOfMembers);
@@ -500,6 +508,9 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     "Choose Fidelity, FitSmoothness and CurvatureDensity for INPUT by some seconds of short runs");
   command->add_flag("--features", options->Features,
     "Give each vertex its FeatureStrength, high at edges and corners; OUTPUT must be .vtp or .vtk");
+  command->add_flag("--uncertainty", options->Uncertainty,
+    "Give each vertex its Uncertainty, how far it may be off, in units of INPUT; OUTPUT must be "
+    ".vtp or .vtk");
   AddNumber(command, "--time-limit", options->TimeLimit, seconds,
     "Learn for so many seconds at most, " + Described(seconds) +
       ", and write the mesh learnt so far; 0: as long as it takes",

@@ -45,10 +45,10 @@ public:
     return array;
   }
 
-  template <typename Number>
-  static vtkNew<vtkDoubleArray> MakeNumbers(const char* name, const std::vector<Number>& numbers)
+  template <typename ArrayT = vtkDoubleArray, typename Number>
+  static vtkNew<ArrayT> MakeNumbers(const char* name, const std::vector<Number>& numbers)
   {
-    vtkNew<vtkDoubleArray> array;
+    vtkNew<ArrayT> array;
     array->SetName(name);
     array->SetNumberOfValues(static_cast<vtkIdType>(numbers.size()));
     std::copy(numbers.begin(), numbers.end(), array->GetPointer(0));

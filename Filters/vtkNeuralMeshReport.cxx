@@ -80,6 +80,11 @@ void vtkNeuralMeshReport::FillMesh(
     output->GetPointData()->AddArray(
       vtkMeshArrays::MakeNumbers("FeatureStrength", result.featureStrengths));
   }
+  if (!result.uncertainties.empty())
+  {
+    output->GetPointData()->AddArray(
+      vtkMeshArrays::MakeNumbers<vtkFloatArray>("Uncertainty", result.uncertainties));
+  }
 }
 
 void vtkNeuralMeshReport::AddRun(const neuralmesh::Reconstruction& result,

@@ -61,8 +61,8 @@ vtkAbstractArray* Counterpart(vtkPointData* first, vtkAbstractArray* array, vtkP
 /** One that neither an array of the output has nor any that it may have in other runs. */
 std::string FreeName(std::string name, vtkPointData* output)
 {
-  constexpr std::array<std::string_view, 7> Taken{ "Normals", "Activity", "FeatureStrength",
-    "Crease", "Boundary", "Residual", "Support" };
+  constexpr std::array<std::string_view, 8> Taken{ "Normals", "Activity", "FeatureStrength",
+    "Crease", "Boundary", "Residual", "Support", "Uncertainty" };
   while (
     std::find(Taken.begin(), Taken.end(), name) != Taken.end() || output->HasArray(name.c_str()))
   {

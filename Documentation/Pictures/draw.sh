@@ -10,6 +10,7 @@ declare -A pictures=(
   [draw_charts.py]="steps sweep_moves sweep_growth sweep_noise sweep_fit"
   [draw_house.py]="rooms"
   [draw_lines.py]="feature_lines"
+  [draw_bars.py]="error_bars"
   [draw_tutorial.sh]="tutorial_scan tutorial_mesh tutorial_window tutorial_colours
     tutorial_distances tutorial_step12 tutorial_step17 tutorial_step23"
   [draw_pyvista.sh]="pyvista_mesh pyvista_distance pyvista_left_out"
@@ -47,9 +48,11 @@ for maker in draw.py draw_charts.py draw_house.py; do
   [ -z "$names" ] || xvfb-run -a /usr/bin/python3 "$folder/$maker" "$folder" $names
 done
 # In ParaView, which is told where the plugin is.
-[ -z "$(wanted_of draw_lines.py)" ] ||
-  PV_PLUGIN_CONFIG_FILE=$PWD/build/lib/neuralmesh/neuralmesh.plugins.xml xvfb-run -a \
-    -s "-screen 0 1280x1024x24 -noreset" pvpython "$folder/draw_lines.py" "$folder"
+for maker in draw_lines.py draw_bars.py; do
+  [ -z "$(wanted_of $maker)" ] ||
+    PV_PLUGIN_CONFIG_FILE=$PWD/build/lib/neuralmesh/neuralmesh.plugins.xml xvfb-run -a \
+      -s "-screen 0 1280x1024x24 -noreset" pvpython "$folder/$maker" "$folder"
+done
 # They are steps of one tutorial, and drawn together.
 [ -z "$(wanted_of draw_tutorial.sh)" ] || bash "$folder/draw_tutorial.sh"
 [ -z "$(wanted_of draw_pyvista.sh)" ] || bash "$folder/draw_pyvista.sh"
@@ -61,3 +64,7 @@ done
   bash Testing/Benchmarks/scans.sh --seeds 1 --picture "$folder/battery.png" scan_bunny_r01 \
     open_sphere_60 open_bunny_2 open_bunny_15 box_0.6 plate_n01 chair_n01 coupling density_100 islands \
     kinect room building b9_training spheres hippo2 || [ $? -eq 1 ] # Some miss their goals.
+# Some minutes.
+[ -z "$(wanted_of ../../Testing/Benchmarks/uncertainty.sh)" ] ||
+  bash Testing/Benchmarks/uncertainty.sh --picture "$folder/reliability.png" "sphere*" "torus*" "bunny*" "fandisk*" ||
+  [ $? -eq 1 ] # Some may miss their goals.

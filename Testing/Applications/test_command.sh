@@ -342,7 +342,7 @@ test_initial()
   [ ! -e other.ply ] || fail "a mesh was written"
 }
 
-# Promise: --features, --jump, --topology and --ensemble have an effect, or say why they cannot.
+# Promise: --features, --uncertainty, --jump, --topology and --ensemble have an effect, or say why they cannot.
 test_variants()
 {
   expect 0 "$neuralmesh" reconstruct cloud.xyz plain.vtp --vertices 400
@@ -351,6 +351,17 @@ test_variants()
   ! grep -aq 'Name="FeatureStrength"' plain.vtp || fail "there is feature strength unasked"
   expect 2 "$neuralmesh" reconstruct cloud.xyz features.ply --vertices 400 --features
   grep -q 'vtp' err || fail "the message does not name the format that keeps feature strength"
+
+  # Error bars are those of the fit: nothing is lost where they cannot be had.
+  expect 0 "$neuralmesh" reconstruct cloud.xyz bars.vtp --vertices 400 --uncertainty
+  grep -aq 'type="Float32" Name="Uncertainty"' bars.vtp || fail "there are no error bars"
+  ! grep -aq 'Name="Uncertainty"' plain.vtp || fail "there are error bars unasked"
+  cp bars.vtp before.vtp
+  expect 2 "$neuralmesh" reconstruct cloud.xyz bars.vtp --vertices 400 --uncertainty --set FitRounds=0
+  grep -q 'Uncertainty is that of the fit' err || fail "the message does not say what error bars need"
+  cmp -s bars.vtp before.vtp || fail "what was there is lost"
+  expect 2 "$neuralmesh" reconstruct cloud.xyz bars.ply --vertices 400 --uncertainty
+  grep -q 'vtp' err || fail "the message does not name the format that keeps error bars"
 
   local jump
   for jump in constant normal area volume weighted constant=0.1; do

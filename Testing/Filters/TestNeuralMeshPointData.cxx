@@ -202,14 +202,15 @@ int CheckNames()
 
   // As mere data, the same array is one of several that have names of the output's own.
   data->SetActiveNormals(nullptr);
-  for (const char* name : { "Activity", "FeatureStrength" })
+  for (const char* name : { "Activity", "FeatureStrength", "Uncertainty" })
   {
     data->AddArray(MakeArray<vtkDoubleArray>(
       cloud, name, 1, [](auto& array, vtkIdType i, const double*) { array->SetValue(i, -7.0); }));
   }
   const auto again = Run(cloud);
   output = again->GetOutput()->GetPointData();
-  CHECK(output->GetNumberOfArrays() == 8);
+  CHECK(output->GetNumberOfArrays() == 9);
+  CHECK(output->GetArray("Uncertainty_Input")->GetTuple1(0) == -7.0);
   CHECK(output->GetArray("Activity")->GetTuple1(0) >= 0.0);
   CHECK(output->GetArray("Activity_Input")->GetTuple1(0) == -7.0);
   CHECK(output->GetArray("FeatureStrength_Input")->GetTuple1(0) == -7.0);

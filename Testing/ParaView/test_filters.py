@@ -157,6 +157,15 @@ class Filters(unittest.TestCase):
             self.assertAlmostEqual(sharpest, 90, delta=20)
             self.assertEqual(mesh.GetPointDataInformation()["Crease"].GetRange(0)[0], 0.0)
 
+    # Promise: error bars are an array of the mesh that can be asked for in the panel.
+    def test_uncertainty(self):
+        mesh = simple.NeuralMesh(Input=support.scan(), NumberOfVertices=1000)
+        mesh.UpdatePipeline()
+        self.assertIsNone(mesh.GetPointDataInformation().GetArray("Uncertainty"))
+        mesh.ComputeUncertainty = 1
+        mesh.UpdatePipeline()
+        self.assertGreater(mesh.GetPointDataInformation()["Uncertainty"].GetRange(0)[0], 0.0)
+
     # Promise: a comparison gives the distances on both meshes and the table of the figures.
     def test_comparison(self):
         inner = simple.Sphere(Radius=1.0, ThetaResolution=100, PhiResolution=100)

@@ -65,6 +65,9 @@ BAD = {
     '{"scans": ["a.xyz"], "matrix": {"order": ["exact", "list"], "jump": "area_change"}}': (
         'matrix: {"order": "exact", "jump": "area_change"} do not go together',
     ),
+    '{"scans": ["a.xyz"], "matrix": {"compute_uncertainty": true, "fit_rounds": [1, 0]}}': (
+        "Uncertainty is that of the fit",
+    ),
 }
 
 
@@ -146,6 +149,8 @@ class Recipes(BatchTest):
     def test_parameters(self):
         matrix = {"winner_rate": 0.05, "compute_feature_strength": True, "boundaries": "close"}
         self.assertEqual(len(self.names(scans=["a.xyz"], matrix=matrix)), 1)
+        matrix = {"compute_uncertainty": True, "fit_rounds": [1, 2]}
+        self.assertEqual(len(self.names(scans=["a.xyz"], matrix=matrix)), 2)
         matrix = {"ensemble": 3, "topology_learning": False, "weights": "Confidence"}
         self.assertEqual(len(self.names(scans=["a.xyz"], matrix=matrix)), 1)
 

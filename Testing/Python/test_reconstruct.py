@@ -187,6 +187,20 @@ class Variants(unittest.TestCase):
         self.assertEqual(support.arrays_of(mesh), support.arrays_of(algorithm.GetOutput()))
         self.assertTrue(mesh.GetPointData().HasArray("FeatureStrength"))
 
+    # Promise: error bars are positive floats of the vertices, and no other mesh; without a fit there are none, but
+    # words.
+    def test_uncertainty(self):
+        cloud = support.sphere()
+        plain = neuralmesh.reconstruct(cloud, 300)
+        mesh = neuralmesh.reconstruct(cloud, 300, compute_uncertainty=True)
+        bars = mesh.GetPointData().GetArray("Uncertainty")
+        self.assertEqual(bars.GetClassName(), "vtkFloatArray")
+        self.assertGreater(bars.GetRange()[0], 0.0)
+        mesh.GetPointData().RemoveArray("Uncertainty")
+        self.assertEqual(support.arrays_of(mesh), support.arrays_of(plain))
+        with self.assertRaisesRegex(ValueError, "Uncertainty is that of the fit"):
+            neuralmesh.reconstruct(cloud, 300, compute_uncertainty=True, fit_rounds=0)
+
     # Promise: topology learning and ensembles give a torus its handle; nothing else does.
     def test_topology(self):
         u, v = 2 * np.pi * np.random.default_rng(1).random((2, 40000))

@@ -100,6 +100,20 @@ class Functions(unittest.TestCase):
         figures = neuralmesh.compare(mesh, mesh)
         self.assertLess(figures["reference_to_result"]["rms_percent"], 1e-9)
 
+    # Promise: error bars are positive floats of the vertices; without a fit there are none, but words.
+    def test_uncertainty(self):
+        mesh = neuralmesh.reconstruct(ball(), 300, compute_uncertainty=True)
+        if HAS_VTK:
+            from neuralmesh.engine.vtk_arrays import to_numpy
+
+            bars = to_numpy(mesh.GetPointData().GetArray("Uncertainty"))
+        else:
+            bars = mesh.point_data["Uncertainty"]
+        self.assertEqual((bars.dtype, bars.shape), (np.float32, (300,)))
+        self.assertGreater(bars.min(), 0)
+        with self.assertRaisesRegex(ValueError, "Uncertainty is that of the fit"):
+            neuralmesh.reconstruct(ball(), 300, compute_uncertainty=True, fit_rounds=0)
+
     # Promise: what makes one cloud gives one mesh, however the array lies; numbers of 4 bytes stay so.
     def test_layouts(self):
         cloud = ball()

@@ -450,6 +450,8 @@ CASES = {
     "rich": lambda: learn(rich()),
     "not_carried": lambda: learn(rich(), CarryPointData=0),
     "explained": lambda: learn(rich(), ExplainPoints=1, ComputeFeatureStrength=1),
+    "uncertain": lambda: learn(rich(), ComputeUncertainty=1),
+    "uncertain_without_fit": lambda: learn(rich(), ComputeUncertainty=1, FitRounds=0),
     "lines": lambda: learn(box(), ComputeFeatureLines=1, NumberOfVertices=1000),
     "lines_of_doubles": lambda: learn(box(np.float64), "vtkNeuralMeshEnsemble", NumberOfMembers=3,
                                       VerticesPerMember=200, ComputeFeatureLines=1, FeatureAngle=60,

@@ -49,6 +49,10 @@ nb::dict meshOf(const Reconstruction& result, bool isDouble)
   {
     data["FeatureStrength"] = arrayOf(result.featureStrengths);
   }
+  if (!result.uncertainties.empty())
+  {
+    data["Uncertainty"] = arrayOf(result.uncertainties);
+  }
   mesh["point_data"] = data;
   return mesh;
 }

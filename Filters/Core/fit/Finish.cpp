@@ -118,9 +118,19 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   const bool hasMore = rounds > 0 && areEnough && plan_.fidelity != Fidelity::Draft;
   const double endOfFirst = hasMore ? PartOfFirstRounds : 1.;
   const Progress progress = partOf(report, 0., endOfFirst);
+  if (plan_.tellsSmoothness)
+  {
+    report_.smoothnessOfVertices = mesh_.addProperty(0.f, OnSplit::Copy);
+  }
   std::optional<SurfaceFit> surfaceFit;
   const auto beginAnew = [&]
-  { surfaceFit.emplace(cloud_, mesh_, samples, executor_, normalOf_, viewOf_); };
+  {
+    surfaceFit.emplace(cloud_, mesh_, samples, executor_, normalOf_, viewOf_);
+    if (report_.smoothnessOfVertices)
+    {
+      surfaceFit->tellSmoothness(*report_.smoothnessOfVertices);
+    }
+  };
   const auto refineAll = [&](double at)
   {
     const bool isDone = refine(mesh_, plan_.vertexCount, partOf(progress, at, at));

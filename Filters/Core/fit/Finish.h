@@ -23,7 +23,9 @@ struct FinishReport
   double ownNoise = 0.;    ///< what points have of it for themselves, see SharedNoise.h; 0 if clean
   double sharedNoise = 0.; ///< ... and what those of a view share
   double smoothness = 0.;  ///< lambda of the fit
-  bool isClean = false;    ///< whether it is that of a cloud without noise to speak of
+  /// ... at each vertex, in the last round, 0 if there was none; nothing unless it was asked for
+  std::optional<VertexProperty<float>> smoothnessOfVertices;
+  bool isClean = false;         ///< whether it is that of a cloud without noise to speak of
   double outlierShare = 0.;     ///< of the samples
   std::size_t gapTriangles = 0; ///< taken away where there is no data
   DefectCount repaired;         ///< intersections and folds that were there ...
@@ -45,8 +47,9 @@ struct FinishPlan
   /// What the residual is measured to that may not grow. Where a mesh is to be simplified, what lies ill on
   /// thin parts counts.
   DistanceTo residualTo = DistanceTo::Surface;
-  bool keepsPlaces = false; ///< vertices do not go elsewhere: what is known of them is of there
-  double smoothness = 0.;   ///< lambda of the fit; 0 = by the noise and the shape
+  bool keepsPlaces = false;     ///< vertices do not go elsewhere: what is known of them is of there
+  double smoothness = 0.;       ///< lambda of the fit; 0 = by the noise and the shape
+  bool tellsSmoothness = false; ///< of each vertex
   double samplesPerVertex = 10.; ///< in the fit
   std::optional<GapPlan> gaps;   ///< nothing: none is opened or closed
   double closedOutline =

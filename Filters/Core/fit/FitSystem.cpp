@@ -136,6 +136,26 @@ void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vecto
     });
 }
 
+void FitSystem::addBends(double lambda, std::span<const Vector4> bends)
+{
+  const float onBoundary = boundaryPart(lambda);
+  const auto bendAt = [&](VertexIndex v)
+  { return float(lambda) * smoothnessPart(v, onBoundary) * bends[v]; };
+  executor_.forEachRange(bends.size(), RowsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        Vector4 sum = -1.f * bendAt(v);
+        for (const VertexIndex neighbor : mesh_.ring(v))
+        {
+          sum += weight(neighbor, v) * bendAt(neighbor);
+        }
+        rightSide_[v] += sum;
+      }
+    });
+}
+
 FitSystem::Block FitSystem::Block::inverse() const
 {
   const Eigen::Vector3d d = diagonal.toDouble(), o = others.toDouble();

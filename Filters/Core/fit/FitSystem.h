@@ -53,6 +53,18 @@ public:
     diagonal_[v].diagonal += Vector4(weight, weight, weight);
     rightSide_[v] += weight * position;
   }
+  /// Takes away what samples, normals and anchors pull to; how much they weigh stays.
+  void clearPulls() { rightSide_.assign(rightSide_.size(), Vector4()); }
+  /// Adds to what a sample at this place pulls to, times its weight.
+  void addPull(const PlaceOnMesh& place, Vector4 pull)
+  {
+    for (unsigned i = 0; i < 3; ++i)
+    {
+      rightSide_[place.triangle[i]] += place.weights[int(i)] * pull;
+    }
+  }
+  /// L x is to be this at each vertex, in place of 0, with the lambda of what is solved.
+  void addBends(double lambda, std::span<const Vector4> bends);
   /// Lambda counts so much of itself at each vertex; without any, all of it.
   void setSmoothnessParts(std::span<const float> parts)
   {

@@ -400,6 +400,11 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
   for (VertexIndex v = 0; v < positions.size(); ++v)
   {
     mesh_.setPosition(v, positions[v]);
+    if (smoothnessOfVertices_)
+    {
+      const float part = smoothnessParts_.empty() ? 1.f : smoothnessParts_[v];
+      mesh_.values(*smoothnessOfVertices_)[v] = float(smoothness_) * part;
+    }
   }
   heldCount_ = holdLost(before);
   return true;

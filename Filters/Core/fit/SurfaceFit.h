@@ -80,6 +80,8 @@ public:
   void keepBoundaries();
   /// ... and so do the vertices for which this is not 0.
   void keep(std::span<const std::uint8_t> vertices);
+  /// From now on moveVertices() tells each vertex its lambda, in this property of the mesh.
+  void tellSmoothness(VertexProperty<float> property) { smoothnessOfVertices_ = property; }
   /// The lambda of the last moveVertices().
   double smoothness() const { return smoothness_; }
   /// Whether it is that of a cloud without noise to speak of.
@@ -180,8 +182,9 @@ private:
   std::vector<std::uint8_t>
     isKept_;                    ///< of each vertex, whether it stays where it is; empty: none does
   std::vector<Vector4> shifts_; ///< of samples, at each vertex; empty: none
-  std::vector<float> localParts_;       ///< by the risk, likewise
-  std::vector<float> smoothnessParts_;  ///< of lambda, for each vertex; empty: all 1
+  std::vector<float> localParts_;      ///< by the risk, likewise
+  std::vector<float> smoothnessParts_; ///< of lambda, for each vertex; empty: all 1
+  std::optional<VertexProperty<float>> smoothnessOfVertices_;
   std::optional<LocalSpacing> spacing_; ///< at the last findPlaces()
   std::size_t usedCount_ = 0;
   std::size_t heldCount_ = 0;

@@ -56,6 +56,7 @@ struct LearntMesh
   Mesh mesh; ///< no vertex of it is erased
   VertexProperty<double> activity;
   std::optional<VertexProperty<float>> featureStrength; ///< nothing unless it was asked for
+  std::optional<VertexProperty<float>> uncertainty{};   ///< likewise, and told in the end
 };
 
 /// The Neural Mesh algorithm: a mesh that grows and moves towards samples of a cloud. When to end a run

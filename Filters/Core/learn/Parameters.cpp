@@ -55,6 +55,12 @@ std::vector<std::string> Parameters::errors() const
                      "variant makes them where the surface is flat. What goes together: topology "
                      "learning with the variants noise_filtering and basic.");
   }
+  if (computeUncertainty && fitRounds == 0)
+  {
+    errors.push_back(
+      "Uncertainty is that of the fit, and FitRounds is 0: without a fit there is none. What goes "
+      "together: error bars with one round of the fit or more; no fit without error bars.");
+  }
   return errors;
 }
 

@@ -109,19 +109,24 @@ Reconstruction learnAndFinish(std::uint64_t vertices, const PointCloud& input,
       const bool isTimeOver = parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
       return rest(fraction) && !isTimeOver;
     };
-    const double endOfFirst = isRefined ? PartBeforeRefinement : 1.;
+    const bool isTold = parameters.computeUncertainty;
+    const double endOfFit = isTold ? PartBeforeUncertainty : 1.;
+    const double endOfFirst = isRefined ? PartBeforeRefinement * endOfFit : endOfFit;
     result.finish = finish(learnt, cloud, parameters, gaps, finished,
       partOf(finishing, 0., endOfFirst), executor, hints);
     if (result.finish && isRefined)
     {
       if (!refineFinished(learnt, cloud, parameters, refined, *result.finish,
-            partOf(finishing, endOfFirst, 1.), executor))
+            partOf(finishing, endOfFirst, endOfFit), executor))
       {
         result.finish.reset();
       }
       result.curve.endWith(learnt.mesh);
     }
-    if (!result.finish)
+    if (!result.finish ||
+      (isTold &&
+        !tellUncertainty(
+          learnt, cloud, parameters, result, partOf(finishing, endOfFit, 1.), executor, hints)))
     {
       result.stopReason = isCancelled ? StopReason::Cancelled : StopReason::TimeLimit;
     }

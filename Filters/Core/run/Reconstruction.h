@@ -37,6 +37,10 @@ struct Reconstruction
   std::vector<double> activities;
   VertexSupport support; ///< what the vertices rest on; empty if the run was cancelled
   std::vector<double> featureStrengths; ///< empty unless they were asked for
+  std::vector<float> uncertainties;     ///< likewise, or if no round of the fit is left
+  /// Part of the vertices around which views lie apart by more than error bars know, and where most.
+  double disagreeingShare = 0.;
+  Vector4 disagreement;
   RunCounts counts;
   LearningCurve curve;
   StopReason stopReason = StopReason::None;

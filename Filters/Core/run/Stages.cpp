@@ -4,6 +4,7 @@
 #include "cloud/MeshBuilder.h"
 #include "cloud/RepeatedPoints.h"
 #include "fit/CreaseRefinement.h"
+#include "fit/Uncertainty.h"
 #include "learn/SequentialLearner.h"
 #include "mesh/QuadricSimplification.h"
 #include "mesh/SmallPieces.h"
@@ -63,6 +64,14 @@ double densityExponent(const Parameters& parameters, const Mesh& first)
     return UsualDensityExponent;
   }
   return first.isOpen() ? DensityExponentIfOpen : 0.;
+}
+
+/// Of the points of what is fitted.
+PointViews viewsOf(const PointCloud& cloud, const OrientationHints& hints)
+{
+  return hints.viewOf && !cloud.origins().empty() ? [&](std::size_t point)
+  { return hints.viewOf(cloud.origins()[point]); }
+                                                  : PointViews();
 }
 
 /// Of length 1; 0 if it tells nothing.
@@ -138,6 +147,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
     .fidelity = parameters.fidelity,
     .keepsPlaces = parameters.computeFeatureStrength,
     .smoothness = parameters.fitSmoothness,
+    .tellsSmoothness = parameters.computeUncertainty,
     .samplesPerVertex = parameters.fitSamples,
     .gaps = gaps,
     .closedOutline = parameters.closeHolesBelow / cloud.unit(),
@@ -158,9 +168,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const PointNormals normalOf = hints.normalOf && !fitted.origins().empty() ? [&](std::size_t point)
   { return givenDirection(hints.normalOf(fitted.origins()[point])); }
                                                                             : PointNormals();
-  const PointViews viewOf = hints.viewOf && !fitted.origins().empty() ? [&](std::size_t point)
-  { return hints.viewOf(fitted.origins()[point]); }
-                                                                      : PointViews();
+  const PointViews viewOf = viewsOf(fitted, hints);
   Finish finish(fitted, learnt.mesh, plan, executor, normalOf, viewOf);
   if (!finish.run(partOf(progress, 0., endOfFirst)))
   {
@@ -184,6 +192,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   report.repaired = finishSimplified.report().repaired;
   report.left = finishSimplified.report().left;
   report.heldVertices = finishSimplified.report().heldVertices;
+  report.smoothnessOfVertices = finishSimplified.report().smoothnessOfVertices;
   return report;
 }
 
@@ -193,6 +202,32 @@ bool refineFinished(LearntMesh& learnt, const PointCloud& cloud, const Parameter
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
   return refineBesideCreases(once ? *once : cloud, learnt.mesh, vertexCount, parameters.fitSamples,
     report, executor, progress);
+}
+
+bool tellUncertainty(LearntMesh& learnt, const PointCloud& cloud, const Parameters& parameters,
+  Reconstruction& result, const Progress& progress, const Executor& executor,
+  const OrientationHints& hints)
+{
+  const std::optional<PointCloud> once = withoutRepetitions(cloud);
+  const PointCloud& fitted = once ? *once : cloud;
+  const UncertaintyPlan plan{ .samples = std::size_t(
+                                parameters.fitSamples * double(learnt.mesh.vertexCount())),
+    .seed = std::uint64_t(parameters.seed) };
+  Uncertainty uncertainty(
+    fitted, learnt.mesh, *result.finish, plan, executor, viewsOf(fitted, hints));
+  if (!uncertainty.run(progress))
+  {
+    return false;
+  }
+  if (uncertainty.isTold())
+  {
+    learnt.uncertainty = learnt.mesh.addProperty(0.f, OnSplit::Copy);
+    std::copy(uncertainty.deviations().begin(), uncertainty.deviations().end(),
+      learnt.mesh.values(*learnt.uncertainty).begin());
+    result.disagreeingShare = uncertainty.disagreement().share;
+    result.disagreement = uncertainty.disagreement().place;
+  }
+  return true;
 }
 
 void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
@@ -207,6 +242,13 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
   {
     const auto strengths = learnt.mesh.values(*learnt.featureStrength);
     result.featureStrengths.assign(strengths.begin(), strengths.end());
+  }
+  if (learnt.uncertainty)
+  {
+    const auto deviations = learnt.mesh.values(*learnt.uncertainty);
+    result.uncertainties.resize(deviations.size());
+    std::transform(deviations.begin(), deviations.end(), result.uncertainties.begin(),
+      [&](float deviation) { return float(double(deviation) * cloud.unit()); });
   }
   if (all)
   {

@@ -62,6 +62,15 @@ bool refineFinished(LearntMesh& learnt, const PointCloud& cloud, const Parameter
   std::size_t vertexCount, FinishReport& report, const Progress& progress,
   const Executor& executor = Executor::sequential());
 
+/// Of the progress of finish() and tellUncertainty().
+inline constexpr double PartBeforeUncertainty = 0.7;
+
+/// Tells each vertex of what is finished, as `result` has it, how far it may be off; see Uncertainty.h. Nothing is told
+/// if no round of the fit is left. Returns false if it was ended before.
+bool tellUncertainty(LearntMesh& learnt, const PointCloud& cloud, const Parameters& parameters,
+  Reconstruction& result, const Progress& progress,
+  const Executor& executor = Executor::sequential(), const OrientationHints& hints = {});
+
 /// Turns the mesh to its outer side, and adds to `result` all that a user gets of it. Its quality is
 /// measured by `all` points, if there are any.
 void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,

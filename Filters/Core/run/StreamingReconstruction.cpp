@@ -256,8 +256,14 @@ Reconstruction StreamingReconstruction::mesh(
     const std::size_t vertices = learner_->hasAllVertices()
       ? std::size_t(parameters_.numberOfVertices)
       : learnt.mesh.vertexCount();
-    result.finish = finish(learnt, *cloud_, parameters_, gaps_, vertices, progress);
-    result.stopReason = result.finish ? StopReason::None : StopReason::Cancelled;
+    const bool isTold = parameters_.computeUncertainty;
+    const double endOfFit = isTold ? PartBeforeUncertainty : 1.;
+    result.finish =
+      finish(learnt, *cloud_, parameters_, gaps_, vertices, partOf(progress, 0., endOfFit));
+    const bool isDone = result.finish &&
+      (!isTold ||
+        tellUncertainty(learnt, *cloud_, parameters_, result, partOf(progress, endOfFit, 1.)));
+    result.stopReason = isDone ? StopReason::None : StopReason::Cancelled;
   }
   OrientationHints allHints{ hints.viewpoints, {}, {}, hints.up };
   if (!directions_.empty())

@@ -278,6 +278,7 @@ private:
     parameters.targetCloudDistance = 0.;
     parameters.targetNormalChange = 0.;
     parameters.timeLimit = 0.;
+    parameters.computeUncertainty = false;
     return parameters;
   }
 

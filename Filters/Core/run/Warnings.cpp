@@ -29,6 +29,8 @@ constexpr double MostScattered = 0.5;
 /// Of the triangles.
 constexpr double MostSlivers = 0.002;
 constexpr double WholeArea = 0.999;
+/// Of the vertices.
+constexpr double MostDisagreeing = 0.02;
 /// Named in one sentence; the others are counted.
 constexpr std::size_t MostPiecesNamed = 2;
 /// What is no farther from the mesh than this part of an edge is there, but coarse.
@@ -216,6 +218,37 @@ void warnOfSharedNoise(const FinishReport& finish, double unit, std::vector<std:
   }
 }
 
+void warnOfMissingBars(const Reconstruction& result, std::vector<std::string>& warnings)
+{
+  if (result.uncertainties.empty())
+  {
+    warnings.push_back("The mesh has no error bars: " +
+      std::string(result.finish
+          ? "all rounds of the fit were taken back, and they are those of the fit."
+          : "the run ended before its fit. More time, or none of the rules that end a run early, "
+            "may help."));
+  }
+}
+
+/// Without views, what lies between two layers is all that tells it.
+void warnOfShortBars(
+  const Reconstruction& result, const PointCloud& cloud, std::vector<std::string>& warnings)
+{
+  const bool isBetween = result.finish && result.finish->shareBetweenLayers > MostBetweenLayers;
+  if (result.disagreeingShare > MostDisagreeing)
+  {
+    warnings.push_back("Views lie apart by more than was estimated at " +
+      percent(result.disagreeingShare) + " of the vertices, as around " +
+      placeText(cloud.toInput(result.disagreement), cloud) +
+      ": error bars are too short there. Views can be registered anew.");
+  }
+  else if (isBetween && !result.uncertainties.empty())
+  {
+    warnings.push_back("Where the mesh lies between two layers of points, error bars are too "
+                       "short: they take what is between for the surface.");
+  }
+}
+
 void warnOfSlivers(const SurfaceReport& surface, std::vector<std::string>& warnings)
 {
   const double share =
@@ -348,6 +381,11 @@ std::vector<std::string> warningsOf(
     warnOfTurnedParts(result.quality->turnedShare, warnings);
     warnOfHandles(result.quality->narrowHandles, cloud, warnings);
     warnOfVertices(result, cloud, warnings);
+  }
+  if (parameters.computeUncertainty && result.stopReason != StopReason::Cancelled)
+  {
+    warnOfMissingBars(result, warnings);
+    warnOfShortBars(result, cloud, warnings);
   }
   if (result.finish)
   {

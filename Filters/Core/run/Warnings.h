@@ -22,6 +22,9 @@ namespace neuralmesh
 /// - the mesh has stopped growing below the size that was asked for;
 /// - the mesh is finer than its data: it has more vertices than every second point;
 /// - the fit was taken back: with it the mesh had a larger residual, lost points, or intersected;
+/// - error bars were asked for, and there are none: the run ended before its fit, or took all of that back;
+/// - views lie apart by more than error bars know around more than 2 % of the vertices, or the mesh lies between two
+///   layers of points, so that they are too short;
 /// - nothing tells the outer side of pieces with more than a thousandth of the area, unless they are one
 ///   piece of all: that agrees with itself, and can be turned as a whole;
 /// - parts look to opposite sides where they face each other across openings;

@@ -205,6 +205,62 @@ TEST(FitSystem, SolvesTheDenseSystem)
   }
 }
 
+// In place of what samples pull to and of bends of 0, others may be given: the matrix stays.
+TEST(FitSystem, SolvesForOtherPullsAndBends)
+{
+  Random random(8);
+  constexpr double Lambda = 30.;
+  for (const Mesh& mesh : meshes())
+  {
+    const std::vector<Sample> samples = makeSamples(mesh, 400, random);
+    const auto n = Eigen::Index(mesh.indexEnd());
+    FitSystem system(mesh, 1.);
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n), right = Eigen::MatrixXd::Zero(n, 3);
+    std::vector<float> parts;
+    std::vector<Vector4> bends;
+    Eigen::MatrixXd denseBends(n, 3);
+    Eigen::VectorXd smoothness(n);
+    for (Eigen::Index v = 0; v < n; ++v)
+    {
+      parts.push_back(float(0.2 + random.uniform()));
+      bends.push_back(randomPoint(random));
+      denseBends.row(v) = bends.back().toDouble();
+      smoothness[v] = mesh.isBoundary(VertexIndex(v)) ? FitSystem::MostBoundarySmoothness
+                                                      : Lambda * double(parts.back());
+    }
+    for (const Sample& sample : samples)
+    {
+      system.add(sample.place, sample.point, Vector4(), sample.weight);
+    }
+    system.clearPulls();
+    for (const Sample& sample : samples)
+    {
+      const Vector4 pull = randomPoint(random);
+      system.addPull(sample.place, pull);
+      Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+      for (int i = 0; i < 3; ++i)
+      {
+        b[Eigen::Index(sample.place.triangle[std::size_t(i)])] += double(sample.place.weights[i]);
+      }
+      matrix += double(sample.weight) * b * b.transpose();
+      right += b * pull.toDouble().transpose();
+    }
+    system.setSmoothnessParts(parts);
+    system.addBends(Lambda, bends);
+    const Eigen::MatrixXd laplacian = denseLaplacian(mesh);
+    const Eigen::MatrixXd smooth = laplacian.transpose() * smoothness.asDiagonal();
+    const Eigen::MatrixXd expected =
+      (matrix + smooth * laplacian).ldlt().solve(right + smooth * denseBends);
+    std::vector<Vector4> x(mesh.indexEnd());
+    double scale = 0.;
+    ASSERT_TRUE(system.solve(Lambda, 1e-6, scale, x, goOn));
+    for (Eigen::Index v = 0; v < n; ++v)
+    {
+      EXPECT_LT((x[std::size_t(v)].toDouble() - expected.row(v).transpose()).norm(), 1e-3);
+    }
+  }
+}
+
 // A triangle so small that dividing by the square of its normal is beyond all numbers counts as one
 // without a plane, and does the rest of the system no harm.
 TEST(FitSystem, TinyNormalsAreNone)

@@ -41,6 +41,7 @@ const Values Published = {
   { "ChangeWindow", 1000 },
   { "GainLimit", 10 },
   { "ComputeFeatureStrength", 0 },
+  { "ComputeUncertainty", 0 },
   { "FeatureMemory", 0.995 },
   { "FeatureSamples", 400 },
   { "SamplesPerAddition", 50 },

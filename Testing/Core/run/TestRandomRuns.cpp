@@ -92,6 +92,7 @@ std::string bytesOf(const Reconstruction& run)
   append(bytes, run.normals);
   append(bytes, run.activities);
   append(bytes, run.featureStrengths);
+  append(bytes, run.uncertainties);
   return bytes;
 }
 
@@ -124,6 +125,8 @@ void expectSound(const Reconstruction& run, std::size_t mostVertices, bool hasFe
     [](const Eigen::Vector3d& normal) { return normal.allFinite(); }));
   expectFinite(run.activities);
   expectFinite(run.featureStrengths);
+  EXPECT_TRUE(run.uncertainties.empty() || run.uncertainties.size() == vertices);
+  expectFinite({ run.uncertainties.begin(), run.uncertainties.end() });
   if (run.finish)
   {
     expectFinite({ run.finish->noise, run.finish->smoothness, run.finish->outlierShare });
@@ -155,6 +158,7 @@ Parameters parametersOfRun(AnyChoice& choice)
   parameters.earlyPatience = 1.;
   parameters.smoothingIterations = int(choice.below(3));
   parameters.featureSamples = std::min(parameters.featureSamples, 10.);
+  parameters.computeUncertainty = choice.isOneOf(3);
   return parameters;
 }
 

@@ -119,6 +119,7 @@ def _filter_of(options: argparse.Namespace) -> Any:
     mesh.SetFidelity(options.fidelity)
     mesh.SetKeepPieces(options.keep_pieces)
     mesh.SetComputeFeatureStrength(options.features)
+    mesh.SetComputeUncertainty(options.uncertainty)
     mesh.SetPreset(options.preset)
     mesh.SetAutomatic(options.automatic)
     mesh.SetExplainPoints(bool(options.explain))
@@ -200,10 +201,12 @@ def _require_sound_files(options: argparse.Namespace, mesh: Any) -> None:
         ]
     )
     require_output(options.output)
-    if options.features and files.extension_of(options.output) not in (".vtp", ".vtk"):
-        raise UsageError(
-            f"--features: {options.output} must be a .vtp or .vtk; no other format keeps it"
-        )
+    keeps_arrays = files.extension_of(options.output) in (".vtp", ".vtk")
+    for name, is_wanted in (("--features", options.features), ("--uncertainty", options.uncertainty)):
+        if is_wanted and not keeps_arrays:
+            raise UsageError(
+                f"{name}: {options.output} must be a .vtp or .vtk; no other format keeps it"
+            )
     _engine.require_place(options.output)
     if options.statistics:
         if files.extension_of(options.statistics) != ".csv":

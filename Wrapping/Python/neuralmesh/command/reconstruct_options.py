@@ -192,6 +192,11 @@ def _add_run(result: Parser) -> None:
         "--features",
         "Give each vertex its FeatureStrength, high at edges and corners; OUTPUT must be .vtp or .vtk",
     )
+    result.add_flag(
+        "--uncertainty",
+        "Give each vertex its Uncertainty, how far it may be off, in units of INPUT; OUTPUT must be .vtp or "
+        ".vtk",
+    )
     result.add_number(
         "--time-limit", "TimeLimit",
         f"Learn for so many seconds at most, {described('TimeLimit')}, and write the mesh learnt so "

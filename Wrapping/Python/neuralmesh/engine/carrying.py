@@ -11,7 +11,7 @@ from .cloud import Cloud
 from .mesh import Mesh
 
 _BEGIN, _FOUND = 0.95, 0.975  # of the progress
-_TAKEN = ("Normals", "Activity", "FeatureStrength", "Crease", "Boundary", "Residual", "Support")
+_TAKEN = ("Normals", "Activity", "FeatureStrength", "Crease", "Boundary", "Residual", "Support", "Uncertainty")
 _NO_LABEL = 2**32 - 1
 
 

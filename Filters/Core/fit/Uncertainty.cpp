@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/Uncertainty.h"
+
+#include "base/Median.h"
+#include "base/Random.h"
+#include "fit/FitSystem.h"
+#include "mesh/UmbrellaLaplacian.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace neuralmesh
+{
+namespace
+{
+// Draws
+/// Streams of random numbers, for each draw: of samples, and of bends.
+constexpr std::uint64_t StreamOfSamples = 20;
+constexpr std::uint64_t StreamOfBends = 21;
+/// Each solution of the equations has three draws, one in each coordinate.
+constexpr int Solutions = 6;
+/// Of the residual of the equations.
+constexpr double ToleranceOfDraws = 1e-2;
+/// The variance is a mean over so many rings.
+constexpr int RingsOfVariance = 1;
+
+// Noise
+/// That of the samples in so many rings, and of so many of all the cloud.
+constexpr int RingsOfNoise = 4;
+constexpr double SamplesOfAll = 1.;
+
+// What smoothness takes
+/// Where a vertex has this part of the usual samples, they tell how the surface bends: bends have so much left of the
+/// variance by lambda. Where it has none they have more than that: bends of a gap are alike.
+constexpr float EnoughSamples = 0.5f;
+constexpr float PartOfBendsTold = 0.05f;
+constexpr float TimesOfBendsUntold = 2.f;
+/// What smoothness would take once more is less than what it took, and is a mean over so many rings.
+constexpr float TimesOfBias = 2.75f;
+constexpr int RingsOfBias = 3;
+
+/// Vertices on a clean cloud lie outside of a bend, so that triangles lie on either side of it, by this part of L x:
+/// exactly that where six equal triangles lie in a sphere.
+constexpr float PartOfBendsOutside = 0.25f;
+
+// Views
+/// Samples of a view count over so many rings, which have about as many times the samples of a vertex.
+constexpr int RingsOfViews = 6;
+constexpr float VerticesOfViews = 37.f;
+/// Of the variance that views share, where it is not known which view sees what: two or three see it.
+constexpr float PartIfUnknown = 0.4f;
+constexpr std::size_t MostViews = 256;
+/// Samples of a view around a vertex, at least, that tell where it lies.
+constexpr float LeastOfViewAround = 3.f;
+/// By so many times the variance that is expected, views lie apart by more than what is told of them.
+constexpr float TimesExpected = 4.f;
+
+/// Of the time.
+constexpr double PartOfUncertainPlaces = 0.3;
+
+/// Three signs by chance: of all numbers with a variance of 1, these tell a variance best.
+Vector4 signsOf(const Random& random, std::uint64_t index)
+{
+  const std::uint64_t bits = random.ahead(index).next();
+  const auto sign = [&](int bit) { return ((bits >> bit) & 1u) != 0 ? 1.f : -1.f; };
+  return { sign(63), sign(62), sign(61) };
+}
+}
+
+Uncertainty::Uncertainty(const PointCloud& cloud, Mesh& mesh, const FinishReport& report,
+  const UncertaintyPlan& plan, const Executor& executor, const PointViews& viewOf)
+  : mesh_(mesh)
+  , report_(report)
+  , plan_(plan)
+  , executor_(executor)
+  , fit_(cloud, mesh, plan.samples, executor, {},
+      viewOf ? PointViews(
+                 [&](std::size_t point)
+                 {
+                   // The fit asks for each of its samples.
+                   views_.push_back(viewOf(point));
+                   return views_.back();
+                 })
+             : PointViews())
+{
+}
+
+bool Uncertainty::run(const Progress& progress)
+{
+  if (!report_.smoothnessOfVertices || !(report_.smoothness > 0.))
+  {
+    return true;
+  }
+  if (!findPlaces(partOf(progress, 0., PartOfUncertainPlaces)))
+  {
+    return false;
+  }
+  measureNoise();
+  measureBends();
+  const Progress solving = partOf(progress, PartOfUncertainPlaces, 1.);
+  constexpr double EndOfDraws = double(Solutions) / (Solutions + 1);
+  FitSystem system = systemOfFit();
+  if (!addDraws(system, partOf(solving, 0., EndOfDraws)) ||
+    !addBias(system, partOf(solving, EndOfDraws, 1.)))
+  {
+    return false;
+  }
+  addCoarseness();
+  addSharedNoise();
+  deviations_.resize(variances_.size());
+  std::transform(variances_.begin(), variances_.end(), deviations_.begin(),
+    [](float variance) { return std::sqrt(variance); });
+  return true;
+}
+
+bool Uncertainty::findPlaces(const Progress& progress)
+{
+  // On the layers that face the samples, and then where they are closest.
+  fit_.findExactly();
+  return fit_.findPlaces(partOf(progress, 0., 0.6)) && fit_.findPlaces(partOf(progress, 0.6, 1.));
+}
+
+/// Calls `body(sample, place, weight)` for the samples that are used, but for those beyond boundaries.
+template <typename Body>
+void Uncertainty::forEachWithin(const Body& body) const
+{
+  const PlacedSamples samples = fit_.placedSamples();
+  for (std::size_t i = 0; i < samples.points.size(); ++i)
+  {
+    if (samples.isUsed[i] != 0 && !isOnBoundary(samples.places[i], mesh_))
+    {
+      body(i, samples.places[i], samples.weight(i));
+    }
+  }
+}
+
+/// The noise of all is that of the fit, which knows what vertices have followed of it.
+void Uncertainty::measureNoise()
+{
+  std::vector<float> squares(mesh_.indexEnd()), loads(mesh_.indexEnd());
+  double sum = 0., count = 0.;
+  forEachWithin(
+    [&](std::size_t, const PlaceOnMesh& place, float weight)
+    {
+      sum += double(weight) * double(place.squaredDistance);
+      count += double(weight);
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        const float share = weight * place.weights[corner];
+        squares[place.triangle[std::size_t(corner)]] += share * place.squaredDistance;
+        loads[place.triangle[std::size_t(corner)]] += share;
+      }
+    });
+  const double mean = count > 0. ? sum / count : 0.;
+  const double factor = mean > 0. ? report_.noise * report_.noise / mean : 1.;
+  spread(squares, RingsOfNoise);
+  spread(loads, RingsOfNoise);
+  noise_.resize(squares.size());
+  for (std::size_t v = 0; v < noise_.size(); ++v)
+  {
+    const double around =
+      (double(squares[v]) + SamplesOfAll * mean) / (double(loads[v]) + SamplesOfAll);
+    noise_[v] = float(std::sqrt(factor * around));
+  }
+}
+
+/// By the lambda of each vertex, for edges of the usual length: longer ones bend more, by their square.
+void Uncertainty::measureBends()
+{
+  const std::span<const float> smoothness = mesh_.values(*report_.smoothnessOfVertices);
+  std::vector<float> edges(mesh_.indexEnd()), loads(mesh_.indexEnd());
+  for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
+  {
+    for (const VertexIndex neighbor : mesh_.ring(v))
+    {
+      edges[v] += squaredNorm(mesh_.position(neighbor) - mesh_.position(v));
+    }
+    edges[v] /= float(mesh_.valence(v));
+  }
+  double sum = 0.;
+  forEachWithin(
+    [&](std::size_t, const PlaceOnMesh& place, float weight)
+    {
+      sum += double(weight);
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        loads[place.triangle[std::size_t(corner)]] += weight * place.weights[corner];
+      }
+    });
+  const float usual = medianOf(edges, executor_);
+  const float enough = EnoughSamples * float(sum / double(mesh_.vertexCount()));
+  bends_.resize(edges.size());
+  for (std::size_t v = 0; v < bends_.size(); ++v)
+  {
+    const float told = enough > 0.f ? std::min(1.f, loads[v] / enough) : 0.f;
+    const float part = told * PartOfBendsTold + (1.f - told) * TimesOfBendsUntold;
+    const float longer = usual > 0.f ? edges[v] / usual : 1.f;
+    bends_[v] = smoothness[v] > 0.f ? std::sqrt(part / smoothness[v]) * noise_[v] * longer : 0.f;
+  }
+}
+
+/// Across the surface, for each coordinate of what is solved alike.
+FitSystem Uncertainty::systemOfFit() const
+{
+  FitSystem system(mesh_, 1., executor_);
+  const std::span<const float> smoothness = mesh_.values(*report_.smoothnessOfVertices);
+  std::vector<float> parts(smoothness.size());
+  std::transform(smoothness.begin(), smoothness.end(), parts.begin(),
+    [&](float lambda) { return lambda / float(report_.smoothness); });
+  system.setSmoothnessParts(parts);
+  const PlacedSamples samples = fit_.placedSamples();
+  for (std::size_t i = 0; i < samples.points.size(); ++i)
+  {
+    if (samples.isUsed[i] != 0)
+    {
+      system.add(samples.places[i], Vector4(), Vector4(), samples.weight(i));
+    }
+  }
+  return system;
+}
+
+bool Uncertainty::addDraws(FitSystem& system, const Progress& progress)
+{
+  variances_.assign(mesh_.indexEnd(), 0.f);
+  double scale = 0.;
+  for (int draw = 0; draw < Solutions; ++draw)
+  {
+    system.clearPulls();
+    drawPulls(system, std::uint64_t(draw));
+    std::vector<Vector4> drawn(mesh_.indexEnd());
+    if (!system.solve(report_.smoothness, ToleranceOfDraws, scale, drawn,
+          partOf(progress, double(draw) / Solutions, double(draw + 1) / Solutions)))
+    {
+      return false;
+    }
+    for (std::size_t v = 0; v < drawn.size(); ++v)
+    {
+      variances_[v] += squaredNorm(drawn[v]) / float(3 * Solutions);
+    }
+  }
+  spread(variances_, RingsOfVariance);
+  return true;
+}
+
+/// What samples and bends are off by chance.
+void Uncertainty::drawPulls(FitSystem& system, std::uint64_t draw) const
+{
+  const PlacedSamples samples = fit_.placedSamples();
+  const Random ofSamples(plan_.seed, StreamOfSamples + 2 * draw);
+  const Random ofBends(plan_.seed, StreamOfBends + 2 * draw);
+  for (std::size_t i = 0; i < samples.points.size(); ++i)
+  {
+    if (samples.isUsed[i] != 0)
+    {
+      const PlaceOnMesh& place = samples.places[i];
+      const float noise = place.weights[0] * noise_[place.triangle[0]] +
+        place.weights[1] * noise_[place.triangle[1]] + place.weights[2] * noise_[place.triangle[2]];
+      system.addPull(place, std::sqrt(samples.weight(i)) * noise * signsOf(ofSamples, i));
+    }
+  }
+  std::vector<Vector4> bends(mesh_.indexEnd());
+  for (std::size_t v = 0; v < bends.size(); ++v)
+  {
+    bends[v] = bends_[v] * signsOf(ofBends, v);
+  }
+  system.addBends(report_.smoothness, bends);
+}
+
+/// What the equations would take from the surface once more, if it were the samples.
+bool Uncertainty::addBias(FitSystem& system, const Progress& progress)
+{
+  std::vector<Vector4> laplacian(mesh_.indexEnd()), taken(mesh_.indexEnd());
+  applyUmbrella<float>(mesh_, mesh_.positions(), std::span(laplacian), 0, laplacian.size());
+  system.clearPulls();
+  system.addBends(report_.smoothness, laplacian);
+  double scale = 0.;
+  if (!system.solve(report_.smoothness, ToleranceOfDraws, scale, taken, progress))
+  {
+    return false;
+  }
+  std::vector<float> squares(mesh_.indexEnd());
+  for (VertexIndex v = 0; v < squares.size(); ++v)
+  {
+    const float across = acrossAt(v, taken[v]);
+    squares[v] = across * across;
+  }
+  spread(squares, RingsOfBias);
+  for (std::size_t v = 0; v < squares.size(); ++v)
+  {
+    variances_[v] += TimesOfBias * squares[v];
+  }
+  return true;
+}
+
+/// Under noise the draws have that already.
+void Uncertainty::addCoarseness()
+{
+  for (VertexIndex v = 0; v < mesh_.indexEnd() && report_.isClean; ++v)
+  {
+    const float outside =
+      PartOfBendsOutside * acrossAt(v, umbrella<float>(mesh_, mesh_.positions(), v));
+    variances_[v] += outside * outside;
+  }
+}
+
+/// As many errors as there are views around a vertex, each as much as the view has samples there. And what lies apart
+/// by more than such errors is told.
+void Uncertainty::addSharedNoise()
+{
+  const auto sharedByAll = float(report_.sharedNoise * report_.sharedNoise);
+  // No more than there is of all noise.
+  const auto sharedAt = [&](std::size_t v) { return std::min(sharedByAll, noise_[v] * noise_[v]); };
+  const auto own = float(report_.ownNoise * report_.ownNoise);
+  std::vector<std::uint32_t> seen;
+  std::copy_if(views_.begin(), views_.end(), std::back_inserter(seen),
+    [](std::uint32_t view) { return view != UnknownView; });
+  std::sort(seen.begin(), seen.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+  if (seen.empty() || seen.size() > MostViews)
+  {
+    for (std::size_t v = 0; v < variances_.size(); ++v)
+    {
+      variances_[v] += PartIfUnknown * sharedAt(v);
+    }
+    return;
+  }
+  const std::size_t end = mesh_.indexEnd();
+  const PlacedSamples samples = fit_.placedSamples();
+  std::vector<float> counts(end), squaredCounts(end), views(end), sums(end), squares(end);
+  for (const std::uint32_t view : seen)
+  {
+    std::vector<float> count(end), sum(end);
+    forEachWithin(
+      [&](std::size_t i, const PlaceOnMesh& place, float)
+      {
+        const Vector4 normal = normalAt(place, mesh_.positions());
+        const float length = std::sqrt(squaredNorm(normal));
+        if (views_[i] == view && length > 0.f)
+        {
+          const float across =
+            dot(samples.points[i] - mesh_.position(place.triangle[0]), normal) / length;
+          for (int corner = 0; corner < 3; ++corner)
+          {
+            count[place.triangle[std::size_t(corner)]] += place.weights[corner];
+            sum[place.triangle[std::size_t(corner)]] += place.weights[corner] * across;
+          }
+        }
+      });
+    spread(count, RingsOfViews);
+    spread(sum, RingsOfViews);
+    for (std::size_t v = 0; v < end; ++v)
+    {
+      if (VerticesOfViews * count[v] > LeastOfViewAround)
+      {
+        counts[v] += count[v];
+        squaredCounts[v] += count[v] * count[v];
+        views[v] += 1.f;
+        sums[v] += sum[v];
+        squares[v] += sum[v] * sum[v] / count[v];
+      }
+    }
+  }
+  float most = 0.f;
+  double disagreeing = 0.;
+  for (VertexIndex v = 0; v < end; ++v)
+  {
+    const float n = counts[v];
+    const float alike = n > 0.f ? squaredCounts[v] / (n * n) : 1.f;
+    variances_[v] += alike * sharedAt(v);
+    if (views[v] > 1.f)
+    {
+      // Of the means of views about that of all.
+      const float apart = squares[v] / n - sums[v] * sums[v] / (n * n);
+      const float expected =
+        (1.f - alike) * sharedByAll + (views[v] - 1.f) * own / (VerticesOfViews * n);
+      const float times = expected > 0.f ? apart / expected : 0.f;
+      disagreeing += times > TimesExpected ? 1. : 0.;
+      if (times > most)
+      {
+        most = times;
+        disagreement_.place = mesh_.position(v);
+      }
+    }
+  }
+  disagreement_.share = disagreeing / double(mesh_.vertexCount());
+}
+
+/// Of a vector at a vertex, what is across the surface.
+float Uncertainty::acrossAt(VertexIndex v, Vector4 vector) const
+{
+  const Vector4 normal = mesh_.normal(v);
+  const float length = std::sqrt(squaredNorm(normal));
+  return length > 0.f ? dot(vector, normal) / length : 0.f;
+}
+
+/// Each value becomes a mean of those around it.
+void Uncertainty::spread(std::vector<float>& values, int rings) const
+{
+  constexpr std::size_t VerticesPerRange = 4096;
+  std::vector<float> next(values.size());
+  for (int ring = 0; ring < rings; ++ring)
+  {
+    executor_.forEachRange(values.size(), VerticesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (auto v = VertexIndex(begin); v < end; ++v)
+        {
+          float sum = values[v];
+          for (const VertexIndex neighbor : mesh_.ring(v))
+          {
+            sum += values[neighbor];
+          }
+          next[v] = sum / float(1 + mesh_.valence(v));
+        }
+      });
+    values.swap(next);
+  }
+}
+}
