@@ -22,7 +22,7 @@ std::vector<std::size_t> heldOutPoints(const PointCloud& cloud, std::size_t most
 enum class DistanceTo
 {
   Surface,
-  ClosestVertex ///< its triangles alone: where another is closer, the mesh lies ill there
+  TrianglesAtClosestVertex ///< alone: where another is closer, the mesh lies ill there
 };
 
 /// The squared distance of each of these points to the mesh, of which no vertex may be erased.

@@ -158,7 +158,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   {
     // The rounds of the fidelity would be of the larger mesh.
     plan.fidelity = Fidelity::Draft;
-    plan.residualTo = DistanceTo::ClosestVertex;
+    plan.residualTo = DistanceTo::TrianglesAtClosestVertex;
   }
   // Where no vertices go to creases afterwards, one more brings them there that lie near.
   plan.rounds += plan.rounds > 0 && (isSimplified || plan.keepsPlaces) ? 1 : 0;
