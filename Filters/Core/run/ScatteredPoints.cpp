@@ -35,7 +35,8 @@ std::array<Vector4, 13> axesOfCube()
   std::size_t count = 0;
   for (int i = 14; i < 27; ++i)
   {
-    const Eigen::Vector3d axis(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1);
+    const Eigen::Vector3d axis =
+      Eigen::Vector3i(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1).cast<double>();
     axes[count] = Vector4(Eigen::Vector3d(axis.normalized()));
     ++count;
   }

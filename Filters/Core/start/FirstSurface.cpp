@@ -65,6 +65,10 @@ constexpr std::size_t MostLoopsOfSheet = 2;
 constexpr std::size_t LeastSamples = 6000;
 constexpr std::size_t MostSamples = 14000;
 constexpr std::uint64_t SeedOfFront = 1;
+/// So many more are tried where two of them show one surface with other handles.
+constexpr std::uint64_t FrontsAtOdds = 2;
+/// Of the area of the best one before.
+constexpr double LeastAreaOfOther = 0.999;
 /// See FrontSurface::disorder(): less is a surface without doubt. Where there is no other that is, more
 /// will do.
 constexpr double MostDisorder = 5.;
@@ -415,13 +419,23 @@ bool closesMore(const FrontSurface& apart, const FrontSurface& joined)
     BoundaryManager(apart.mesh).loopCount() < BoundaryManager(joined.mesh).loopCount();
 }
 
-/// Whether a front shows the same surface with fewer handles: those of the other one go from one layer to the next.
-bool hasFewerHandles(const FrontSurface& apart, const FrontSurface& joined)
+/// Whether two fronts show the same surface.
+bool areSame(const FrontSurface& one, const FrontSurface& other)
 {
-  return apart.disorder() < MostDisorder &&
-    areaOf(apart.mesh) >= AreaOfSame * areaOf(joined.mesh) &&
-    BoundaryManager(apart.mesh).loopCount() <= BoundaryManager(joined.mesh).loopCount() &&
-    genusOf(apart.mesh) < genusOf(joined.mesh);
+  const double area = areaOf(one.mesh), otherArea = areaOf(other.mesh);
+  return one.disorder() < MostDisorder && other.disorder() < MostDisorder &&
+    std::min(area, otherArea) >= AreaOfSame * std::max(area, otherArea);
+}
+
+/// Whether a front shows the same surface with fewer handles and loops: those of the other one go from one layer to the
+/// next.
+bool isSimpler(const FrontSurface& front, const FrontSurface& other)
+{
+  const std::size_t loops = BoundaryManager(front.mesh).loopCount();
+  const std::size_t otherLoops = BoundaryManager(other.mesh).loopCount();
+  const long genus = genusOf(front.mesh), otherGenus = genusOf(other.mesh);
+  return areSame(front, other) && loops <= otherLoops && genus <= otherGenus &&
+    (loops < otherLoops || genus < otherGenus);
 }
 
 /// The front of the candidates that agrees best with itself, if any does. Where there is a closed solid
@@ -431,27 +445,36 @@ std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const Neares
   bool mustBeCertain)
 {
   PointLayers pointLayers(nearest, std::clamp(mostVertices, LeastSamples, MostSamples));
-  std::optional<FrontSurface> best;
-  double at = 0.;
-  for (const Layers layers : { Layers::Joined, Layers::Apart })
+  const auto frontOf = [&](Layers layers, std::uint64_t seed, double begin, double end)
   {
-    auto front = frontSurface(cloud, pointLayers, layers, SeedOfFront,
-      partOf(progress, at, at + 0.5), leastPiece, mustBeCertain ? MostScatter : 1.);
-    const auto isBetter = [&]
+    return frontSurface(cloud, pointLayers, layers, seed, partOf(progress, begin, end), leastPiece,
+      mustBeCertain ? MostScatter : 1.);
+  };
+  std::optional<FrontSurface> best = frontOf(Layers::Joined, SeedOfFront, 0., 0.5);
+  const bool isWithoutDoubt =
+    best && best->disorder() < MostDisorder && best->inOneOfTwo < LeastInTwoLayers;
+  auto apart = isWithoutDoubt ? std::nullopt : frontOf(Layers::Apart, SeedOfFront, 0.5, 0.75);
+  const bool areAtOdds = best && apart && (isSimpler(*apart, *best) || isSimpler(*best, *apart));
+  const auto isBetter = [&](const FrontSurface& front)
+  {
+    return (best->disorder() >= MostDisorder && front.disorder() < best->disorder()) ||
+      showsBothLayers(front, *best) || closesMore(front, *best) || isSimpler(front, *best);
+  };
+  if (apart && (!best || isBetter(*apart)))
+  {
+    best = std::move(apart);
+  }
+  // Which of them is right in thin places is chance: others are asked.
+  for (std::uint64_t i = 1; areAtOdds && i <= FrontsAtOdds; ++i)
+  {
+    const double at = 0.75 + 0.25 * double(i - 1) / double(FrontsAtOdds);
+    auto other = frontOf(Layers::Apart, SeedOfFront + i, at, at + 0.25 / double(FrontsAtOdds));
+    // Without a limb, or one side of a blade, it would be simpler, too.
+    if (other && isSimpler(*other, *best) && genusOf(other->mesh) < genusOf(best->mesh) &&
+      areaOf(other->mesh) >= LeastAreaOfOther * areaOf(best->mesh))
     {
-      return (best->disorder() >= MostDisorder && front->disorder() < best->disorder()) ||
-        showsBothLayers(*front, *best) || closesMore(*front, *best) ||
-        hasFewerHandles(*front, *best);
-    };
-    if (front && (!best || isBetter()))
-    {
-      best = std::move(front);
+      best = std::move(other);
     }
-    if (best && best->disorder() < MostDisorder && best->inOneOfTwo < LeastInTwoLayers)
-    {
-      break;
-    }
-    at = 0.5;
   }
   if (!progress(1.))
   {
