@@ -40,7 +40,7 @@ test_unknown()
 {
   make_sheet
   expect 0 "$neuralmesh" reconstruct sheet.xyz mesh.obj --vertices 200
-  grep -q '^sides      unknown$' out || { cat out; fail "the report does not say so"; }
+  grep -q '^sides      unknown, most looks up' out || { cat out; fail "the report does not say so"; }
   [ ! -s err ] || { cat err; fail "there is a warning"; }
 }
 
@@ -59,7 +59,7 @@ test_given()
     looks $up normals sheet.ply --normals Normals
     looks $up 'up direction' sheet.ply --normals off --up 0,0,$side
     expect 0 "$neuralmesh" reconstruct sheet.ply mesh.obj --vertices 200 --normals off
-    grep -q '^sides      unknown$' out || { cat out; fail "normals count that are off"; }
+    grep -q '^sides      unknown, most looks up' out || { cat out; fail "normals count that are off"; }
     mv mesh.obj off.obj
     sed 's/ 0 0 [-1]*$//; /float n/d' sheet.ply > plain.ply
     expect 0 "$neuralmesh" reconstruct plain.ply mesh.obj --vertices 200

@@ -42,9 +42,11 @@ vtkNew<vtkPolyData> TwoSpheres(
   return cloud;
 }
 
-vtkNew<vtkNeuralMesh> Run(vtkDataObject* input, const char* weights)
+vtkNew<vtkNeuralMesh> Run(
+  vtkDataObject* input, const char* weights, int start = vtkNeuralMesh::OCCUPIED_SPACE)
 {
   vtkNew<vtkNeuralMesh> filter;
+  filter->SetStart(start);
   filter->SetNumberOfVertices(Vertices);
   filter->SetCarryPointData(0);
   filter->SetWeightArrayName(weights);
@@ -102,11 +104,12 @@ int CheckZero()
 
 int CheckRatio()
 {
-  // Between two close surfaces the mesh lies where the weights have it.
+  // Between two close surfaces a mesh that does not begin with both lies where the weights have it.
   constexpr double Outer = 1.04;
-  const auto equal = Run(TwoSpheres(1.0, 1.0, Outer, { 0, 0, 0 }), "Confidence");
-  const auto inner = Run(TwoSpheres(9.0, 1.0, Outer, { 0, 0, 0 }), "Confidence");
-  const auto outer = Run(TwoSpheres(1e-5, 9e-5, Outer, { 0, 0, 0 }), "Confidence");
+  constexpr int Start = vtkNeuralMesh::TETRAHEDRON;
+  const auto equal = Run(TwoSpheres(1.0, 1.0, Outer, { 0, 0, 0 }), "Confidence", Start);
+  const auto inner = Run(TwoSpheres(9.0, 1.0, Outer, { 0, 0, 0 }), "Confidence", Start);
+  const auto outer = Run(TwoSpheres(1e-5, 9e-5, Outer, { 0, 0, 0 }), "Confidence", Start);
   CHECK(std::abs(MeanRadius(equal->GetOutput()) - 1.02) < 0.006);
   CHECK(std::abs(MeanRadius(inner->GetOutput()) - 1.004) < 0.006);
   CHECK(std::abs(MeanRadius(outer->GetOutput()) - 1.036) < 0.006);

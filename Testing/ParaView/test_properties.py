@@ -316,7 +316,7 @@ class Panel(unittest.TestCase):
     # Promise: few properties are shown at first, and those are the ones that most people need.
     def test_advanced(self):
         most = {"NumberOfVertices", "Variant", "Seed", "TimeLimit", "Boundaries", "Fidelity",
-                "TopologyLearning", "CarryPointData", "GrowthAsTime", "Automatic"}
+                "TopologyLearning", "CarryPointData", "GrowthAsTime", "Automatic", "ComputeUncertainty"}
         for name, wanted in (
             ("NeuralMesh", most),
             ("NeuralMeshEnsemble", most | {"NumberOfMembers"}),

@@ -13,7 +13,7 @@ from neuralmesh import vtkNeuralMesh
 # On which the mesh does not depend, or only by the points; the others are refused before they would
 # count.
 # Of `automatic` the values that are chosen are compared.
-FREE = {"automatic", "use_normals", "time_limit", "carry_point_data", "output_points_precision",
+FREE = {"automatic", "compute_uncertainty", "use_normals", "time_limit", "carry_point_data", "output_points_precision",
         "checkpoint_interval", "feature_angle", "keep_checkpoint", "number_of_threads", "maximum_points"}
 REFUSED_BEFORE = {"compute_feature_lines", "explain_points", "growth_as_time", "number_of_snapshots", "preset", "jump"}
 

@@ -17,6 +17,8 @@ namespace
 constexpr std::size_t CentersAsked = 200;
 /// More would cost more, and tell the same.
 constexpr std::size_t MostPoints = 200000;
+/// Of fewer the smallest ball holds a large part, and tells nothing.
+constexpr std::size_t FewestPointsThatTell = 200;
 /// In the smallest ball that is looked at.
 constexpr std::size_t PointsInBall = 16;
 constexpr float GrowthOfBall = 1.5f;
@@ -103,7 +105,7 @@ bool isScattered(const NearestPoints& nearest, Vector4 center)
 double scatteredShare(const PointCloud& cloud, const Executor& executor)
 {
   const std::size_t all = cloud.points().size();
-  if (all == 0)
+  if (all < FewestPointsThatTell)
   {
     return 0.;
   }
