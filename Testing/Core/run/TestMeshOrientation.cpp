@@ -203,7 +203,7 @@ TEST(MeshOrientation, SheetsAreUnknown)
       EXPECT_EQ(report.main(), SideEvidence::Nothing);
     }
   }
-  const TriangleMesh wall = placed(makeGrid(8), upright(), {});
+  const TriangleMesh wall = placed(makeGrid(8), upright(), Eigen::Vector3d::Zero());
   for (const bool isTurned : { false, true })
   {
     Scene scene(isTurned ? turned(wall) : wall);
@@ -425,7 +425,8 @@ TEST(MeshOrientation, FacesOfABoxAgree)
   {
     const Eigen::AngleAxisd around(side * std::numbers::pi / 2., Eigen::Vector3d::UnitZ());
     const Eigen::AngleAxisd down(std::numbers::pi / 2., Eigen::Vector3d::UnitX());
-    const TriangleMesh wall = placed(face, (around * down).toRotationMatrix(), {});
+    const TriangleMesh wall =
+      placed(face, (around * down).toRotationMatrix(), Eigen::Vector3d::Zero());
     append(side % 2 == 0 ? wall : turned(wall), box);
   }
   Scene scene(box);
@@ -502,7 +503,7 @@ TEST(MeshOrientation, StrangersStayAsTheyAre)
   for (const Eigen::Vector3d& shift :
     { Eigen::Vector3d(0., 0.1, 0.), Eigen::Vector3d(1.6, 0., 0.) })
   {
-    TriangleMesh sheets = placed(makeGrid(8), upright(), {});
+    TriangleMesh sheets = placed(makeGrid(8), upright(), Eigen::Vector3d::Zero());
     append(placed(turned(makeGrid(8)), upright(), shift), sheets);
     Scene scene(sheets);
     EXPECT_EQ(scene.orient().unknownPieces, 2u);
