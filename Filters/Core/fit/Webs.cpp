@@ -23,7 +23,7 @@ constexpr float LeastBackwards = 0.8f;
 /// Of the area of a side: behind which is the other one.
 constexpr double LeastOfSide = 0.5;
 
-constexpr std::uint32_t NoTriangle = ~0u;
+constexpr std::uint32_t NoneBehind = ~0u;
 constexpr std::size_t NoPiece = ~std::size_t(0);
 
 class WebSearch
@@ -56,7 +56,7 @@ public:
     for (const std::uint32_t t : piece.triangles)
     {
       const std::uint32_t other = triangleBehind(t, float(reach));
-      if (other != NoTriangle && pieceOf_[other] != NoPiece)
+      if (other != NoneBehind && pieceOf_[other] != NoPiece)
       {
         areas[pieceOf_[other]] += areaOf(mesh_, triangles_[t]);
       }
@@ -89,7 +89,7 @@ private:
   std::uint32_t triangleBehind(std::uint32_t t, float reach) const
   {
     const Vector4 normal = normalOf(t);
-    std::uint32_t result = NoTriangle;
+    std::uint32_t result = NoneBehind;
     float closest = std::numeric_limits<float>::infinity();
     nearest_.forEachWithin(centers_[t], reach,
       [&](std::uint32_t other, float squaredDistance)

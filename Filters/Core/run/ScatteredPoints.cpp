@@ -16,7 +16,7 @@ namespace
 {
 constexpr std::size_t CentersAsked = 200;
 /// More would cost more, and tell the same.
-constexpr std::size_t MostPoints = 200000;
+constexpr std::size_t MostPointsOfBalls = 200000;
 /// Of fewer the smallest ball holds a large part, and tells nothing.
 constexpr std::size_t FewestPointsThatTell = 200;
 /// In the smallest ball that is looked at.
@@ -109,7 +109,7 @@ double scatteredShare(const PointCloud& cloud, const Executor& executor)
   {
     return 0.;
   }
-  std::vector<Vector4> points(std::min(all, MostPoints));
+  std::vector<Vector4> points(std::min(all, MostPointsOfBalls));
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     points[i] = cloud.points()[i * all / points.size()];
