@@ -31,7 +31,7 @@ install_packages "${build_packages[@]}" glmark2-data libcgal-demo python3-matplo
   "${screen_packages[@]}"
 build build all
 folder=Documentation/Pictures
-export PYTHONPATH=build/lib/python3/dist-packages:Testing/Support
+export PYTHONPATH=build/lib/python3/dist-packages:Testing/Support:$folder
 
 # Those of a maker that are asked for.
 wanted_of()

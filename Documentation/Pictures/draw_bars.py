@@ -11,6 +11,7 @@ import tempfile
 
 import clouds
 import numpy as np
+from panels import delete_views, save_beside
 from paraview import simple
 
 SIZE = (1260, 420)  # pixels
@@ -70,29 +71,18 @@ def show(path, most, direction, up):
 
 
 def draw_error_bars(path):
-    layout = simple.CreateLayout("bars")
     with tempfile.TemporaryDirectory() as folder:
         views = []
         for number, (make, most, direction, up) in enumerate(PARTS):
             cloud = os.path.join(folder, f"{number}.ply")
             clouds.write_ply(cloud, make())
             views.append(show(cloud, most, direction, up))
-        place = 0
-        for number, view in enumerate(views):
-            if number + 1 < len(views):
-                place = layout.SplitHorizontal(place, 1.0 / (len(views) - number))
-            layout.AssignView(place, view)
-            place += 1
-        layout.SetSize(*SIZE)
-        simple.SaveScreenshot(path, layout, ImageResolution=SIZE, CompressionLevel=9, SeparatorWidth=0,
-                              OverrideColorPalette="WhiteBackground")
+        save_beside(views, SIZE, path)
 
 
 def main():
     draw_error_bars(os.path.join(sys.argv[1], "error_bars.png"))
-    # Views that are left to the end of the process end it with an error of X.
-    for view in simple.GetViews():
-        simple.Delete(view)
+    delete_views()
 
 
 if __name__ == "__main__":

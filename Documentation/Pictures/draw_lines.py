@@ -11,6 +11,7 @@ import tempfile
 
 import clouds
 import numpy as np
+from panels import delete_views, save_beside
 from paraview import simple
 
 SIZE = (1260, 420)  # pixels
@@ -55,29 +56,18 @@ def show(path, direction, up):
 
 
 def draw_feature_lines(path):
-    layout = simple.CreateLayout("lines")
     with tempfile.TemporaryDirectory() as folder:
         views = []
         for number, (shape, noise, direction) in enumerate(PARTS):
             cloud = os.path.join(folder, f"{number}.ply")
             write_cloud(cloud, shape, noise)
             views.append(show(cloud, direction, (0, 0, 1) if shape == "fandisk" else (0, 1, 0)))
-        place = 0
-        for number, view in enumerate(views):
-            if number + 1 < len(views):
-                place = layout.SplitHorizontal(place, 1.0 / (len(views) - number))
-            layout.AssignView(place, view)
-            place += 1
-        layout.SetSize(*SIZE)
-        simple.SaveScreenshot(path, layout, ImageResolution=SIZE, CompressionLevel=9, SeparatorWidth=0,
-                              OverrideColorPalette="WhiteBackground")
+        save_beside(views, SIZE, path)
 
 
 def main():
     draw_feature_lines(os.path.join(sys.argv[1], "feature_lines.png"))
-    # Views that are left to the end of the process end it with an error of X.
-    for view in simple.GetViews():
-        simple.Delete(view)
+    delete_views()
 
 
 if __name__ == "__main__":

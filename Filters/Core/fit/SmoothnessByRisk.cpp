@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/SmoothnessByRisk.h"
 
+#include "mesh/RingMeans.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -236,7 +238,7 @@ void SmoothnessByRisk::chooseLocally()
     }
     localParts_[v] = all > 0. ? float(sum / all) : 0.f;
   }
-  spreadOverRings(localParts_);
+  averageOverRings(mesh_, localParts_, rings_, executor_);
   for (float& part : localParts_)
   {
     part = float(std::exp(double(part)));
@@ -249,30 +251,6 @@ void SmoothnessByRisk::spreadAttention(std::vector<float>& values) const
   {
     values[v] *= attention_[v];
   }
-  spreadOverRings(values);
-}
-
-/// Each value becomes a mean of those around it.
-void SmoothnessByRisk::spreadOverRings(std::vector<float>& values) const
-{
-  constexpr std::size_t VerticesPerRange = 4096;
-  std::vector<float> next(values.size());
-  for (int ring = 0; ring < rings_; ++ring)
-  {
-    executor_.forEachRange(values.size(), VerticesPerRange,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (auto v = VertexIndex(begin); v < end; ++v)
-        {
-          float sum = values[v];
-          for (const VertexIndex neighbor : mesh_.ring(v))
-          {
-            sum += values[neighbor];
-          }
-          next[v] = sum / float(1 + mesh_.valence(v));
-        }
-      });
-    values.swap(next);
-  }
+  averageOverRings(mesh_, values, rings_, executor_);
 }
 }

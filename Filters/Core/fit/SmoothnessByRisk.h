@@ -53,7 +53,6 @@ private:
   double shareHeldByFirst() const;
   void chooseLocally();
   void spreadAttention(std::vector<float>& values) const;
-  void spreadOverRings(std::vector<float>& values) const;
 
   const Mesh& mesh_;
   const FitSystem& system_;

@@ -4,6 +4,7 @@
 #include "base/Median.h"
 #include "base/Random.h"
 #include "fit/FitSystem.h"
+#include "mesh/RingMeans.h"
 #include "mesh/UmbrellaLaplacian.h"
 
 #include <algorithm>
@@ -154,8 +155,8 @@ void Uncertainty::measureNoise()
     });
   const double mean = count > 0. ? sum / count : 0.;
   const double factor = mean > 0. ? report_.noise * report_.noise / mean : 1.;
-  spread(squares, RingsOfNoise);
-  spread(loads, RingsOfNoise);
+  averageOverRings(mesh_, squares, RingsOfNoise, executor_);
+  averageOverRings(mesh_, loads, RingsOfNoise, executor_);
   noise_.resize(squares.size());
   for (std::size_t v = 0; v < noise_.size(); ++v)
   {
@@ -239,7 +240,7 @@ bool Uncertainty::addDraws(FitSystem& system, const Progress& progress)
       variances_[v] += squaredNorm(drawn[v]) / float(3 * Solutions);
     }
   }
-  spread(variances_, RingsOfVariance);
+  averageOverRings(mesh_, variances_, RingsOfVariance, executor_);
   return true;
 }
 
@@ -285,7 +286,7 @@ bool Uncertainty::addBias(FitSystem& system, const Progress& progress)
     const float across = acrossAt(v, taken[v]);
     squares[v] = across * across;
   }
-  spread(squares, RingsOfBias);
+  averageOverRings(mesh_, squares, RingsOfBias, executor_);
   for (std::size_t v = 0; v < squares.size(); ++v)
   {
     variances_[v] += TimesOfBias * squares[v];
@@ -347,8 +348,8 @@ void Uncertainty::addSharedNoise()
           }
         }
       });
-    spread(count, RingsOfViews);
-    spread(sum, RingsOfViews);
+    averageOverRings(mesh_, count, RingsOfViews, executor_);
+    averageOverRings(mesh_, sum, RingsOfViews, executor_);
     for (std::size_t v = 0; v < end; ++v)
     {
       if (VerticesOfViews * count[v] > LeastOfViewAround)
@@ -392,29 +393,5 @@ float Uncertainty::acrossAt(VertexIndex v, Vector4 vector) const
   const Vector4 normal = mesh_.normal(v);
   const float length = std::sqrt(squaredNorm(normal));
   return length > 0.f ? dot(vector, normal) / length : 0.f;
-}
-
-/// Each value becomes a mean of those around it.
-void Uncertainty::spread(std::vector<float>& values, int rings) const
-{
-  constexpr std::size_t VerticesPerRange = 4096;
-  std::vector<float> next(values.size());
-  for (int ring = 0; ring < rings; ++ring)
-  {
-    executor_.forEachRange(values.size(), VerticesPerRange,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (auto v = VertexIndex(begin); v < end; ++v)
-        {
-          float sum = values[v];
-          for (const VertexIndex neighbor : mesh_.ring(v))
-          {
-            sum += values[neighbor];
-          }
-          next[v] = sum / float(1 + mesh_.valence(v));
-        }
-      });
-    values.swap(next);
-  }
 }
 }

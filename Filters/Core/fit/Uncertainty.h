@@ -67,7 +67,6 @@ private:
   bool addBias(FitSystem& system, const Progress& progress);
   void addCoarseness();
   void addSharedNoise();
-  void spread(std::vector<float>& values, int rings) const;
   float acrossAt(VertexIndex v, Vector4 vector) const;
   template <typename Body>
   void forEachWithin(const Body& body) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/Webs.h"
 
+#include "base/Morton.h"
 #include "cloud/NearestPoints.h"
 
 #include <algorithm>
@@ -34,7 +35,8 @@ public:
     : mesh_(mesh)
     , triangles_(triangles)
     , pieces_(pieces)
-    , centers_(centersOf(mesh, triangles))
+    , sorted_(sortedByPlace(mesh, triangles))
+    , centers_(centersOf(mesh, triangles, sorted_))
     , nearest_(centers_)
     , pieceOf_(triangles.size(), NoPiece)
   {
@@ -68,11 +70,27 @@ public:
   }
 
 private:
-  static std::vector<Vector4> centersOf(const Mesh& mesh, std::span<const Triangle> triangles)
+  /// The triangles in an order in which those that are near in space are near each other.
+  static std::vector<std::uint32_t> sortedByPlace(
+    const Mesh& mesh, std::span<const Triangle> triangles)
   {
-    std::vector<Vector4> centers(triangles.size());
-    std::transform(triangles.begin(), triangles.end(), centers.begin(),
-      [&](const Triangle& triangle) { return centerOf(mesh, triangle); });
+    Box box;
+    std::vector<Vector4> centers;
+    centers.reserve(triangles.size());
+    for (const Triangle& triangle : triangles)
+    {
+      centers.push_back(centerOf(mesh, triangle));
+      box.extend(centers.back());
+    }
+    return mortonOrder(centers, box.low, box.high);
+  }
+
+  static std::vector<Vector4> centersOf(
+    const Mesh& mesh, std::span<const Triangle> triangles, std::span<const std::uint32_t> order)
+  {
+    std::vector<Vector4> centers(order.size());
+    std::transform(order.begin(), order.end(), centers.begin(),
+      [&](std::uint32_t t) { return centerOf(mesh, triangles[t]); });
     return centers;
   }
 
@@ -88,13 +106,14 @@ private:
   /// The nearest one that looks the other way.
   std::uint32_t triangleBehind(std::uint32_t t, float reach) const
   {
-    const Vector4 normal = normalOf(t);
+    const Vector4 normal = normalOf(t), center = centerOf(mesh_, triangles_[t]);
     std::uint32_t result = NoneBehind;
     float closest = std::numeric_limits<float>::infinity();
-    nearest_.forEachWithin(centers_[t], reach,
-      [&](std::uint32_t other, float squaredDistance)
+    nearest_.forEachWithin(center, reach,
+      [&](std::uint32_t place, float squaredDistance)
       {
-        const float backwards = -dot(centers_[other] - centers_[t], normal);
+        const std::uint32_t other = sorted_[place];
+        const float backwards = -dot(centers_[place] - center, normal);
         if (other != t && squaredDistance < closest &&
           backwards >= LeastBackwards * std::sqrt(squaredDistance) &&
           dot(normal, normalOf(other)) <= MostCosineBehind)
@@ -109,7 +128,8 @@ private:
   const Mesh& mesh_;
   std::span<const Triangle> triangles_;
   std::span<const EmptyPiece> pieces_;
-  std::vector<Vector4> centers_;
+  std::vector<std::uint32_t> sorted_;
+  std::vector<Vector4> centers_; ///< in that order
   NearestPoints nearest_;
   std::vector<std::size_t> pieceOf_;
 };

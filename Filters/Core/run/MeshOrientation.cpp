@@ -97,8 +97,8 @@ std::vector<Side> sidesByNeighbors(
   return result;
 }
 
-/// Without the guesses that have a ground look down: the volume of streets and tables is that of what stands on them, or of
-/// what is dug into them.
+/// Without the guesses that have a ground look down: the volume of streets and tables is that of what stands on them,
+/// or of what is dug into them.
 std::vector<Side> withoutGroundAbove(std::vector<Side> sides, const std::vector<Upwards>& upwards)
 {
   for (std::size_t i = 0; i < sides.size(); ++i)

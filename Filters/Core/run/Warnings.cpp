@@ -269,8 +269,7 @@ void warnOfTurnedParts(double share, std::vector<std::string>& warnings)
     warnings.push_back(percent(share) +
       " of the surface is inside out: it hangs on to the rest by the wrong side, as bodies do that "
       "touch each other. More vertices may part them, and so does a cloud for each body; then an "
-      "up "
-      "direction (--up) or viewpoints (--viewpoint) turn each of them.");
+      "up direction (--up) or viewpoints (--viewpoint) turn each of them.");
   }
 }
 

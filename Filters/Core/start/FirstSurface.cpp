@@ -427,8 +427,8 @@ bool areSame(const FrontSurface& one, const FrontSurface& other)
     std::min(area, otherArea) >= AreaOfSame * std::max(area, otherArea);
 }
 
-/// Whether a front shows the same surface with fewer handles and loops: those of the other one go from one layer to the
-/// next.
+/// Whether a front shows the same surface with fewer handles and loops: those of the other one go from one layer to
+/// the next.
 bool isSimpler(const FrontSurface& front, const FrontSurface& other)
 {
   const std::size_t loops = BoundaryManager(front.mesh).loopCount();
