@@ -2,12 +2,10 @@
 #include "run/Reconstruction.h"
 
 #include "fit/CreaseRefinement.h"
-#include "mesh/QuadricSimplification.h"
-#include "run/Stages.h"
-#include "run/Warnings.h"
-#include "start/OutlierClusters.h"
+#include "run/Run.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -23,137 +21,37 @@ constexpr std::uint64_t PointsToSimplify = 20;
 
 /// Of residuals: a few points at creases make most of them, so they are told no better.
 constexpr double TimesOfDraw = 1.2;
-/// Of the progress of the finish.
-constexpr double PartBeforeRefinement = 0.6;
-
-/// Learns until a stopping rule is met; returns which.
-StopReason learnAll(LearningState state, Checkpoint& checkpoint, const PointCloud& cloud,
-  const Parameters& parameters, const GrowthWatch& watch, const Progress& progress)
-{
-  auto& [learner, rules, curve, reason] = state;
-  GrowthRecorder recorder(watch, learner, cloud, parameters.numberOfVertices);
-  if (reason == StopReason::None)
-  {
-    reason = ruleMet(learner, rules, progress);
-  }
-  for (;;)
-  {
-    checkpoint.saveIfDue(state);
-    if (reason != StopReason::None || curve.isRowDue(learner))
-    {
-      curve.add(learner, cloud.unit(), rules.seconds());
-    }
-    if (reason != StopReason::None)
-    {
-      return reason;
-    }
-    reason = learn(
-      learner, rules, parameters, SamplesPerCheck, progress, [&recorder] { recorder.takeIfDue(); });
-  }
-}
 
 /// As reconstruct(), but learns so many vertices, and simplifies or refines the mesh if these are too many or too few.
-Reconstruction learnAndFinish(std::uint64_t vertices, const PointCloud& input,
-  const Parameters& requested, const Progress& report, const std::optional<Mesh>& first,
-  const GrowthWatch& watch, const CheckpointPlan& plan, const Executor& executor,
-  const OrientationHints& hints, bool explainsAll)
+Reconstruction learnAndFinish(std::uint64_t vertices, const RunRequest& request,
+  const Progress& progress, const GrowthWatch& watch, const CheckpointPlan& plan)
 {
-  Reconstruction result;
-  // Once the caller has ended the run, it is asked no more.
-  bool isCancelled = false;
-  const Progress progress = [&](double fraction)
-  { return !isCancelled && !(isCancelled = !report(fraction)); };
-  Checkpoint checkpoint(plan, input, requested);
-
-  result.times.enter(Phase::Start);
-  Parameters toLearn = requested;
-  toLearn.numberOfVertices = vertices;
-  const Parameters parameters = learnable(toLearn, input);
-  const bool startsFromSpace = !first && parameters.start == Start::OccupiedSpace;
+  const Parameters& parameters = request.parameters;
+  Checkpoint checkpoint(plan, request.cloud, parameters);
+  PhaseTimes times;
+  times.enter(Phase::Start);
+  Run run(request, progress);
+  const bool startsFromSpace = !request.first && parameters.start == Start::OccupiedSpace;
   const double startOfLearning = startsFromSpace ? StartOfLearning : 0.;
   const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
-  const std::optional<PointCloud> cleaned = startsFromSpace ? withoutClusters(input) : std::nullopt;
-  const PointCloud& cloud = cleaned ? *cleaned : input;
-  Beginning beginning = first
-    ? Beginning{ first, {}, {} }
-    : begin(cloud, parameters, partOf(progress, 0., startOfLearning), executor);
-  const std::optional<GapPlan> gaps = beginning.gaps;
-
-  result.times.enter(Phase::Learning);
-  std::unique_ptr<Learner> learner = learnerFrom(std::move(beginning), cloud, parameters, executor);
-  StoppingRules rules(cloud, parameters, learner->mesh().vertexCount());
-  LearningState state{ *learner, rules, result.curve };
-  result.resumedIterations = checkpoint.resume(state, !isCancelled);
-  result.stopReason = learnAll(
-    state, checkpoint, cloud, parameters, watch, partOf(progress, startOfLearning, endOfLearning));
-  result.counts = learner->counts();
-  learner->compact();
-  LearntMesh learnt = learner->learntMesh();
-  learner.reset();
-  const bool isSimplified = !first && learnt.mesh.vertexCount() > requested.numberOfVertices;
-
-  result.times.enter(Phase::Finish);
-  const auto most = std::size_t(std::min(vertices, requested.numberOfVertices));
-  // A first mesh may have all vertices already: then it is fitted as it is.
-  if (parameters.fitRounds > 0 && result.isComplete() && (first || result.counts.iterations > 0))
-  {
-    const std::size_t there = learnt.mesh.vertexCount();
-    const std::size_t finished = result.stopReason != StopReason::Vertices ? there
-      : first                                                              ? std::max(there, most)
-                                                                           : most;
-    const auto refined = std::size_t(learnable(requested, input).numberOfVertices);
-    const bool isRefined = vertices < requested.numberOfVertices && finished == most;
-    const Progress rest = partOf(progress, endOfLearning, 1.);
-    const Progress finishing = [&](double fraction)
-    {
-      const bool isTimeOver = parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
-      return rest(fraction) && !isTimeOver;
-    };
-    const bool isTold = parameters.computeUncertainty;
-    const double endOfFit = isTold ? PartBeforeUncertainty : 1.;
-    const double endOfFirst = isRefined ? PartBeforeRefinement * endOfFit : endOfFit;
-    result.finish = finish(learnt, cloud, parameters, gaps, finished,
-      partOf(finishing, 0., endOfFirst), executor, hints);
-    if (result.finish && isRefined)
-    {
-      if (!refineFinished(learnt, cloud, parameters, refined, *result.finish,
-            partOf(finishing, endOfFirst, endOfFit), executor))
-      {
-        result.finish.reset();
-      }
-      result.curve.endWith(learnt.mesh);
-    }
-    if (!result.finish ||
-      (isTold &&
-        !tellUncertainty(
-          learnt, cloud, parameters, result, partOf(finishing, endOfFit, 1.), executor, hints)))
-    {
-      result.stopReason = isCancelled ? StopReason::Cancelled : StopReason::TimeLimit;
-    }
-  }
-  if (isSimplified)
-  {
-    simplifyByQuadrics(learnt.mesh, most); // If there was no time to finish it.
-    result.curve.endWith(learnt.mesh);
-  }
-  describe(std::move(learnt), cloud, result.stopReason == StopReason::Cancelled ? nullptr : &input,
-    hints, result, executor);
-  if (result.stopReason != StopReason::Cancelled)
-  {
-    explainPoints(
-      input, cleaned ? &*cleaned : nullptr, requested.keepPieces, explainsAll, result, executor);
-  }
-  result.warnings = warningsOf(result, input, requested);
-  result.times.leave();
+  Beginning beginning = run.begin(vertices, { 0., startOfLearning });
+  times.leave();
+  LearntRun learnt = run.learn(
+    vertices, std::move(beginning), { startOfLearning, endOfLearning }, checkpoint, watch);
+  Reconstruction result =
+    run.finish(std::move(learnt), parameters.numberOfVertices, { endOfLearning, 1. });
+  result.times.add(times);
   return result;
 }
 
-/// Not where rules end the run that are meant for the mesh as it learns.
-bool mayLearnOtherwise(const Parameters& parameters)
+/// Not from a first mesh, nor where rules end the run that are meant for the mesh as it learns.
+bool mayLearnOtherwise(const RunRequest& request)
 {
-  return parameters.fitRounds > 0 && !parameters.topologyLearning && parameters.timeLimit == 0. &&
-    parameters.maximumIterations == 0 && parameters.targetSampleDistance == 0. &&
-    parameters.targetCloudDistance == 0. && parameters.targetNormalChange == 0.;
+  const Parameters& parameters = request.parameters;
+  return !request.first && parameters.fitRounds > 0 && !parameters.topologyLearning &&
+    parameters.timeLimit == 0. && parameters.maximumIterations == 0 &&
+    parameters.targetSampleDistance == 0. && parameters.targetCloudDistance == 0. &&
+    parameters.targetNormalChange == 0.;
 }
 
 /// Handles and pieces may need more vertices than there are to be, or so many that the rest is too coarse, and
@@ -224,38 +122,41 @@ std::uint64_t usualPoints(std::uint64_t vertices)
   return std::max(FewestPoints, PointsPerVertex * vertices);
 }
 
-Reconstruction reconstruct(const PointCloud& input, const Parameters& requested,
-  const Progress& report, const std::optional<Mesh>& first, const GrowthWatch& watch,
-  const CheckpointPlan& plan, const Executor& executor, const OrientationHints& hints,
-  bool explainsAll)
+std::uint64_t verticesToLearn(const RunRequest& request)
 {
-  const std::uint64_t asked = requested.numberOfVertices;
-  const auto learn = [&](std::uint64_t least, const Progress& progress, const GrowthWatch& growth,
-                       const CheckpointPlan& there)
-  {
-    return learnAndFinish(
-      least, input, requested, progress, first, growth, there, executor, hints, explainsAll);
-  };
+  const std::uint64_t asked = request.parameters.numberOfVertices;
   const std::uint64_t least =
-    std::min<std::uint64_t>(LeastLearntToFit, input.differentCount() / PointsToSimplify);
-  const bool isSimplified = asked < least;
-  if (first || !mayLearnOtherwise(requested))
-  {
-    return learn(asked, report, watch, plan);
-  }
-  Reconstruction result = learn(isSimplified ? least : asked, report, watch, plan);
-  if (!result.isComplete() ||
-    (isSimplified ? isRight(result, asked) : !mayHaveRoundedCreases(result, input, requested)))
+    std::min<std::uint64_t>(LeastLearntToFit, request.cloud.differentCount() / PointsToSimplify);
+  return mayLearnOtherwise(request) ? std::max(asked, least) : asked;
+}
+
+Reconstruction betterRun(Reconstruction result, const RunRequest& request, const Progress& progress)
+{
+  const std::uint64_t asked = request.parameters.numberOfVertices;
+  const bool isSimplified = asked < verticesToLearn(request);
+  if (!mayLearnOtherwise(request) || !result.isComplete() ||
+    (isSimplified ? isRight(result, asked)
+                  : !mayHaveRoundedCreases(result, request.cloud, request.parameters)))
   {
     return result;
   }
-  const std::uint64_t fewer = input.differentCount() / PointsThatTellCreases;
-  Reconstruction other = learn(isSimplified ? asked : fewer, partOf(report, 1., 1.), {}, {});
+  const std::uint64_t fewer = request.cloud.differentCount() / PointsThatTellCreases;
+  Reconstruction other = learnAndFinish(isSimplified ? asked : fewer, request, progress, {}, {});
   other.resumedIterations = result.resumedIterations;
   other.times.add(result.times);
   result.times = other.times;
   const bool isTaken = other.stopReason == StopReason::Cancelled ||
     (isSimplified ? !isCloser(result, other, asked) : isBetterRefined(other, result));
   return isTaken ? other : result;
+}
+
+Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
+  const Progress& progress, const std::optional<Mesh>& first, const GrowthWatch& watch,
+  const CheckpointPlan& plan, const Executor& executor, const OrientationHints& hints,
+  bool explainsAll)
+{
+  const RunRequest request{ cloud, parameters, first, executor, hints, explainsAll };
+  return betterRun(learnAndFinish(verticesToLearn(request), request, progress, watch, plan),
+    request, partOf(progress, 1., 1.));
 }
 }

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/Levels.h"
+
+#include "mesh/QuadricSimplification.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Of the progress of a level.
+constexpr double PartOfGrowth = 0.5;
+
+/// Levels that one mesh grows through, from the first to before the last.
+struct Chain
+{
+  std::size_t first;
+  std::size_t last;
+};
+
+/// From a first surface that is made for the largest of all, a mesh grows to those levels that have more vertices
+/// than that. For the others it is simplified to what suits the largest of them, and so on.
+std::vector<Chain> chainsOf(std::span<const std::uint64_t> levels)
+{
+  std::vector<Chain> result;
+  for (std::size_t last = levels.size(); last > 0;)
+  {
+    std::size_t first = last - 1;
+    while (first > 0 && levels[first - 1] > firstVertices(levels[last - 1]))
+    {
+      --first;
+    }
+    result.insert(result.begin(), { first, last });
+    last = first;
+  }
+  return result;
+}
+
+/// The first surface, with no more vertices than suit so many that are learnt.
+Beginning simplified(Beginning beginning, std::uint64_t vertices)
+{
+  if (beginning.mesh && beginning.mesh->vertexCount() > firstVertices(vertices))
+  {
+    simplifyByQuadrics(*beginning.mesh, firstVertices(vertices));
+  }
+  return beginning;
+}
+}
+
+Reconstruction reconstructLevels(const RunRequest& request, std::span<const std::uint64_t> levels,
+  const LevelTaker& take, const Progress& progress)
+{
+  PhaseTimes times;
+  times.enter(Phase::Start);
+  Run run(request, progress);
+  const Beginning beginning = run.begin(levels.back(), { 0., StartOfLearning });
+  times.leave();
+  Checkpoint none({}, request.cloud, request.parameters);
+  const double all = std::accumulate(levels.begin(), levels.end(), 0.);
+  double done = StartOfLearning;
+  for (const Chain& chain : chainsOf(levels))
+  {
+    Beginning next = simplified(beginning, levels[chain.last - 1]);
+    for (std::size_t level = chain.first; level < chain.last; ++level)
+    {
+      Parameters parameters = request.parameters;
+      parameters.numberOfVertices = levels[level];
+      const RunRequest own{ request.cloud, parameters, request.first, request.executor,
+        request.hints, request.explainsAll };
+      const double end = done + (1. - StartOfLearning) * double(levels[level]) / all;
+      const double endOfGrowth = done + PartOfGrowth * (end - done);
+      LearntRun learnt =
+        run.learn(verticesToLearn(own), std::move(next), { done, endOfGrowth }, none);
+      // Small levels are simplified from one mesh.
+      learnt.isLearnt = learnt.isLearnt || level > chain.first;
+      next = { learnt.learnt.mesh, beginning.gaps, beginning.weights };
+      Reconstruction result =
+        betterRun(run.finish(std::move(learnt), levels[level], { endOfGrowth, end }), own,
+          partOf(progress, end, end));
+      result.times.add(std::exchange(times, {}));
+      if (level + 1 == levels.size() || !result.isComplete())
+      {
+        return result;
+      }
+      take(level, std::move(result));
+      done = end;
+    }
+  }
+  return {};
+}
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Levels of detail: several meshes of a cloud, of more and more vertices, in one run.
+#pragma once
+
+#include "base/Progress.h"
+#include "run/Reconstruction.h"
+#include "run/Run.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// Told of each level but the last, with its place among all.
+using LevelTaker = std::function<void(std::size_t level, Reconstruction mesh)>;
+
+/// Grows one mesh and finishes a copy of it whenever it has as many vertices as a level, so that each level
+/// is as good as a run of its own, and they take little longer than the largest of them. `levels` ascend;
+/// each is given to `take`, the last one is returned. A run that ends early, by a rule or its caller, ends
+/// with the level that it is at. A first mesh and checkpoints are not for it.
+Reconstruction reconstructLevels(const RunRequest& request, std::span<const std::uint64_t> levels,
+  const LevelTaker& take, const Progress& progress);
+}

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/Run.h"
+
+#include "mesh/QuadricSimplification.h"
+#include "run/Warnings.h"
+#include "start/OutlierClusters.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Of the progress of the finish.
+constexpr double PartBeforeRefinement = 0.6;
+
+/// Learns until a stopping rule is met; returns which.
+StopReason learnAll(LearningState state, Checkpoint& checkpoint, const PointCloud& cloud,
+  const Parameters& parameters, const GrowthWatch& watch, const Progress& progress)
+{
+  auto& [learner, rules, curve, reason] = state;
+  GrowthRecorder recorder(watch, learner, cloud, parameters.numberOfVertices);
+  if (reason == StopReason::None)
+  {
+    reason = ruleMet(learner, rules, progress);
+  }
+  for (;;)
+  {
+    checkpoint.saveIfDue(state);
+    if (reason != StopReason::None || curve.isRowDue(learner))
+    {
+      curve.add(learner, cloud.unit(), rules.seconds());
+    }
+    if (reason != StopReason::None)
+    {
+      return reason;
+    }
+    reason = learn(
+      learner, rules, parameters, SamplesPerCheck, progress, [&recorder] { recorder.takeIfDue(); });
+  }
+}
+
+/// The parameters of a run that learns so many vertices.
+Parameters parametersFor(std::uint64_t vertices, const RunRequest& request)
+{
+  Parameters result = request.parameters;
+  result.numberOfVertices = vertices;
+  return learnable(result, request.cloud);
+}
+}
+
+Run::Run(const RunRequest& request, const Progress& progress)
+  : request_(request)
+  , progress_([this, &progress](double fraction)
+      { return !isCancelled_ && !(isCancelled_ = !progress(fraction)); })
+{
+}
+
+Beginning Run::begin(std::uint64_t vertices, ProgressPart part)
+{
+  if (request_.first)
+  {
+    return { request_.first, {}, {} };
+  }
+  const Parameters parameters = parametersFor(vertices, request_);
+  if (parameters.start == Start::OccupiedSpace)
+  {
+    cleaned_ = withoutClusters(request_.cloud);
+  }
+  return neuralmesh::begin(
+    cloud(), parameters, partOf(progress_, part.begin, part.end), request_.executor);
+}
+
+LearntRun Run::learn(std::uint64_t vertices, Beginning beginning, ProgressPart part,
+  Checkpoint& checkpoint, const GrowthWatch& watch)
+{
+  const Parameters parameters = parametersFor(vertices, request_);
+  const std::optional<GapPlan> gaps = beginning.gaps;
+  Reconstruction result;
+  result.times.enter(Phase::Learning);
+  std::unique_ptr<Learner> learner =
+    learnerFrom(std::move(beginning), cloud(), parameters, request_.executor);
+  StoppingRules rules(cloud(), parameters, learner->mesh().vertexCount());
+  LearningState state{ *learner, rules, result.curve };
+  result.resumedIterations = checkpoint.resume(state, !isCancelled_);
+  result.stopReason = learnAll(
+    state, checkpoint, cloud(), parameters, watch, partOf(progress_, part.begin, part.end));
+  result.counts = learner->counts();
+  learner->compact();
+  LearntMesh learnt = learner->learntMesh();
+  result.times.leave();
+  const bool isLearnt = request_.first || result.counts.iterations > 0;
+  return { std::move(result), std::move(learnt), std::move(rules), vertices, gaps, isLearnt };
+}
+
+void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress)
+{
+  auto& [result, learnt, rules, vertices, gaps, isLearnt] = run;
+  const Parameters parameters = parametersFor(vertices, request_);
+  const auto most = std::size_t(std::min(vertices, asked));
+  const std::size_t there = learnt.mesh.vertexCount();
+  // A first mesh may have all vertices already: then it is fitted as it is.
+  const std::size_t finished = result.stopReason != StopReason::Vertices ? there
+    : request_.first                                                     ? std::max(there, most)
+                                                                         : most;
+  const bool isRefined = vertices < asked && finished == most;
+  const Progress finishing = [&](double fraction)
+  {
+    const bool isTimeOver = parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
+    return progress(fraction) && !isTimeOver;
+  };
+  const bool isTold = parameters.computeUncertainty;
+  const double endOfFit = isTold ? PartBeforeUncertainty : 1.;
+  const double endOfFirst = isRefined ? PartBeforeRefinement * endOfFit : endOfFit;
+  result.finish = neuralmesh::finish(learnt, cloud(), parameters, gaps, finished,
+    partOf(finishing, 0., endOfFirst), request_.executor, request_.hints);
+  if (result.finish && isRefined)
+  {
+    const auto refined = std::size_t(parametersFor(asked, request_).numberOfVertices);
+    if (!refineFinished(learnt, cloud(), parameters, refined, *result.finish,
+          partOf(finishing, endOfFirst, endOfFit), request_.executor))
+    {
+      result.finish.reset();
+    }
+    result.curve.endWith(learnt.mesh);
+  }
+  if (!result.finish ||
+    (isTold &&
+      !tellUncertainty(learnt, cloud(), parameters, result, partOf(finishing, endOfFit, 1.),
+        request_.executor, request_.hints)))
+  {
+    result.stopReason = isCancelled_ ? StopReason::Cancelled : StopReason::TimeLimit;
+  }
+}
+
+Reconstruction Run::finish(LearntRun run, std::uint64_t asked, ProgressPart part)
+{
+  Reconstruction& result = run.result;
+  const bool isSimplified = !request_.first && run.learnt.mesh.vertexCount() > asked;
+  result.times.enter(Phase::Finish);
+  if (request_.parameters.fitRounds > 0 && result.isComplete() && run.isLearnt)
+  {
+    fit(run, asked, partOf(progress_, part.begin, part.end));
+  }
+  if (isSimplified)
+  {
+    // If there was no time to finish it.
+    simplifyByQuadrics(run.learnt.mesh, std::size_t(std::min(run.vertices, asked)));
+    result.curve.endWith(run.learnt.mesh);
+  }
+  const bool isWhole = result.stopReason != StopReason::Cancelled;
+  describe(std::move(run.learnt), cloud(), isWhole ? &request_.cloud : nullptr, request_.hints,
+    result, request_.executor);
+  if (isWhole)
+  {
+    explainPoints(request_.cloud, cleaned_ ? &*cleaned_ : nullptr, request_.parameters.keepPieces,
+      request_.explainsAll, result, request_.executor);
+  }
+  Parameters requested = request_.parameters;
+  requested.numberOfVertices = asked;
+  result.warnings = warningsOf(result, request_.cloud, requested);
+  result.times.leave();
+  return std::move(result);
+}
+}

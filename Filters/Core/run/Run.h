@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Executor.h"
+#include "base/Progress.h"
+#include "cloud/OrientationHints.h"
+#include "cloud/PointCloud.h"
+#include "learn/GrowthWatch.h"
+#include "learn/Learner.h"
+#include "learn/Parameters.h"
+#include "learn/StoppingRules.h"
+#include "run/Checkpoint.h"
+#include "run/Reconstruction.h"
+#include "run/Stages.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace neuralmesh
+{
+/// What is asked of a run. All must outlive it.
+struct RunRequest
+{
+  const PointCloud& cloud;
+  const Parameters& parameters;
+  const std::optional<Mesh>& first;
+  const Executor& executor;
+  const OrientationHints& hints;
+  bool explainsAll = false;
+};
+
+/// A mesh that has learnt all, and what its run knows so far.
+struct LearntRun
+{
+  Reconstruction result; ///< counts, curve and stop reason
+  LearntMesh learnt;
+  StoppingRules rules;
+  std::uint64_t vertices; ///< that it was to learn
+  std::optional<GapPlan> gaps;
+  bool isLearnt; ///< else it is not finished
+};
+
+/// A part of the progress of a run.
+struct ProgressPart
+{
+  double begin = 0.;
+  double end = 1.;
+};
+
+/// The parts of a run: one start, from which one mesh or several learn and are finished. A caller who has
+/// ended one part is asked no more.
+class Run
+{
+public:
+  Run(const RunRequest& request, const Progress& progress);
+
+  /// Makes the first surface for a mesh of so many vertices, unless there is a first mesh.
+  Beginning begin(std::uint64_t vertices, ProgressPart part);
+
+  /// Learns so many vertices, or as many as the cloud has something to learn for.
+  LearntRun learn(std::uint64_t vertices, Beginning beginning, ProgressPart part,
+    Checkpoint& checkpoint, const GrowthWatch& watch = {});
+
+  /// Finishes what is learnt, simplifies or refines it to as many vertices as are asked for, and
+  /// describes it.
+  Reconstruction finish(LearntRun run, std::uint64_t asked, ProgressPart part);
+
+private:
+  const PointCloud& cloud() const { return cleaned_ ? *cleaned_ : request_.cloud; }
+  /// Leaves no report of the finish if it was ended before.
+  void fit(LearntRun& run, std::uint64_t asked, const Progress& progress);
+
+  RunRequest request_;
+  Progress progress_;
+  bool isCancelled_ = false;
+  std::optional<PointCloud> cleaned_; ///< nothing: there are no clusters of outliers
+};
+
+/// So many vertices are learnt first. A mesh of few would lose what is narrower than its edges while it learns, so it
+/// is simplified from more.
+std::uint64_t verticesToLearn(const RunRequest& request);
+/// `result`, which has learnt so many; or a run of its own that learns fewer or as many as are asked for, where that
+/// may be better and is.
+Reconstruction betterRun(
+  Reconstruction result, const RunRequest& request, const Progress& progress);
+}
