@@ -10,6 +10,7 @@
 #include "FileExtension.h"
 #include "Interruption.h"
 #include "LearningParameters.h"
+#include "LevelFiles.h"
 #include "MeshReader.h"
 #include "MeshShift.h"
 #include "MeshWriter.h"
@@ -17,6 +18,7 @@
 #include "PointInputs.h"
 #include "ProgressBar.h"
 #include "PropertyOptions.h"
+#include "run/Levels.h"
 #include "RunEstimate.h"
 #include "RunReport.h"
 #include "TableWriter.h"
@@ -60,6 +62,7 @@ struct ReconstructOptions
   int Raw = vtkNeuralMeshFileSampler::BY_EXTENSION;
   long long Skip = 0;
   vtkIdType Vertices = 0;
+  std::vector<vtkIdType> Levels;
   int Seed = 0;
   int Variant = 0;
   int Order = 0;
@@ -148,6 +151,10 @@ vtkSmartPointer<vtkNeuralMesh> MakeFilter(const ReconstructOptions& options)
 void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
 {
   filter->SetNumberOfVertices(options.Vertices);
+  for (const vtkIdType level : options.Levels)
+  {
+    filter->AddLevel(level);
+  }
   filter->SetSeed(options.Seed);
   filter->SetVariant(options.Variant);
   filter->SetOrder(options.Order);
@@ -178,6 +185,22 @@ void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
     SetLearningParameter(filter, assignment);
   }
   RequireSoundParameters(filter);
+}
+
+/** Throws UsageError if there is no run with such levels. */
+void RequireSoundLevels(const ReconstructOptions& options)
+{
+  const std::vector<std::uint64_t> levels(options.Levels.begin(), options.Levels.end());
+  neuralmesh::Parameters parameters;
+  parameters.timeLimit = options.TimeLimit;
+  const std::string problem = neuralmesh::whyNoLevels(levels, parameters,
+    { .firstMesh = !options.Initial.empty() || options.Members > 0,
+      .checkpoint = !options.Checkpoint.empty(),
+      .automatic = options.Automatic });
+  if (!levels.empty() && !problem.empty())
+  {
+    throw UsageError("--levels: " + problem);
+  }
 }
 
 std::string NamesOf(const std::vector<std::string>& paths)
@@ -306,6 +329,11 @@ int Reconstruct(const ReconstructOptions& options)
     { { "OUTPUT", options.Output, true }, { "--statistics", options.Statistics, true },
       { "--explain", options.Explanation, true }, { "--feature-lines", options.FeatureLines, true },
       { "--checkpoint", options.Checkpoint, true } });
+  for (const std::string& path : SmallerLevelPaths(options.Output, options.Levels))
+  {
+    files.push_back({ "--levels", path, true });
+  }
+  RequireSoundLevels(options);
   RequireDistinctFiles(files);
   RequireWritableExtension(options.Output);
   const MeshShift shift = ParseShift(options.Shift);
@@ -377,6 +405,7 @@ int Reconstruct(const ReconstructOptions& options)
     WriteExplanation(filter->GetExplainedPoints(), options.Explanation);
   }
   WriteFeatureLines(filter, options.FeatureLines);
+  WriteSmallerLevels(filter, options.Output, shift);
   seconds.Writing = stopwatch.Lap();
   const std::string_view reason = filter->GetStopReason();
   const bool isCancelled = reason == "cancelled";
@@ -389,6 +418,7 @@ int Reconstruct(const ReconstructOptions& options)
   {
     PrintRun(filter, points, sampler, seconds);
     PrintFeatureLines(filter);
+    PrintSmallerLevels(filter, options.Output);
     if (!options.Shift.empty())
     {
       PrintShift(stored, options.Output);
@@ -447,6 +477,16 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     "Mesh: .vtp .ply .obj .stl .glb .off .vtk; another file than all others");
   AddNumber(command, "--vertices", options->Vertices, vertices,
     "Vertices of the mesh, " + Described(vertices), "N");
+  command
+    ->add_option("--levels", options->Levels,
+      "Levels of detail: meshes of N1, N2, ... vertices in one run, in place of --vertices; the "
+      "largest is OUTPUT, the others lie beside it, such as OUTPUT_1000.vtp")
+    ->type_name("N1,N2,...")
+    ->delimiter(',')
+    ->expected(1, CLI::detail::expected_max_vector_size - 1)
+    ->allow_extra_args(false)
+    ->check(CLI::Range(vertices.Minimum, vertices.Maximum))
+    ->excludes("--vertices");
   AddNumber(command, "--seed", options->Seed, seed,
     "Seed of the random numbers, " + Described(seed) + ": the same seed, the same mesh", "N");
   CLI::Option* const initial =
@@ -565,5 +605,12 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     "Ctrl-C ends the learning, and the mesh learnt so far is written.\n"
     "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 3 done with a "
     "warning\nand --strict, 130 after Ctrl-C.");
-  return [options] { return Reconstruct(*options); };
+  return [options]
+  {
+    if (!options->Levels.empty())
+    {
+      options->Vertices = options->Levels.back();
+    }
+    return Reconstruct(*options);
+  };
 }

@@ -23,6 +23,7 @@
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -50,7 +51,7 @@ vtkNeuralMesh::vtkNeuralMesh()
   , Times(std::make_unique<neuralmesh::PhaseTimes>())
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(this->ExplanationPort + 2);
+  this->SetNumberOfOutputPorts(this->ExplanationPort + 3);
 }
 
 vtkNeuralMesh::~vtkNeuralMesh() = default;
@@ -77,6 +78,11 @@ int vtkNeuralMesh::FillOutputPortInformation(int port, vtkInformation* info)
   if (port == 1)
   {
     info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
+    return 1;
+  }
+  if (port == this->ExplanationPort + 2)
+  {
+    info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkMultiBlockDataSet");
     return 1;
   }
   return this->Superclass::FillOutputPortInformation(port, info);
@@ -124,7 +130,7 @@ vtkIdType vtkNeuralMesh::GetUsedMaximumPoints() const
 {
   return this->MaximumPoints > 0 ? this->MaximumPoints
                                  : static_cast<vtkIdType>(neuralmesh::usualPoints(
-                                     static_cast<std::uint64_t>(this->NumberOfVertices)));
+                                     static_cast<std::uint64_t>(this->GetVerticesOfLargest())));
 }
 
 vtkInformation* vtkNeuralMesh::GetWeightArrayInformation()
@@ -361,7 +367,7 @@ int vtkNeuralMesh::RequestData(
   std::vector<double>().swap(weights);
 
   const bool needsDoubles = !neuralmesh::rangeOf(cloud).fitsFloats(
-    static_cast<std::size_t>(this->NumberOfVertices), Eigen::Vector3d::Zero());
+    static_cast<std::size_t>(this->GetVerticesOfLargest()), Eigen::Vector3d::Zero());
   vtkNeuralMeshRun run{ cloud, {},
     this->GetUsedPrecision(collector.HasDoublePoints() || needsDoubles),
     vtkNeuralMeshProgress(this), {}, executor, {},
@@ -374,13 +380,28 @@ int vtkNeuralMesh::RequestData(
   {
     return 1;
   }
+  vtkMultiBlockDataSet* levels =
+    vtkMultiBlockDataSet::GetData(outputVector, this->ExplanationPort + 2);
+  const auto takeLevel = [&](std::size_t level, neuralmesh::Reconstruction mesh)
+  {
+    this->Tell(mesh, std::to_string(mesh.mesh.points.size()) + " vertices: ");
+    vtkNew<vtkPolyData> block;
+    this->FillOutput(run, mesh, block);
+    if (carries)
+    {
+      const double done = this->GetProgress();
+      this->Carry(run, mesh, *carrier, run.Progress.GetPart(done, done), block);
+    }
+    this->SetLevel(levels, level, block);
+  };
   neuralmesh::Reconstruction result;
-  if (!this->Learn(run, result))
+  if (!this->Learn(run, takeLevel, result))
   {
     return 0;
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
-  this->FillOutput(run, result, output, vtkTable::GetData(outputVector, 1));
+  vtkNeuralMeshReport::FillLearningCurve(result.curve.rows(), vtkTable::GetData(outputVector, 1));
+  this->FillOutput(run, result, output);
   if (this->ExplainPoints && result.explanation)
   {
     vtkExplainedPoints::Fill(collector, cloud, *result.explanation,
@@ -397,7 +418,13 @@ int vtkNeuralMesh::RequestData(
   }
   if (carries && isWhole)
   {
-    isComplete = this->Carry(run, result, *carrier, output) && isComplete;
+    isComplete =
+      this->Carry(run, result, *carrier, run.Progress.GetPart(BeginOfCarrying, 1.0), output) &&
+      isComplete;
+  }
+  if (isWhole && !this->Levels.empty())
+  {
+    this->SetLevel(levels, this->Levels.size() - 1, output);
   }
   this->AbortExecute = 0;
   if (!this->KeepCheckpoint && isComplete)
@@ -462,6 +489,7 @@ bool vtkNeuralMesh::BeginRun(
     vtkNeuralMeshConvert<decltype(run.Parameters.parameter)>(this->property);
   NEURAL_MESH_FOR_EACH_PARAMETER(SET_PARAMETER)
 #undef SET_PARAMETER
+  run.Parameters.numberOfVertices = static_cast<std::uint64_t>(this->GetVerticesOfLargest());
   if (!this->IsHelper())
   {
     run.Warnings = run.Parameters.warnings(run.Cloud.points().size());
@@ -473,6 +501,10 @@ bool vtkNeuralMesh::BeginRun(
   catch (const std::runtime_error& error)
   {
     vtkErrorMacro(<< "Learning cannot start from the first mesh: " << error.what() << ".");
+    return false;
+  }
+  if (!this->CheckLevels(run))
+  {
     return false;
   }
   if (!this->IsHelper() && run.FirstMesh)
@@ -491,7 +523,8 @@ bool vtkNeuralMesh::BeginRun(
 }
 
 /// Chooses parameters, if that is asked for, and learns. False if the checkpoint does not go with it.
-bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& result)
+bool vtkNeuralMesh::Learn(
+  vtkNeuralMeshRun& run, const LevelTaker& takeLevel, neuralmesh::Reconstruction& result)
 {
   const neuralmesh::Progress progress = run.Progress.GetPart(0.0, run.EndOfMesh);
   try
@@ -506,6 +539,10 @@ bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& res
       run.Tuning = std::move(automatic.tuning);
       result = std::move(automatic.reconstruction);
     }
+    else if (!this->Levels.empty())
+    {
+      result = this->LearnLevels(run, takeLevel, progress);
+    }
     else
     {
       result = neuralmesh::reconstruct(run.Cloud, run.Parameters, progress, run.FirstMesh,
@@ -519,22 +556,26 @@ bool vtkNeuralMesh::Learn(vtkNeuralMeshRun& run, neuralmesh::Reconstruction& res
     return false;
   }
   this->AbortExecute = 0;
-  for (const std::string& warning : result.warnings)
-  {
-    vtkWarningMacro(<< warning);
-    run.Warnings.push_back(warning);
-  }
-  this->Times->add(result.times);
+  this->Tell(result, "");
   this->ResumedIterations = static_cast<vtkIdType>(result.resumedIterations);
   this->StopReason = neuralmesh::name(result.stopReason).data();
   return true;
 }
 
-/// Mesh, arrays and report.
-void vtkNeuralMesh::FillOutput(const vtkNeuralMeshRun& run,
-  const neuralmesh::Reconstruction& result, vtkPolyData* output, vtkTable* learningCurve)
+/// Its warnings and times.
+void vtkNeuralMesh::Tell(const neuralmesh::Reconstruction& result, const std::string& of)
 {
-  vtkNeuralMeshReport::FillLearningCurve(result.curve.rows(), learningCurve);
+  for (const std::string& warning : result.warnings)
+  {
+    vtkWarningMacro(<< of << warning);
+  }
+  this->Times->add(result.times);
+}
+
+/// Mesh, arrays and report.
+void vtkNeuralMesh::FillOutput(
+  const vtkNeuralMeshRun& run, const neuralmesh::Reconstruction& result, vtkPolyData* output)
+{
   vtkNeuralMeshReport::FillMesh(result, run.PointsPrecision, output);
   vtkNeuralMeshReport::AddRun(result, run.Cloud, this->Seed, output);
   vtkNeuralMeshReport::RemoveFrom(output);
@@ -551,18 +592,19 @@ void vtkNeuralMesh::FillOutput(const vtkNeuralMeshRun& run,
   {
     vtkExplainedPoints::AddCounts(*result.explanation, output);
   }
-  vtkNeuralMeshReport::AddWarnings(run.Warnings, output);
+  std::vector<std::string> warnings = run.Warnings;
+  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+  vtkNeuralMeshReport::AddWarnings(warnings, output);
 }
 
 /// Point data of the input goes over to the mesh. False if that was aborted.
-bool vtkNeuralMesh::Carry(vtkNeuralMeshRun& run, const neuralmesh::Reconstruction& result,
-  const vtkPointDataCarrier& carrier, vtkPolyData* output)
+bool vtkNeuralMesh::Carry(const vtkNeuralMeshRun& run, const neuralmesh::Reconstruction& result,
+  const vtkPointDataCarrier& carrier, const neuralmesh::Progress& progress, vtkPolyData* output)
 {
-  const neuralmesh::Progress carrying = run.Progress.GetPart(BeginOfCarrying, 1.0);
   const neuralmesh::CloudPlaces places(
-    run.Cloud, result.surface, neuralmesh::partOf(carrying, 0.0, 0.5), run.Executor);
+    run.Cloud, result.surface, neuralmesh::partOf(progress, 0.0, 0.5), run.Executor);
   carrier.Carry(
-    places, output->GetPointData(), run.Executor, neuralmesh::partOf(carrying, 0.5, 1.0));
+    places, output->GetPointData(), run.Executor, neuralmesh::partOf(progress, 0.5, 1.0));
   return !this->AbortExecute;
 }
 
@@ -584,6 +626,12 @@ void vtkNeuralMesh::PrintSelf(ostream& os, vtkIndent indent)
   NEURAL_MESH_FOR_EACH_PROPERTY(PRINT_PROPERTY)
 #undef PRINT_PARAMETER
 #undef PRINT_PROPERTY
+  os << indent << "Levels:";
+  for (const vtkIdType vertices : this->Levels)
+  {
+    os << " " << vertices;
+  }
+  os << "\n";
   os << indent << "PointFileName: " << this->PointFileName << "\n";
   os << indent << "WeightArrayName: " << this->GetWeightArrayName() << "\n";
   os << indent << "CheckpointFileName: " << this->CheckpointFileName << "\n";

@@ -10,6 +10,7 @@
 #include "cloud/MeshBuilder.h"
 #include "run/AutomaticReconstruction.h"
 #include "run/EnsembleRun.h"
+#include "run/Levels.h"
 #include "run/Warnings.h"
 
 #include <nanobind/stl/string.h>
@@ -85,6 +86,18 @@ void Run::learn(Plan plan, Call& call)
     }
   };
   std::optional<Mesh> first = firstMeshOf(std::move(plan.firstMesh));
+  if (!plan.levels.empty())
+  {
+    parameters.numberOfVertices = plan.levels.back();
+    const std::string problem = whyNoLevels(plan.levels, parameters,
+      { .firstMesh = first || ensemble,
+        .checkpoint = !plan.checkpoint.empty(),
+        .automatic = plan.isAutomatic });
+    if (!problem.empty())
+    {
+      throw std::invalid_argument(problem);
+    }
+  }
   warn(parameters.warnings(cloud_->points().size()), tell);
   CheckpointPlan checkpoint{ .path = plan.checkpoint,
     .interval = plan.checkpointInterval,
@@ -130,6 +143,18 @@ void Run::learn(Plan plan, Call& call)
       tuning_ = std::move(automatic.tuning);
       result_ = std::move(automatic.reconstruction);
     }
+    else if (!plan.levels.empty())
+    {
+      result_ = reconstructLevels(
+        { *cloud_, parameters, first, executor_, hints_, plan.explainsAll }, plan.levels,
+        [&](std::size_t, Reconstruction level)
+        {
+          tellWarnings(level, std::to_string(level.mesh.points.size()) + " vertices: ", tell);
+          smaller_.push_back(std::move(level));
+        },
+        progress);
+      shown_ = smaller_.size();
+    }
     else
     {
       result_ = reconstruct(*cloud_, parameters, progress, first, watch, checkpoint, executor_,
@@ -140,8 +165,17 @@ void Run::learn(Plan plan, Call& call)
   {
     throw std::invalid_argument(std::string("Of the checkpoint: ") + error.what() + ".");
   }
-  warn(result_.warnings, tell);
-  times_.add(result_.times);
+  tellWarnings(result_, "", tell);
+}
+
+void Run::tellWarnings(const Reconstruction& result, const std::string& of, const Tell& tell)
+{
+  for (const std::string& text : result.warnings)
+  {
+    resultWarnings_.push_back(of + text);
+    tell("warning", resultWarnings_.back());
+  }
+  times_.add(result.times);
 }
 
 void Run::warn(const std::vector<std::string>& texts, const Tell& tell)
@@ -156,6 +190,7 @@ void Run::warn(const std::vector<std::string>& texts, const Tell& tell)
 std::vector<std::string> Run::warnings() const
 {
   std::vector<std::string> all = warnings_;
+  all.insert(all.end(), resultWarnings_.begin(), resultWarnings_.end());
   all.insert(all.end(), checkpointWarnings_.begin(), checkpointWarnings_.end());
   return all;
 }
@@ -218,10 +253,11 @@ nb::dict Run::votes() const
 
 nb::dict Run::mesh(bool isDouble) const
 {
-  nb::dict mesh = meshOf(result_, isDouble);
+  const Reconstruction& result = shown();
+  nb::dict mesh = meshOf(result, isDouble);
   nb::dict fields;
-  fields["NumberOfVertices"] = result_.mesh.points.size();
-  fields["Iterations"] = result_.counts.iterations;
+  fields["NumberOfVertices"] = result.mesh.points.size();
+  fields["Iterations"] = result.counts.iterations;
   fields["Seed"] = seed_;
   fields["StopReason"] = stopReason();
   fields["DroppedPoints"] = cloud_->droppedCount();
@@ -229,16 +265,18 @@ nb::dict Run::mesh(bool isDouble) const
   {
     addTuning(*tuning_, fields);
   }
-  addSides(result_.orientation, fields);
-  if (result_.quality)
+  addSides(result.orientation, fields);
+  if (result.quality)
   {
-    addQuality(result_, cloud_->unit(), fields);
+    addQuality(result, cloud_->unit(), fields);
   }
-  if (result_.explanation)
+  if (result.explanation)
   {
-    addCounts(*result_.explanation, fields);
+    addCounts(*result.explanation, fields);
   }
-  fields["Warnings"] = warnings_;
+  std::vector<std::string> texts = warnings_;
+  texts.insert(texts.end(), result.warnings.begin(), result.warnings.end());
+  fields["Warnings"] = texts;
   mesh["field_data"] = fields;
   return mesh;
 }
@@ -271,12 +309,12 @@ nb::dict Run::times() const
   return seconds;
 }
 
-std::string Run::stopReason() const { return std::string(name(result_.stopReason)); }
+std::string Run::stopReason() const { return std::string(name(shown().stopReason)); }
 
 bool Run::findPlaces(Call& call, double begin, double end)
 {
   const nb::gil_scoped_release unlocked;
-  places_.emplace(*cloud_, result_.surface, call.part(begin, end), executor_);
+  places_.emplace(*cloud_, shown().surface, call.part(begin, end), executor_);
   return call.goesOn();
 }
 

@@ -37,6 +37,7 @@ public:
     std::string checkpoint;
     double checkpointInterval = 60.;
     std::size_t snapshots = 0;
+    std::vector<std::uint64_t> levels; ///< vertices of each; none: those of the parameters
     nanobind::object takeSnapshot;
     /// Called with what is said meanwhile, its kind first: "warning", "step" or "choice".
     nanobind::object tell;
@@ -49,9 +50,14 @@ public:
   /// Whether floats do not hold a mesh of so many vertices.
   bool needsDoubles(std::size_t vertices) const;
 
-  /// Learns, unless the checkpoint or the first mesh do not go with it: then throws
+  /// Learns, unless the levels, the checkpoint or the first mesh do not go with it: then throws
   /// std::invalid_argument. Warnings are a list of texts.
   void learn(Plan plan, Call& call);
+
+  /// The meshes of all levels but the last.
+  std::size_t smallerLevels() const { return smaller_.size(); }
+  /// Has what follows be about a level, from 0 on; at first it is the last one, as it is without levels.
+  void show(std::size_t level) { shown_ = level; }
 
   nanobind::dict mesh(bool isDouble) const;
   nanobind::dict average(bool isDouble) const; ///< of an ensemble; empty if there is none
@@ -84,6 +90,11 @@ private:
   double startFrom(const EnsembleParameters& ensemble, Parameters& parameters,
     CheckpointPlan& checkpoint, std::optional<Mesh>& first, const Tell& tell, Call& call);
   void warn(const std::vector<std::string>& texts, const Tell& tell);
+  void tellWarnings(const Reconstruction& result, const std::string& of, const Tell& tell);
+  const Reconstruction& shown() const
+  {
+    return shown_ < smaller_.size() ? smaller_[shown_] : result_;
+  }
 
   std::vector<AnyArray> points_;
   Sides sides_;
@@ -92,11 +103,14 @@ private:
   ThreadPool executor_;
   PhaseTimes times_;
   std::optional<PointCloud> cloud_;
+  std::vector<Reconstruction> smaller_; ///< levels
   Reconstruction result_;
+  std::size_t shown_ = 0;
   std::optional<Tuning> tuning_;
   std::optional<VoxelVotes> votes_;
   std::optional<TriangleMesh> average_;
   std::vector<std::string> warnings_;
+  std::vector<std::string> resultWarnings_;     ///< that meshes have
   std::vector<std::string> checkpointWarnings_; ///< of the run, and not of the mesh
   std::uint64_t seed_ = 0;
   std::optional<CloudPlaces> places_;

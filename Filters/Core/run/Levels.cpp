@@ -4,6 +4,7 @@
 #include "mesh/QuadricSimplification.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -40,15 +41,45 @@ std::vector<Chain> chainsOf(std::span<const std::uint64_t> levels)
   return result;
 }
 
-/// The first surface, with no more vertices than suit so many that are learnt.
-Beginning simplified(Beginning beginning, std::uint64_t vertices)
+/// The first surface of a mesh of so many vertices, simplified for one of fewer: it is finer where parts are thin.
+Beginning simplified(Beginning beginning, std::uint64_t vertices, std::uint64_t fewer)
 {
-  if (beginning.mesh && beginning.mesh->vertexCount() > firstVertices(vertices))
+  if (beginning.mesh && fewer < vertices)
   {
-    simplifyByQuadrics(*beginning.mesh, firstVertices(vertices));
+    const double part = double(firstVertices(fewer)) / double(firstVertices(vertices));
+    simplifyByQuadrics(*beginning.mesh, std::size_t(part * double(beginning.mesh->vertexCount())));
   }
   return beginning;
 }
+}
+
+std::string whyNoLevels(
+  std::span<const std::uint64_t> levels, const Parameters& parameters, const BesideLevels& beside)
+{
+  constexpr std::uint64_t FewestOfLevel = 4;
+  if (!levels.empty() && levels.front() < FewestOfLevel)
+  {
+    return "A level has at least 4 vertices.";
+  }
+  if (std::ranges::adjacent_find(levels, std::greater_equal<>()) != levels.end())
+  {
+    return "The levels must ascend: each needs more vertices than the one before.";
+  }
+  const bool hasRules = parameters.timeLimit > 0. || parameters.maximumIterations > 0 ||
+    parameters.targetSampleDistance > 0. || parameters.targetCloudDistance > 0. ||
+    parameters.targetNormalChange > 0.;
+  for (const auto& [isThere, name] :
+    { std::pair(beside.firstMesh, "a first mesh or an ensemble"),
+      std::pair(beside.checkpoint, "a checkpoint"), std::pair(beside.snapshots, "growth as time"),
+      std::pair(beside.automatic, "the automatic choice of parameters"),
+      std::pair(hasRules, "a stopping rule other than the number of vertices") })
+  {
+    if (isThere)
+    {
+      return std::string("Levels and ") + name + " exclude each other.";
+    }
+  }
+  return {};
 }
 
 Reconstruction reconstructLevels(const RunRequest& request, std::span<const std::uint64_t> levels,
@@ -64,7 +95,7 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
   double done = StartOfLearning;
   for (const Chain& chain : chainsOf(levels))
   {
-    Beginning next = simplified(beginning, levels[chain.last - 1]);
+    Beginning next = simplified(beginning, levels.back(), levels[chain.last - 1]);
     for (std::size_t level = chain.first; level < chain.last; ++level)
     {
       Parameters parameters = request.parameters;

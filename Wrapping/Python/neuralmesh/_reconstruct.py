@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import numbers
 import os
-from typing import Any
+from typing import Any, Sequence
 
 from . import _world
 from ._parameters import assign, parameters_of, refuse_unknown, table
@@ -54,6 +55,7 @@ def reconstruct(
     checkpoint: str | os.PathLike[str] | None = None,
     explain: bool = False,
     feature_lines: bool = False,
+    levels: Sequence[int] | None = None,
     progress: Progress | None = None,
     **parameters: float | bool | str,
 ) -> MadeMesh:
@@ -104,6 +106,10 @@ def reconstruct(
                 points confirm, are found: then they are one more result, the last one, as a vtkPolyData of
                 lines and corners, and the mesh has the point data `Crease`. It has no points if progress
                 ended the run.
+            levels: Levels of detail: numbers of vertices, in ascending order, in place of `vertices`. Then
+                the meshes of all, in that order, are a list in place of the mesh, made in one run that takes
+                little longer than that of the largest. If progress ended the run, the list ends with the
+                mesh learnt so far. What explain and feature_lines give is that of the largest.
             progress: A function that is called now and then with the fraction that is done, from 0 to
                 1. If it returns False, the mesh learnt so far is the result. An exception that it
                 raises ends the run and comes out of this function.
@@ -168,10 +174,13 @@ def reconstruct(
     first = None if first_mesh is None else _world.take_surface(first_mesh, "first_mesh")
     mesh.SetExplainPoints(bool(explain))
     mesh.SetComputeFeatureLines(bool(feature_lines))
-    result, explained, lines = _world.learn(mesh, cloud, first, progress, points)
+    for level in levels or ():
+        _add_level(mesh, level)
+    result, explained, lines, smaller = _world.learn(mesh, cloud, first, progress, points)
     require_points(result)
+    meshes = [*smaller, result] if levels else result
     more = ([explained] if explain else []) + ([lines] if feature_lines else [])
-    return (result, *more) if more else result
+    return (meshes, *more) if more else meshes
 
 
 if reconstruct.__doc__:
@@ -206,6 +215,15 @@ def make_filter(
         assign(mesh, name, value)
     set_outer_side(mesh, viewpoints, up)
     return mesh
+
+
+def _add_level(mesh: Any, level: object) -> None:
+    # The range of a level is that of the number of vertices.
+    low, high = mesh.GetNumberOfVerticesMinValue(), mesh.GetNumberOfVerticesMaxValue()
+    is_whole = isinstance(level, numbers.Integral) and not isinstance(level, bool)
+    if not (is_whole and low <= level <= high):  # type: ignore[operator]
+        raise ValueError(f"a level must be a whole number from {low} to {high}, not {level!r}")
+    mesh.AddLevel(int(level))  # type: ignore[call-overload]
 
 
 def set_outer_side(mesh: Any, viewpoints: ArrayLike | None, up: ArrayLike | None) -> None:

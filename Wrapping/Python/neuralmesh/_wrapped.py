@@ -58,17 +58,24 @@ def learn(
     first_mesh: vtkPolyData | None,
     progress: Progress | None,
     given: object = None,
-) -> tuple[Any, Any, Any]:
-    """Execute a filter with points, or with its file where there are none; mesh, explained points and
-    feature lines.
+) -> tuple[Any, Any, Any, list[Any]]:
+    """Execute a filter with points, or with its file where there are none; mesh, explained points,
+    feature lines and smaller levels.
     """
     if points is not None:
         mesh.SetInputData(points)
     if first_mesh is not None:
         mesh.SetFirstMeshData(first_mesh)
     execute(mesh, progress)
-    outputs = (mesh.GetOutput(), mesh.GetExplainedPoints(), mesh.GetFeatureLines())
-    return tuple(_copy(output, given) for output in outputs)  # type: ignore[return-value]
+    levels = mesh.GetLevels()
+    # The last one is the mesh itself, unless the run was ended early.
+    count = min(levels.GetNumberOfBlocks(), max(mesh.GetNumberOfLevels() - 1, 0))
+    return (
+        _copy(mesh.GetOutput(), given),
+        _copy(mesh.GetExplainedPoints(), given),
+        _copy(mesh.GetFeatureLines(), given),
+        [_copy(levels.GetBlock(number), given) for number in range(count)],
+    )
 
 
 def add_points(stream: NeuralMeshStream, points: Any) -> None:

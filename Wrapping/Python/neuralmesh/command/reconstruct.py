@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import os
 import signal
 import sys
 import threading
@@ -66,6 +67,8 @@ def run(arguments: Sequence[str]) -> int:
             files.write_mesh(outcome.explained, options.explain)
         if outcome.feature_lines is not None:
             _write_lines(outcome.feature_lines, options.feature_lines)
+        for level, path in zip(outcome.smaller_levels, _level_paths(options)):
+            files.write_mesh(level, path, shift)
         watch.append(time.monotonic())
     reason = mesh.GetStopReason()
     if reason not in ("cancelled", "time limit"):
@@ -75,6 +78,9 @@ def run(arguments: Sequence[str]) -> int:
         print_run(mesh, outcome.mesh, points, drawn, seconds)
         if outcome.feature_lines is not None:
             print_lines(outcome.feature_lines)
+        for level, path in zip(outcome.smaller_levels, _level_paths(options)):
+            residual = level.field_data["Residual"]
+            print(f"level      {len(level.points)} vertices, residual {residual:.3g}: {path}")
         if options.shift:
             _print_shift(stored, options.output)
     if reason == "cancelled":
@@ -93,6 +99,12 @@ def _names(options: argparse.Namespace) -> tuple[list[str], str]:
     return inputs, output
 
 
+def _level_paths(options: argparse.Namespace) -> list[str]:
+    """The files of all levels but the largest, which is OUTPUT itself."""
+    stem, extension = os.path.splitext(options.output)
+    return [f"{stem}_{level}{extension}" for level in (options.levels or [])[:-1]]
+
+
 def _write_lines(lines: Any, path: str) -> None:
     if lines.lines:
         files.write_mesh(lines, path)
@@ -109,6 +121,8 @@ def _filter_of(options: argparse.Namespace) -> Any:
         mesh = NeuralMeshEnsemble()
         mesh.SetNumberOfMembers(options.ensemble)
     mesh.SetNumberOfVertices(options.vertices)
+    for level in options.levels or []:
+        mesh.AddLevel(level)
     mesh.SetSeed(options.seed)
     mesh.SetVariant(options.method)
     mesh.SetOrder(options.order)
@@ -198,6 +212,7 @@ def _require_sound_files(options: argparse.Namespace, mesh: Any) -> None:
             NamedFile("--explain", options.explain, True),
             NamedFile("--feature-lines", options.feature_lines, True),
             NamedFile("--checkpoint", options.checkpoint, True),
+            *(NamedFile("--levels", path, True) for path in _level_paths(options)),
         ]
     )
     require_output(options.output)

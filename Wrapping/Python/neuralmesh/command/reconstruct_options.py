@@ -51,6 +51,8 @@ class _ReconstructParser(Parser):
             self.error("--initial excludes --ensemble")
         if options.views and options.viewpoint:
             self.error("--views excludes --viewpoint")
+        if options.levels is not None:
+            options.vertices = options.levels[-1]
         if options.checkpoint_interval is None:
             options.checkpoint_interval = property_of("CheckpointInterval").default
         elif not options.checkpoint:

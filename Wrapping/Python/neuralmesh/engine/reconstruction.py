@@ -30,6 +30,7 @@ class Outcome:
     curve: dict[str, np.ndarray] = field(default_factory=dict)
     explained: Mesh | None = None
     feature_lines: Mesh | None = None
+    smaller_levels: list[Mesh] = field(default_factory=list)  # all but the mesh itself
     average: Mesh | None = None  # of an ensemble
     votes: dict[str, Any] | None = None  # likewise
     warnings: list[str] = field(default_factory=list)
@@ -47,6 +48,7 @@ class NeuralMesh(NeuralMeshAlgorithm):
         self._point_file_name = ""
         self._weight_array_name = ""
         self._checkpoint_file_name = ""
+        self._levels: list[int] = []
         self._stop_reason = "none"
         self._resumed_iterations = 0
         self._times: dict[str, float] = {}
@@ -64,7 +66,33 @@ class NeuralMesh(NeuralMeshAlgorithm):
     def GetUsedMaximumPoints(self) -> int:
         """MaximumPoints, or what stands for 0."""
         wanted = int(self._values["MaximumPoints"])
-        return wanted or _engine.usual_points(int(self._values["NumberOfVertices"]))
+        return wanted or _engine.usual_points(self._vertices_of_largest())
+
+    def AddLevel(self, vertices: int) -> None:
+        """One more level of detail, of more vertices than those before."""
+        allowed = self.PROPERTIES["NumberOfVertices"]
+        if not allowed.low <= vertices <= allowed.high:
+            self._warn(f"A level of {vertices} vertices is out of range and is left out.")
+            return
+        self._levels.append(int(vertices))
+        self.Modified()
+
+    def RemoveAllLevels(self) -> None:
+        """One mesh of NumberOfVertices is wanted."""
+        if self._levels:
+            self._levels.clear()
+            self.Modified()
+
+    def GetNumberOfLevels(self) -> int:
+        """How many there are."""
+        return len(self._levels)
+
+    def GetLevel(self, number: int) -> int:
+        """The number of vertices of a level, from 0 on; -1 if there is none."""
+        return self._levels[number] if 0 <= number < len(self._levels) else -1
+
+    def _vertices_of_largest(self) -> int:
+        return self._levels[-1] if self._levels else int(self._values["NumberOfVertices"])
 
     def SetWeightArrayName(self, name: str | None) -> None:
         """The point array of weights."""
@@ -157,6 +185,8 @@ class NeuralMesh(NeuralMeshAlgorithm):
             raise ValueError(
                 "CheckpointFileName and GrowthAsTime exclude each other: a checkpoint holds no snapshots."
             )
+        if self._levels and self._values["GrowthAsTime"]:
+            raise ValueError("Levels and growth as time exclude each other.")
         warnings: list[str] = []
 
         def warn(*texts: str) -> None:
@@ -185,7 +215,7 @@ class NeuralMesh(NeuralMeshAlgorithm):
         precision = self._values["OutputPointsPrecision"]
         is_double = precision == _DOUBLE or (
             precision != _SINGLE
-            and (cloud.has_doubles or run.needs_doubles(int(self._values["NumberOfVertices"])))
+            and (cloud.has_doubles or run.needs_doubles(self._vertices_of_largest()))
         )
         finds_lines = bool(self._values["ComputeFeatureLines"])
         end_of_mesh = _BEGIN_OF_CARRYING if carried else 1.0
@@ -210,6 +240,7 @@ class NeuralMesh(NeuralMeshAlgorithm):
             self._checkpoint_file_name,
             float(self._values["CheckpointInterval"]),
             int(self._values["NumberOfSnapshots"]) - 1 if take_snapshot else 0,
+            self._levels,
             _snapshot_taker(take_snapshot, is_double),
             tell,
             progress,
@@ -220,6 +251,13 @@ class NeuralMesh(NeuralMeshAlgorithm):
         outcome = Outcome(
             Mesh(**run.mesh(is_double)), run.curve(), warnings=warnings + run.warnings
         )
+        for level in range(run.smaller_levels):
+            run.show(level)
+            smaller = Mesh(**run.mesh(is_double))
+            if carried:
+                carry(run, cloud, carried, smaller, None)
+            outcome.smaller_levels.append(smaller)
+        run.show(run.smaller_levels)
         if explains:
             outcome.explained = explained_points(cloud, run.explained())
         if self.IS_ENSEMBLE:

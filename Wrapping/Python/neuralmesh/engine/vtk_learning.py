@@ -19,10 +19,12 @@ from .vtk_names import (
     PACKAGE,
     vtkAlgorithm,
     vtkCommand,
+    vtkCompositeDataSet,
     vtkDataObject,
     vtkDemandDrivenPipeline,
     vtkImageData,
     vtkLogger,
+    vtkMultiBlockDataSet,
     vtkPolyData,
     vtkStreamingDemandDrivenPipeline,
     vtkTable,
@@ -55,11 +57,13 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
 
     Input port 0 takes a vtkPointSet, or a composite dataset, of which all point sets are one cloud; port 1,
     optional, the triangles to start from. Outputs are the mesh, the learning curve as a vtkTable, the
-    explained points, and the feature lines. Documentation/Filters.md of the project tells of all.
+    explained points, the feature lines, and the levels as a vtkMultiBlockDataSet. Documentation/Filters.md of the project tells of all.
     """
 
     _INPUTS: tuple[tuple[str, ...], ...] = (_POINT_SETS, ("vtkPolyData",))
-    _OUTPUTS: tuple[str, ...] = ("vtkPolyData", "vtkTable", "vtkPolyData", "vtkPolyData")
+    _OUTPUTS: tuple[str, ...] = (
+        "vtkPolyData", "vtkTable", "vtkPolyData", "vtkPolyData", "vtkMultiBlockDataSet",
+    )  # fmt: skip
     _OPTIONAL_INPUTS = True
     SnapshotEvent = vtkCommand.UserEvent + 2004
 
@@ -90,10 +94,14 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
 
     def GetExplainedPoints(self) -> Any:
         """Output port 2, of an ensemble port 4; empty without ExplainPoints."""
-        return self.GetOutputDataObject(len(self._OUTPUTS) - 2)
+        return self.GetOutputDataObject(len(self._OUTPUTS) - 3)
 
     def GetFeatureLines(self) -> Any:
-        """The last output port; empty without ComputeFeatureLines."""
+        """Output port 3, of an ensemble port 5; empty without ComputeFeatureLines."""
+        return self.GetOutputDataObject(len(self._OUTPUTS) - 2)
+
+    def GetLevels(self) -> Any:
+        """The last output port: a block for each level, in their order; empty without levels."""
         return self.GetOutputDataObject(len(self._OUTPUTS) - 1)
 
     def SetWeightArrayName(self, name: str | None) -> None:
@@ -211,9 +219,23 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
             output.GetFieldData().RemoveArray(name)
         outcome.mesh.fill(output)
         if outcome.explained is not None and outcome.explained.point_data:
-            outcome.explained.fill(vtkPolyData.GetData(outputs, len(self._OUTPUTS) - 2))
+            outcome.explained.fill(vtkPolyData.GetData(outputs, len(self._OUTPUTS) - 3))
         if outcome.feature_lines is not None:
-            outcome.feature_lines.fill(vtkPolyData.GetData(outputs, len(self._OUTPUTS) - 1))
+            outcome.feature_lines.fill(vtkPolyData.GetData(outputs, len(self._OUTPUTS) - 2))
+        if self.GetNumberOfLevels() > 0:
+            self._fill_levels(outcome, outputs)
+
+    def _fill_levels(self, outcome: Outcome, outputs: Any) -> None:
+        meshes = [level.to_vtk_of(PACKAGE) for level in outcome.smaller_levels]
+        if self.GetStopReason() != _CANCELLED:
+            largest = vtkPolyData()
+            largest.ShallowCopy(vtkPolyData.GetData(outputs, 0))
+            meshes.append(largest)
+        levels = vtkMultiBlockDataSet.GetData(outputs, len(self._OUTPUTS) - 1)
+        for number, mesh in enumerate(meshes):
+            levels.SetBlock(number, mesh)
+            name = f"{mesh.GetNumberOfPoints()} vertices"
+            levels.GetMetaData(number).Set(vtkCompositeDataSet.NAME(), name)
 
 
 def _weights_of(block: Any, information: Any) -> np.ndarray | None:
@@ -237,6 +259,7 @@ class vtkNeuralMeshEnsemble(vtkNeuralMesh, NeuralMeshEnsemble):
     _INPUTS = (_POINT_SETS,)
     _OUTPUTS = (
         "vtkPolyData", "vtkTable", "vtkPolyData", "vtkImageData", "vtkPolyData", "vtkPolyData",
+        "vtkMultiBlockDataSet",
     )  # fmt: skip
 
     def _begin_values(self) -> None:

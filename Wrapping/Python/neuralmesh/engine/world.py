@@ -85,9 +85,9 @@ def learn(
     first_mesh: Mesh | None,
     progress: Progress | None,
     given: object = None,
-) -> tuple[Any, Any, Any]:
-    """Run with points, or with the file of the mesh where there are none; mesh, explained points and
-    feature lines.
+) -> tuple[Any, Any, Any, list[Any]]:
+    """Run with points, or with the file of the mesh where there are none; mesh, explained points,
+    feature lines and smaller levels.
     """
     told = _told(progress)
     outcome = (
@@ -101,6 +101,7 @@ def learn(
         present(outcome.mesh, given),
         present(outcome.explained or _nothing(), given),
         present(outcome.feature_lines or _nothing(), given),
+        [present(level, given) for level in outcome.smaller_levels],
     )
 
 

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LevelFiles.h"
+
+#include "FieldNumber.h"
+#include "MeshWriter.h"
+
+#include "vtkNeuralMesh.h"
+
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPolyData.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+
+namespace
+{
+/** Calls `use` with each of the smaller levels that are there, and with its file. */
+void ForEachSmallerLevel(vtkNeuralMesh* filter, const std::string& output,
+  const std::function<void(vtkPolyData*, const std::string&)>& use)
+{
+  std::vector<vtkIdType> levels;
+  for (int number = 0; number < filter->GetNumberOfLevels(); ++number)
+  {
+    levels.push_back(filter->GetLevel(number));
+  }
+  const std::vector<std::string> paths = SmallerLevelPaths(output, levels);
+  for (unsigned number = 0; number < paths.size(); ++number)
+  {
+    if (auto* mesh = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(number)))
+    {
+      use(mesh, paths[number]);
+    }
+  }
+}
+}
+
+std::vector<std::string> SmallerLevelPaths(
+  const std::string& output, const std::vector<vtkIdType>& levels)
+{
+  const std::filesystem::path path(output);
+  std::vector<std::string> result;
+  for (std::size_t number = 0; number + 1 < levels.size(); ++number)
+  {
+    std::filesystem::path level = path;
+    level.replace_filename(
+      path.stem().string() + "_" + std::to_string(levels[number]) + path.extension().string());
+    result.push_back(level.string());
+  }
+  return result;
+}
+
+void WriteSmallerLevels(vtkNeuralMesh* filter, const std::string& output, const MeshShift& shift)
+{
+  ForEachSmallerLevel(filter, output,
+    [&](vtkPolyData* mesh, const std::string& path) { WriteMesh(mesh, path, shift); });
+}
+
+void PrintSmallerLevels(vtkNeuralMesh* filter, const std::string& output)
+{
+  ForEachSmallerLevel(filter, output,
+    [](vtkPolyData* mesh, const std::string& path)
+    {
+      std::printf("level      %lld vertices, residual %.3g: %s\n",
+        static_cast<long long>(mesh->GetNumberOfPoints()), FieldNumber(mesh, "Residual"),
+        path.c_str());
+    });
+}

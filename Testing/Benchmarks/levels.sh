@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Prints how levels of detail compare with runs of their own: the table of Documentation/Levels.md.
+#
+#   levels.sh [--seeds N] [--levels N1,N2,...] CLOUD,REFERENCE...
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+source Utilities/build.sh
+
+install_packages "${build_packages[@]}"
+build build neuralmesh
+/usr/bin/python3 Testing/Benchmarks/levels.py build/bin/neuralmesh "$@"
