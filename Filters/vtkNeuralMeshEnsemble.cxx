@@ -100,7 +100,7 @@ vtkNeuralMeshEnsemble::vtkNeuralMeshEnsemble()
 {
   this->SetNumberOfInputPorts(1);
   this->ExplanationPort = 4;
-  this->SetNumberOfOutputPorts(this->ExplanationPort + 3);
+  this->SetNumberOfOutputPorts(this->ExplanationPort + 2);
   this->TopologyLearningOn();
 }
 

@@ -43,7 +43,10 @@ vtkIdType vtkNeuralMesh::GetLevel(int number) const
 
 vtkMultiBlockDataSet* vtkNeuralMesh::GetLevels()
 {
-  return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(this->ExplanationPort + 2));
+  const int port = this->ExplanationPort + 2;
+  return port < this->GetNumberOfOutputPorts()
+    ? vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(port))
+    : nullptr;
 }
 
 vtkIdType vtkNeuralMesh::GetVerticesOfLargest() const

@@ -157,6 +157,17 @@ class Filters(unittest.TestCase):
             self.assertAlmostEqual(sharpest, 90, delta=20)
             self.assertEqual(mesh.GetPointDataInformation()["Crease"].GetRange(0)[0], 0.0)
 
+    # Promise: levels of detail are blocks of an output with a name, the last of them the mesh itself.
+    def test_levels(self):
+        mesh = simple.NeuralMesh(Input=support.scan(), NumberOfVertices=1000)
+        self.assertEqual(mesh.SMProxy.GetOutputPortName(4), "Levels")
+        mesh.UpdatePipeline()
+        self.assertEqual(support.information_of(mesh, 4).GetNumberOfPoints(), 0)
+        mesh.Levels = [200, 800]
+        mesh.UpdatePipeline()
+        self.assertEqual(support.information_of(mesh).GetNumberOfPoints(), 800)
+        self.assertEqual(support.information_of(mesh, 4).GetNumberOfPoints(), 1000)
+
     # Promise: error bars are an array of the mesh that can be asked for in the panel.
     def test_uncertainty(self):
         mesh = simple.NeuralMesh(Input=support.scan(), NumberOfVertices=1000)

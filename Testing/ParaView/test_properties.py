@@ -310,7 +310,7 @@ class Panel(unittest.TestCase):
             if name in ("NeuralMesh", "NeuralMeshEnsemble"):
                 self.assertEqual(grouped, keys[1:])
                 labels = [group.GetXMLLabel() for group in groups]
-                more = ["Ensemble"] if name == "NeuralMeshEnsemble" else []
+                more = ["Ensemble" if name == "NeuralMeshEnsemble" else "Levels of Detail"]
                 self.assertEqual(labels, GROUPS + more)
 
     # Promise: few properties are shown at first, and those are the ones that most people need.

@@ -68,8 +68,9 @@ def learn(
         mesh.SetFirstMeshData(first_mesh)
     execute(mesh, progress)
     levels = mesh.GetLevels()
-    # The last one is the mesh itself, unless the run was ended early.
-    count = min(levels.GetNumberOfBlocks(), max(mesh.GetNumberOfLevels() - 1, 0))
+    # The last one is the mesh itself, unless the run was ended early. An ensemble has none.
+    there = levels.GetNumberOfBlocks() if levels else 0
+    count = min(there, max(mesh.GetNumberOfLevels() - 1, 0))
     return (
         _copy(mesh.GetOutput(), given),
         _copy(mesh.GetExplainedPoints(), given),

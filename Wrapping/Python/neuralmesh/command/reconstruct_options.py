@@ -40,6 +40,12 @@ _FOOTER = (
 )
 
 
+def _levels_of(text: str) -> list[int]:
+    allowed = property_of("NumberOfVertices")
+    convert = number_from(allowed.low, allowed.high, True)
+    return [convert(number) for number in text.split(",")]
+
+
 class _ReconstructParser(Parser):
     def parse(self, arguments: Sequence[str]) -> argparse.Namespace:
         options = super().parse(arguments)
@@ -52,7 +58,11 @@ class _ReconstructParser(Parser):
         if options.views and options.viewpoint:
             self.error("--views excludes --viewpoint")
         if options.levels is not None:
+            if options.vertices is not None:
+                self.error("--levels excludes --vertices")
             options.vertices = options.levels[-1]
+        elif options.vertices is None:
+            options.vertices = property_of("NumberOfVertices").default
         if options.checkpoint_interval is None:
             options.checkpoint_interval = property_of("CheckpointInterval").default
         elif not options.checkpoint:
@@ -76,11 +86,19 @@ def parser() -> Parser:
         help=f"{POINTS}; several files are one cloud. The last name is the mesh: {' '.join(OUTPUTS)} "
         "(.vtp .vtk by VTK); another file than all others",
     )
-    result.add_number(
+    vertices = property_of("NumberOfVertices")
+    result.add_argument(
         "--vertices",
-        "NumberOfVertices",
-        f"Vertices of the mesh, {described('NumberOfVertices')}",
-        "N",
+        type=number_from(vertices.low, vertices.high, True),
+        metavar="N",
+        help=f"Vertices of the mesh, {described('NumberOfVertices')}",
+    )
+    result.add_argument(
+        "--levels",
+        type=_levels_of,
+        metavar="N1,N2,...",
+        help="Levels of detail: meshes of N1, N2, ... vertices in one run, in place of --vertices; the "
+        "largest is OUTPUT, the others lie beside it, such as OUTPUT_1000.vtp",
     )
     result.add_number(
         "--seed", "Seed",

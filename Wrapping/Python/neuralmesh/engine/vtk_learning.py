@@ -65,6 +65,7 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
         "vtkPolyData", "vtkTable", "vtkPolyData", "vtkPolyData", "vtkMultiBlockDataSet",
     )  # fmt: skip
     _OPTIONAL_INPUTS = True
+    _EXPLANATION_PORT = 2  # feature lines and levels follow
     SnapshotEvent = vtkCommand.UserEvent + 2004
 
     def __init__(self, **properties: Any) -> None:
@@ -94,15 +95,16 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
 
     def GetExplainedPoints(self) -> Any:
         """Output port 2, of an ensemble port 4; empty without ExplainPoints."""
-        return self.GetOutputDataObject(len(self._OUTPUTS) - 3)
+        return self.GetOutputDataObject(self._EXPLANATION_PORT)
 
     def GetFeatureLines(self) -> Any:
         """Output port 3, of an ensemble port 5; empty without ComputeFeatureLines."""
-        return self.GetOutputDataObject(len(self._OUTPUTS) - 2)
+        return self.GetOutputDataObject(self._EXPLANATION_PORT + 1)
 
     def GetLevels(self) -> Any:
-        """The last output port: a block for each level, in their order; empty without levels."""
-        return self.GetOutputDataObject(len(self._OUTPUTS) - 1)
+        """Output port 4: a block for each level, in their order; empty without levels. None of an ensemble."""
+        port = self._EXPLANATION_PORT + 2
+        return self.GetOutputDataObject(port) if port < len(self._OUTPUTS) else None
 
     def SetWeightArrayName(self, name: str | None) -> None:
         """The point array of weights: the same as SetInputArrayToProcess(0, 0, 0, POINTS, name)."""
@@ -219,9 +221,9 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
             output.GetFieldData().RemoveArray(name)
         outcome.mesh.fill(output)
         if outcome.explained is not None and outcome.explained.point_data:
-            outcome.explained.fill(vtkPolyData.GetData(outputs, len(self._OUTPUTS) - 3))
+            outcome.explained.fill(vtkPolyData.GetData(outputs, self._EXPLANATION_PORT))
         if outcome.feature_lines is not None:
-            outcome.feature_lines.fill(vtkPolyData.GetData(outputs, len(self._OUTPUTS) - 2))
+            outcome.feature_lines.fill(vtkPolyData.GetData(outputs, self._EXPLANATION_PORT + 1))
         if self.GetNumberOfLevels() > 0:
             self._fill_levels(outcome, outputs)
 
@@ -231,7 +233,7 @@ class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
             largest = vtkPolyData()
             largest.ShallowCopy(vtkPolyData.GetData(outputs, 0))
             meshes.append(largest)
-        levels = vtkMultiBlockDataSet.GetData(outputs, len(self._OUTPUTS) - 1)
+        levels = vtkMultiBlockDataSet.GetData(outputs, self._EXPLANATION_PORT + 2)
         for number, mesh in enumerate(meshes):
             levels.SetBlock(number, mesh)
             name = f"{mesh.GetNumberOfPoints()} vertices"
@@ -259,8 +261,8 @@ class vtkNeuralMeshEnsemble(vtkNeuralMesh, NeuralMeshEnsemble):
     _INPUTS = (_POINT_SETS,)
     _OUTPUTS = (
         "vtkPolyData", "vtkTable", "vtkPolyData", "vtkImageData", "vtkPolyData", "vtkPolyData",
-        "vtkMultiBlockDataSet",
     )  # fmt: skip
+    _EXPLANATION_PORT = 4
 
     def _begin_values(self) -> None:
         NeuralMeshEnsemble.__init__(self)

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/ThreadPool.h"
+#include "cloud/CloudGenerator.h"
+#include "ManifoldCheck.h"
+#include "run/Levels.h"
+#include "Shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+using Levels = std::vector<std::uint64_t>;
+
+PointCloud torusOfLevels()
+{
+  CloudOptions options;
+  options.count = 20000;
+  return PointCloud(generateCloud(makeTorus(), options));
+}
+
+/// All meshes of a run, the largest last.
+std::vector<Reconstruction> meshesOf(
+  const PointCloud& cloud, const Levels& levels, const Executor& executor = Executor::sequential(),
+  const Progress& progress = [](double) { return true; })
+{
+  Parameters parameters;
+  parameters.numberOfVertices = levels.back();
+  const std::optional<Mesh> none;
+  const OrientationHints hints;
+  std::vector<Reconstruction> result;
+  Reconstruction last = reconstructLevels(
+    { cloud, parameters, none, executor, hints }, levels,
+    [&](std::size_t level, Reconstruction mesh)
+    {
+      EXPECT_EQ(level, result.size());
+      result.push_back(std::move(mesh));
+    },
+    progress);
+  result.push_back(std::move(last));
+  return result;
+}
+
+Reconstruction ownRun(const PointCloud& cloud, std::uint64_t vertices)
+{
+  Parameters parameters;
+  parameters.numberOfVertices = vertices;
+  return reconstruct(cloud, parameters, [](double) { return true; });
+}
+}
+
+// Promise: each level has as many vertices as were asked for, is a sound torus, and is about as close to the points as a
+// run of its own: smaller than the start of the largest, and between.
+TEST(Levels, AreAsGoodAsRunsOfTheirOwn)
+{
+  const PointCloud cloud = torusOfLevels();
+  const Levels levels{ 150, 600, 1500, 4000 };
+  const std::vector<Reconstruction> meshes = meshesOf(cloud, levels);
+  ASSERT_EQ(meshes.size(), levels.size());
+  for (std::size_t level = 0; level < levels.size(); ++level)
+  {
+    SCOPED_TRACE(levels[level]);
+    const Reconstruction& mesh = meshes[level];
+    EXPECT_EQ(mesh.mesh.points.size(), levels[level]);
+    EXPECT_EQ(mesh.stopReason, StopReason::Vertices);
+    EXPECT_EQ(checkManifold(mesh.mesh.points.size(), mesh.mesh.triangles).defect, "");
+    ASSERT_TRUE(mesh.quality);
+    EXPECT_EQ(mesh.quality->surface.genus, 1);
+    EXPECT_EQ(mesh.quality->surface.boundaryLoops, 0u);
+    EXPECT_LT(mesh.quality->residual, 1.25 * ownRun(cloud, levels[level]).quality->residual);
+  }
+}
+
+// Promise: the same bytes at any number of threads.
+TEST(Levels, AreTheSameOnAnyThreads)
+{
+  const PointCloud cloud = torusOfLevels();
+  const Levels levels{ 300, 1000 };
+  const std::vector<Reconstruction> one = meshesOf(cloud, levels);
+  const std::vector<Reconstruction> three = meshesOf(cloud, levels, ThreadPool(3));
+  for (std::size_t level = 0; level < levels.size(); ++level)
+  {
+    EXPECT_EQ(one[level].mesh.points, three[level].mesh.points);
+    EXPECT_EQ(one[level].mesh.triangles, three[level].mesh.triangles);
+  }
+}
+
+// Promise: whoever ends the run gets the levels that are whole, and what is learnt of the next as a sound mesh.
+TEST(Levels, EndWhereTheyAreEnded)
+{
+  const PointCloud cloud = torusOfLevels();
+  const Levels levels{ 300, 1000, 3000 };
+  for (const double end : { 0., 0.1, 0.3, 0.5, 0.9 })
+  {
+    SCOPED_TRACE(end);
+    const std::vector<Reconstruction> meshes = meshesOf(
+      cloud, levels, Executor::sequential(), [end](double fraction) { return fraction < end; });
+    ASSERT_LE(meshes.size(), levels.size());
+    EXPECT_EQ(meshes.back().stopReason, StopReason::Cancelled);
+    for (const Reconstruction& mesh : meshes)
+    {
+      EXPECT_EQ(checkManifold(mesh.mesh.points.size(), mesh.mesh.triangles).defect, "");
+    }
+  }
+}
+
+// Promise: what levels exclude, and levels that are none, are told in words.
+TEST(Levels, SayWhyThereAreNone)
+{
+  Parameters parameters;
+  EXPECT_EQ(whyNoLevels(Levels{ 100, 200 }, parameters), "");
+  EXPECT_EQ(whyNoLevels(Levels{ 100 }, parameters), "");
+  EXPECT_NE(whyNoLevels(Levels{ 200, 100 }, parameters).find("ascend"), std::string::npos);
+  EXPECT_NE(whyNoLevels(Levels{ 100, 100 }, parameters).find("ascend"), std::string::npos);
+  EXPECT_NE(whyNoLevels(Levels{ 3, 100 }, parameters).find("at least 4"), std::string::npos);
+  EXPECT_NE(whyNoLevels(Levels{ 100 }, parameters, { .firstMesh = true }).find("first mesh"),
+    std::string::npos);
+  EXPECT_NE(whyNoLevels(Levels{ 100 }, parameters, { .checkpoint = true }).find("checkpoint"),
+    std::string::npos);
+  EXPECT_NE(whyNoLevels(Levels{ 100 }, parameters, { .snapshots = true }).find("growth"),
+    std::string::npos);
+  EXPECT_NE(whyNoLevels(Levels{ 100 }, parameters, { .automatic = true }).find("automatic"),
+    std::string::npos);
+  parameters.timeLimit = 1.;
+  EXPECT_NE(whyNoLevels(Levels{ 100 }, parameters).find("stopping rule"), std::string::npos);
+}
+}
