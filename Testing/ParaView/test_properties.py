@@ -30,7 +30,7 @@ OTHERWISE = {
     "WeightArrayName": "the property WeightArray, a choice among the arrays of the input",
 }
 # Properties without a setter of their own name: lists, by the setter of one that is all there is.
-LISTS = {"Viewpoints": "Viewpoint"}
+LISTS = {"Viewpoints": "Viewpoint", "Levels": "Level"}
 ARRAYS = {"NormalArray", "ViewArray", "WeightArray"}
 # Up to here a maximum gives a slider; with larger ones nobody could aim: the proxy has none then.
 LARGEST_SLIDER = 1000
@@ -264,6 +264,18 @@ class Properties(unittest.TestCase):
                     found = [0.0, 0.0, 0.0]
                     made.GetViewpoint(i, found)
                     self.assertEqual(tuple(found), place)
+
+    # Promise: levels arrive, as many as there are, and go again.
+    def test_levels_arrive(self):
+        proxy = servermanager.ProxyManager().NewProxy("filters", "NeuralMesh")
+        made = proxy.GetClientSideObject()
+        for levels in ([100, 200, 300], [400], []):
+            proxy.GetProperty("Levels").SetNumberOfElements(len(levels))
+            for i, vertices in enumerate(levels):
+                proxy.GetProperty("Levels").SetElement(i, vertices)
+            proxy.UpdateVTKObjects()
+            found = [made.GetLevel(i) for i in range(made.GetNumberOfLevels())]
+            self.assertEqual(found, levels)
 
     def another(self, vtk_object, key, sm_property, value):
         """A value within the range that is not this one."""

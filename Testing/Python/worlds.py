@@ -21,6 +21,7 @@ from vtkmodules.vtkCommonCore import (
     vtkUnsignedCharArray,
 )
 from vtkmodules.vtkCommonDataModel import (
+    vtkCompositeDataSet,
     vtkCellArray,
     vtkDataObject,
     vtkImageData,
@@ -127,6 +128,11 @@ def data_of(data):
     if data.IsA("vtkTable"):
         result["columns"] = fields_of(data.GetRowData())
         return result
+    if data.IsA("vtkMultiBlockDataSet"):
+        numbers = range(data.GetNumberOfBlocks())
+        result["names"] = [data.GetMetaData(i).Get(vtkCompositeDataSet.NAME()) for i in numbers]
+        result["blocks"] = [data_of(data.GetBlock(i)) for i in numbers]
+        return result
     result["points"] = fields_of(data.GetPointData())
     for kind in ("Scalars", "Normals"):
         active = getattr(data.GetPointData(), f"Get{kind}")()
@@ -222,6 +228,11 @@ def ghosts():
 
 def weighted(mesh):
     mesh.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, 0)
+
+
+def with_levels(mesh, *levels):
+    for level in levels or (100, 300):
+        mesh.AddLevel(level)
 
 
 def scan_of_views():
@@ -456,6 +467,10 @@ CASES = {
     "lines_of_doubles": lambda: learn(box(np.float64), "vtkNeuralMeshEnsemble", NumberOfMembers=3,
                                       VerticesPerMember=200, ComputeFeatureLines=1, FeatureAngle=60,
                                       NumberOfVertices=1000),
+    "levels": lambda: learn(rich(), prepare=with_levels),
+    "levels_that_fall": lambda: learn(rich(), prepare=lambda mesh: with_levels(mesh, 300, 100)),
+    "levels_in_no_time": lambda: learn(rich(), prepare=with_levels, TimeLimit=1),
+    "level_out_of_range": lambda: learn(rich(), prepare=lambda mesh: with_levels(mesh, 3)),
     "no_lines": lambda: learn(rich(), ComputeFeatureLines=1, ExplainPoints=1),
     "ghosts": lambda: learn(ghosts(), ExplainPoints=1, WeightArrayName="Trust"),
     "stale": lambda: learn(stale()),

@@ -63,7 +63,7 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
         cloud = take_input(mesh_filter, points, weights)
         path = result_path(folder, job.name, mesh_format)
         require_digits(points, mesh_filter.GetNumberOfVertices(), path, job.shift)
-        mesh, _, _ = _world.learn(mesh_filter, cloud, first_mesh, _end_with(os.getppid()), points)
+        mesh, *_ = _world.learn(mesh_filter, cloud, first_mesh, _end_with(os.getppid()), points)
         require_points(mesh)
     times.append(time.perf_counter())
     shift = write_mesh(mesh, path, job.shift)
