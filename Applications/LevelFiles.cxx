@@ -20,6 +20,7 @@ void ForEachSmallerLevel(vtkNeuralMesh* filter, const std::string& output,
   const std::function<void(vtkPolyData*, const std::string&)>& use)
 {
   std::vector<vtkIdType> levels;
+  levels.reserve(static_cast<std::size_t>(filter->GetNumberOfLevels()));
   for (int number = 0; number < filter->GetNumberOfLevels(); ++number)
   {
     levels.push_back(filter->GetLevel(number));

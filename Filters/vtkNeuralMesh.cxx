@@ -382,7 +382,7 @@ int vtkNeuralMesh::RequestData(
   }
   vtkMultiBlockDataSet* levels =
     vtkMultiBlockDataSet::GetData(outputVector, this->ExplanationPort + 2);
-  const auto takeLevel = [&](std::size_t level, neuralmesh::Reconstruction mesh)
+  const auto takeLevel = [&](std::size_t level, const neuralmesh::Reconstruction& mesh)
   {
     this->Tell(mesh, std::to_string(mesh.mesh.points.size()) + " vertices: ");
     vtkNew<vtkPolyData> block;

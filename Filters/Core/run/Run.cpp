@@ -91,12 +91,15 @@ LearntRun Run::learn(std::uint64_t vertices, Beginning beginning, ProgressPart p
   LearntMesh learnt = learner->learntMesh();
   result.times.leave();
   const bool isLearnt = request_.first || result.counts.iterations > 0;
-  return { std::move(result), std::move(learnt), std::move(rules), vertices, gaps, isLearnt };
+  return { std::move(result), std::move(learnt), rules, vertices, gaps, isLearnt };
 }
 
 void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress)
 {
-  auto& [result, learnt, rules, vertices, gaps, isLearnt] = run;
+  Reconstruction& result = run.result;
+  LearntMesh& learnt = run.learnt;
+  const StoppingRules& rules = run.rules;
+  const std::uint64_t vertices = run.vertices;
   const Parameters parameters = parametersFor(vertices, request_);
   const auto most = std::size_t(std::min(vertices, asked));
   const std::size_t there = learnt.mesh.vertexCount();
@@ -113,7 +116,7 @@ void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress)
   const bool isTold = parameters.computeUncertainty;
   const double endOfFit = isTold ? PartBeforeUncertainty : 1.;
   const double endOfFirst = isRefined ? PartBeforeRefinement * endOfFit : endOfFit;
-  result.finish = neuralmesh::finish(learnt, cloud(), parameters, gaps, finished,
+  result.finish = neuralmesh::finish(learnt, cloud(), parameters, run.gaps, finished,
     partOf(finishing, 0., endOfFirst), request_.executor, request_.hints);
   if (result.finish && isRefined)
   {
@@ -161,6 +164,6 @@ Reconstruction Run::finish(LearntRun run, std::uint64_t asked, ProgressPart part
   requested.numberOfVertices = asked;
   result.warnings = warningsOf(result, request_.cloud, requested);
   result.times.leave();
-  return std::move(result);
+  return std::move(run.result);
 }
 }
