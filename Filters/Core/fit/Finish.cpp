@@ -365,7 +365,7 @@ bool Finish::openGaps(const SurfaceFit& surfaceFit, bool mustBeFar)
   GapPlan plan = *plan_.gaps;
   plan.mustBeFar = mustBeFar;
   const OpenedGaps gaps =
-    openDataGaps(cloud_, mesh_, surfaceFit.places(), surfaceFit.medianDistance(), plan);
+    openDataGaps(cloud_, mesh_, surfaceFit.places(), surfaceFit.medianDistance(), plan, executor_);
   if (!gaps.any())
   {
     return false;

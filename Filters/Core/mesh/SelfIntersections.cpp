@@ -134,7 +134,7 @@ bool doIntersect(const Mesh& mesh, SimpleStars& isSimple, Triangle first, Triang
 }
 
 /// Along a Morton curve.
-std::vector<VertexIndex> inOrder(
+std::vector<VertexIndex> verticesAlongCurve(
   const Mesh& mesh, const std::vector<VertexIndex>& vertices, const Executor& executor)
 {
   std::vector<Vector4> positions;
@@ -175,7 +175,7 @@ public:
         vertices.push_back(v);
       }
     }
-    vertices = inOrder(mesh, vertices, executor);
+    vertices = verticesAlongCurve(mesh, vertices, executor);
     triangles_.reserve(2 * mesh.vertexCount());
     for (const VertexIndex v : vertices)
     {

@@ -13,7 +13,7 @@ namespace
 constexpr std::size_t RingsOfBlock = 4096;
 constexpr std::uint8_t OpenRing = 0x80;
 
-void write(std::vector<std::uint8_t>& bytes, VertexIndex v, const Ring& ring)
+void writeRing(std::vector<std::uint8_t>& bytes, VertexIndex v, const Ring& ring)
 {
   bytes.push_back(std::uint8_t(ring.size() | (ring.isOpen() ? OpenRing : 0)));
   for (const VertexIndex neighbor : ring)
@@ -23,7 +23,7 @@ void write(std::vector<std::uint8_t>& bytes, VertexIndex v, const Ring& ring)
 }
 
 /// Goes on to what comes behind it.
-void read(const std::uint8_t*& bytes, VertexIndex v, Ring& ring)
+void readRing(const std::uint8_t*& bytes, VertexIndex v, Ring& ring)
 {
   const std::uint8_t head = *bytes++;
   std::array<VertexIndex, Ring::Capacity> neighbors{};
@@ -51,7 +51,7 @@ StoredMesh::StoredMesh(const Mesh& mesh, const Executor& executor)
       std::vector<std::uint8_t> bytes;
       for (auto v = VertexIndex(begin); v < end; ++v)
       {
-        write(bytes, v, mesh.ring(v));
+        writeRing(bytes, v, mesh.ring(v));
         positions_.set(v, mesh.position(v));
       }
       rings_[begin / RingsOfBlock] = { bytes.begin(), bytes.end() };
@@ -69,7 +69,7 @@ Mesh StoredMesh::mesh(const Executor& executor) const
       const std::uint8_t* bytes = rings_[begin / RingsOfBlock].data();
       for (auto v = VertexIndex(begin); v < end; ++v)
       {
-        read(bytes, v, result.rings_[v]);
+        readRing(bytes, v, result.rings_[v]);
         result.positions_[v] = positions_[v];
       }
     });
