@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/LargePageAllocator.h"
 #include "base/Vector4.h"
 
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace neuralmesh
 {
@@ -54,6 +54,6 @@ public:
   }
 
 private:
-  std::vector<float> values_;
+  LargeVector<float> values_;
 };
 }

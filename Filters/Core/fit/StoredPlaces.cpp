@@ -9,57 +9,71 @@ namespace neuralmesh
 {
 namespace
 {
-constexpr std::size_t PlacesOfBlock = 4096;
-/// Usual ones, for which there is room at once.
-constexpr std::size_t BytesOfPlace = 16;
+using Weights = std::array<float, 2>;
+
+std::size_t sizeOfPlaces(std::span<const PlaceOnMesh> places)
+{
+  std::size_t size = places.size() * sizeof(Weights);
+  VertexIndex last = 0;
+  for (const PlaceOnMesh& place : places)
+  {
+    const auto& [a, b, c] = place.triangle;
+    size += sizeOfDifference(a, last) + sizeOfDifference(b, a) + sizeOfDifference(c, a);
+    last = a;
+  }
+  return size;
+}
+
+void writePlaces(std::uint8_t* bytes, std::span<const PlaceOnMesh> places)
+{
+  VertexIndex last = 0;
+  for (const PlaceOnMesh& place : places)
+  {
+    const auto& [a, b, c] = place.triangle;
+    writeDifference(bytes, a, last);
+    writeDifference(bytes, b, a);
+    writeDifference(bytes, c, a);
+    last = a;
+    const Weights weights{ place.second, place.third };
+    __builtin_memcpy(bytes, weights.data(), sizeof(weights));
+    bytes += sizeof(weights);
+  }
+}
+
+void readPlaces(const std::uint8_t* bytes, std::span<PlaceOnMesh> places)
+{
+  VertexIndex last = 0;
+  for (PlaceOnMesh& place : places)
+  {
+    const VertexIndex a = readDifference(bytes, last);
+    const VertexIndex b = readDifference(bytes, a);
+    const VertexIndex c = readDifference(bytes, a);
+    last = a;
+    Weights weights{};
+    __builtin_memcpy(weights.data(), bytes, sizeof(weights));
+    bytes += sizeof(weights);
+    place = { { a, b, c }, weights[0], weights[1], 0.f };
+  }
+}
 }
 
 StoredPlaces::StoredPlaces(std::span<const PlaceOnMesh> places, const Executor& executor)
   : count_(places.size())
-  , blocks_((places.size() + PlacesOfBlock - 1) / PlacesOfBlock)
+  , bytes_(
+      places.size(), executor,
+      [&](std::size_t begin, std::size_t end)
+      { return sizeOfPlaces(places.subspan(begin, end - begin)); },
+      [&](std::uint8_t* bytes, std::size_t begin, std::size_t end)
+      { writePlaces(bytes, places.subspan(begin, end - begin)); })
 {
-  executor.forEachRange(count_, PlacesOfBlock,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::vector<std::uint8_t> bytes;
-      bytes.reserve(BytesOfPlace * (end - begin));
-      VertexIndex last = 0;
-      for (const PlaceOnMesh& place : places.subspan(begin, end - begin))
-      {
-        const auto& [a, b, c] = place.triangle;
-        writeDifference(bytes, a, last);
-        writeDifference(bytes, b, a);
-        writeDifference(bytes, c, a);
-        last = a;
-        const std::array<float, 2> weights{ place.second, place.third };
-        const std::size_t size = bytes.size();
-        bytes.resize(size + sizeof(weights));
-        __builtin_memcpy(bytes.data() + size, weights.data(), sizeof(weights));
-      }
-      blocks_[begin / PlacesOfBlock] = { bytes.begin(), bytes.end() };
-    });
 }
 
-std::vector<PlaceOnMesh> StoredPlaces::places(const Executor& executor) const
+LargeVector<PlaceOnMesh> StoredPlaces::places(const Executor& executor) const
 {
-  std::vector<PlaceOnMesh> result(count_);
-  executor.forEachRange(count_, PlacesOfBlock,
+  LargeVector<PlaceOnMesh> result(count_);
+  executor.forEachRange(count_, ByteBlocks::ItemsOfBlock,
     [&](std::size_t begin, std::size_t end)
-    {
-      const std::uint8_t* bytes = blocks_[begin / PlacesOfBlock].data();
-      VertexIndex last = 0;
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const VertexIndex a = readDifference(bytes, last);
-        const VertexIndex b = readDifference(bytes, a);
-        const VertexIndex c = readDifference(bytes, a);
-        last = a;
-        std::array<float, 2> weights{};
-        __builtin_memcpy(weights.data(), bytes, sizeof(weights));
-        bytes += sizeof(weights);
-        result[i] = { { a, b, c }, weights[0], weights[1], 0.f };
-      }
-    });
+    { readPlaces(bytes_.from(begin), std::span(result).subspan(begin, end - begin)); });
   return result;
 }
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/ByteBlocks.h"
 #include "base/Executor.h"
+#include "base/LargePageAllocator.h"
 #include "cloud/PlaceOnMesh.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
-#include <vector>
 
 namespace neuralmesh
 {
@@ -16,13 +16,13 @@ namespace neuralmesh
 class StoredPlaces
 {
 public:
-  explicit StoredPlaces(std::span<const PlaceOnMesh> places, const Executor& executor);
+  StoredPlaces(std::span<const PlaceOnMesh> places, const Executor& executor);
 
   /// The places, with a distance of 0.
-  std::vector<PlaceOnMesh> places(const Executor& executor) const;
+  LargeVector<PlaceOnMesh> places(const Executor& executor) const;
 
 private:
   std::size_t count_;
-  std::vector<std::vector<std::uint8_t>> blocks_; ///< of so many places each
+  ByteBlocks bytes_;
 };
 }

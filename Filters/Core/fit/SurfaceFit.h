@@ -149,7 +149,7 @@ private:
       return solve();
     }
     const StoredPlaces stored(places_, executor_);
-    std::vector<PlaceOnMesh>().swap(places_);
+    LargeVector<PlaceOnMesh>().swap(places_);
     const bool isDone = solve();
     places_ = stored.places(executor_);
     executor_.forEachRange(places_.size(), SamplesPerRange,
@@ -200,7 +200,7 @@ private:
   double normalWeight_ = 0.;
   std::vector<float> weights_;       ///< of the samples; empty if all weigh alike
   std::vector<std::uint32_t> views_; ///< likewise; empty if none is known
-  std::vector<PlaceOnMesh> places_;
+  LargeVector<PlaceOnMesh> places_;
   /// Of the samples, those that are no outliers, and have not switched to the other side of a thin part.
   std::vector<std::uint8_t> isUsed_;
   std::vector<VertexIndex> opposite_; ///< of each vertex, see OppositeLayer.h

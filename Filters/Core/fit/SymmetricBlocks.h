@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/LargePageAllocator.h"
 #include "base/PackedVectors.h"
 #include "base/Vector4.h"
 
 #include <Eigen/LU>
 
 #include <cstddef>
-#include <vector>
 
 namespace neuralmesh
 {
@@ -73,6 +73,6 @@ public:
 private:
   static constexpr std::size_t BlockSize = 6;
 
-  std::vector<float> values_;
+  LargeVector<float> values_;
 };
 }

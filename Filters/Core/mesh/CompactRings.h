@@ -30,7 +30,7 @@ public:
 
 private:
   std::vector<std::uint32_t> begin_; ///< and where the last one ends
-  std::vector<VertexIndex> neighbors_;
+  LargeVector<VertexIndex> neighbors_;
   std::vector<std::uint8_t> isOpen_;
 };
 

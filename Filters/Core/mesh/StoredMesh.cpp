@@ -10,15 +10,31 @@ namespace neuralmesh
 {
 namespace
 {
-constexpr std::size_t RingsOfBlock = 4096;
 constexpr std::uint8_t OpenRing = 0x80;
 
-void writeRing(std::vector<std::uint8_t>& bytes, VertexIndex v, const Ring& ring)
+std::size_t sizeOfRings(const Mesh& mesh, std::size_t begin, std::size_t end)
 {
-  bytes.push_back(std::uint8_t(ring.size() | (ring.isOpen() ? OpenRing : 0)));
-  for (const VertexIndex neighbor : ring)
+  std::size_t size = end - begin;
+  for (auto v = VertexIndex(begin); v < end; ++v)
   {
-    writeDifference(bytes, neighbor, v);
+    for (const VertexIndex neighbor : mesh.ring(v))
+    {
+      size += sizeOfDifference(neighbor, v);
+    }
+  }
+  return size;
+}
+
+void writeRings(std::uint8_t* bytes, const Mesh& mesh, std::size_t begin, std::size_t end)
+{
+  for (auto v = VertexIndex(begin); v < end; ++v)
+  {
+    const Ring& ring = mesh.ring(v);
+    *bytes++ = std::uint8_t(ring.size() | (ring.isOpen() ? OpenRing : 0));
+    for (const VertexIndex neighbor : ring)
+    {
+      writeDifference(bytes, neighbor, v);
+    }
   }
 }
 
@@ -39,23 +55,22 @@ void readRing(const std::uint8_t*& bytes, VertexIndex v, Ring& ring)
 StoredMesh::StoredMesh(const Mesh& mesh, const Executor& executor)
   : indexEnd_(mesh.indexEnd())
   , positions_(mesh.indexEnd())
-  , rings_((mesh.indexEnd() + RingsOfBlock - 1) / RingsOfBlock)
+  , rings_(
+      mesh.indexEnd(), executor,
+      [&](std::size_t begin, std::size_t end) { return sizeOfRings(mesh, begin, end); },
+      [&](std::uint8_t* bytes, std::size_t begin, std::size_t end)
+      {
+        writeRings(bytes, mesh, begin, end);
+        for (std::size_t v = begin; v < end; ++v)
+        {
+          positions_.set(v, mesh.position(VertexIndex(v)));
+        }
+      })
 {
   rest_.properties_ = mesh.properties_;
   rest_.erased_ = mesh.erased_;
   rest_.reusable_ = mesh.reusable_;
   rest_.vertexCount_ = mesh.vertexCount_;
-  executor.forEachRange(indexEnd_, RingsOfBlock,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::vector<std::uint8_t> bytes;
-      for (auto v = VertexIndex(begin); v < end; ++v)
-      {
-        writeRing(bytes, v, mesh.ring(v));
-        positions_.set(v, mesh.position(v));
-      }
-      rings_[begin / RingsOfBlock] = { bytes.begin(), bytes.end() };
-    });
 }
 
 Mesh StoredMesh::mesh(const Executor& executor) const
@@ -63,10 +78,10 @@ Mesh StoredMesh::mesh(const Executor& executor) const
   Mesh result = rest_;
   result.rings_.resize(indexEnd_);
   result.positions_.resize(indexEnd_);
-  executor.forEachRange(indexEnd_, RingsOfBlock,
+  executor.forEachRange(indexEnd_, ByteBlocks::ItemsOfBlock,
     [&](std::size_t begin, std::size_t end)
     {
-      const std::uint8_t* bytes = rings_[begin / RingsOfBlock].data();
+      const std::uint8_t* bytes = rings_.from(begin);
       for (auto v = VertexIndex(begin); v < end; ++v)
       {
         readRing(bytes, v, result.rings_[v]);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/ByteBlocks.h"
 #include "base/Executor.h"
 #include "base/PackedVectors.h"
 #include "mesh/Mesh.h"
 
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 namespace neuralmesh
 {
@@ -26,6 +25,6 @@ private:
   Mesh rest_; ///< without rings and positions
   std::size_t indexEnd_;
   PackedVectors positions_;
-  std::vector<std::vector<std::uint8_t>> rings_; ///< of so many vertices each
+  ByteBlocks rings_;
 };
 }
