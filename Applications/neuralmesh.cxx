@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/FreedArrays.h"
 #include "CommandLine.h"
 #include "LearningParameters.h"
 
@@ -32,6 +33,7 @@ int Run(int argc, char* argv[])
 
 int main(int argc, char* argv[])
 {
+  neuralmesh::returnFreedArrays();
   try
   {
     return Run(argc, argv);

@@ -2,6 +2,7 @@
 // Prints what it takes to make a cloud ready and, as a table in Markdown, whole runs of up to a million
 // vertices: what a sample costs, how much memory a vertex takes beyond the cloud, and how good the mesh
 // is. Sizes in thousands of vertices are arguments.
+#include "base/FreedArrays.h"
 #include "base/ThreadPool.h"
 #include "cloud/CloudGenerator.h"
 #include "run/Reconstruction.h"
@@ -57,6 +58,9 @@ private:
   double bytes_ = 0.;
 };
 
+/// Of the whole process.
+double mostBytes = 0.;
+
 /// Bytes of memory that were in use at most since the last call.
 double peakBytes()
 {
@@ -70,6 +74,7 @@ double peakBytes()
     }
   }
   std::ofstream("/proc/self/clear_refs") << 5;
+  mostBytes = std::max(mostBytes, 1024. * kilobytes);
   return 1024. * kilobytes;
 }
 
@@ -127,6 +132,7 @@ void printRow(const PointCloud& cloud, std::uint64_t vertices, const Executor& e
 
 int main(int argc, char* argv[])
 {
+  returnFreedArrays();
   std::vector<std::uint64_t> sizes;
   for (int i = 1; i < argc; ++i)
   {
@@ -146,5 +152,7 @@ int main(int argc, char* argv[])
   {
     printRow(cloud, vertices, executor);
   }
+  peakBytes();
+  std::printf("\nThe whole process: %.0f MB at its peak.\n", mostBytes / 1e6);
   return 0;
 }

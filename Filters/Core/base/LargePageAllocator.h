@@ -69,6 +69,20 @@ struct LargePageAllocator
 #endif
   }
 
+  /// Gives the memory of an array back to the system until it is used again; what was there is lost.
+  static void release(T* memory, std::size_t count)
+  {
+#ifdef __linux__
+    if (isLarge(count))
+    {
+      madvise(memory, roundedBytes(count), MADV_DONTNEED);
+    }
+#else
+    static_cast<void>(memory);
+    static_cast<void>(count);
+#endif
+  }
+
   friend bool operator==(LargePageAllocator, LargePageAllocator) { return true; }
 
 private:

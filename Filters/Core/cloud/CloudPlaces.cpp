@@ -30,8 +30,7 @@ CloudPlaces::CloudPlaces(
   {
     const PlaceOnMesh place = closestPlace(cloud.points()[i], mesh, grid);
     const VertexIndex vertex = place.triangle[0];
-    places[i] = { vertex, mesh.ring(vertex).find(place.triangle[1]), place.weights[1],
-      place.weights[2] };
+    places[i] = { vertex, mesh.ring(vertex).find(place.triangle[1]), place.second, place.third };
     squaredDistances[i] = place.squaredDistance;
   };
   for (std::size_t first = 0; first < count; first += PointsPerCheck)

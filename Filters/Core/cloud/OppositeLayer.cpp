@@ -118,7 +118,8 @@ VertexIndex facingWinner(
     return closest;
   }
   const PlaceOnMesh place = facingPlace(sample, mesh, closest, opposite);
-  const std::array<float, 3> weights{ place.weights[0], place.weights[1], place.weights[2] };
+  const Vector4 of = place.weights();
+  const std::array<float, 3> weights{ of[0], of[1], of[2] };
   const auto nearest = std::max_element(weights.begin(), weights.end()) - weights.begin();
   return place.triangle[std::size_t(nearest)];
 }

@@ -122,7 +122,8 @@ bool mayBeBeyond(const PlaceOnMesh& place, const Mesh& mesh)
   const Vector4 rim = mesh.position(place.triangle[2]) - mesh.position(place.triangle[1]);
   const float height = squaredNorm(normalAt(place, mesh.positions()));
   const float reach = Reach * Reach * place.squaredDistance;
-  return reach * squaredNorm(rim) >= place.weights[0] * place.weights[0] * height;
+  const float weight = place.weights()[0];
+  return reach * squaredNorm(rim) >= weight * weight * height;
 }
 }
 
@@ -147,7 +148,7 @@ PlaceOnMesh closestPlaceAt(Vector4 point, const Mesh& mesh, VertexIndex v)
       }
     }
   }
-  PlaceOnMesh place{ { v, ring[slot], ring[ring.after(slot)] }, Vector4(1.f - b - c, b, c), 0.f };
+  PlaceOnMesh place{ { v, ring[slot], ring[ring.after(slot)] }, b, c, 0.f };
   place.squaredDistance = squaredNorm(point - pointAt(place, mesh.positions()));
   return place;
 }
@@ -218,9 +219,10 @@ VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud)
 
 bool isOnBoundary(const PlaceOnMesh& place, const Mesh& mesh)
 {
+  const Vector4 weights = place.weights();
   for (unsigned i = 0; i < 3; ++i)
   {
-    if (place.weights[int(i)] == 0.f &&
+    if (weights[int(i)] == 0.f &&
       mesh.isBoundaryEdge(place.triangle[(i + 1) % 3], place.triangle[(i + 2) % 3]))
     {
       return true;

@@ -13,9 +13,16 @@ namespace neuralmesh
 struct PlaceOnMesh
 {
   Triangle triangle{ NoVertex, NoVertex, NoVertex };
-  Vector4 weights;             ///< barycentric coordinates
+  float second = 0.f;          ///< barycentric coordinate at the second corner
+  float third = 0.f;           ///< ... and at the third one
   float squaredDistance = 0.f; ///< of the point that it is the closest place to
+
+  /// All barycentric coordinates.
+  Vector4 weights() const { return { 1.f - second - third, second, third }; }
 };
+
+// A fit keeps ten a vertex.
+static_assert(sizeof(PlaceOnMesh) == 24);
 
 /// The place that is closest to a point, looked for on the triangles of the closest vertex: where
 /// the mesh follows the points, hardly any other triangle is closer.
@@ -49,11 +56,12 @@ inline float outlierDistance(float medianDistance, double meanEdge, float edges 
 }
 
 /// The point at a place, by the positions of the vertices.
-inline Vector4 pointAt(const PlaceOnMesh& place, std::span<const Vector4> positions)
+template <typename Positions>
+Vector4 pointAt(const PlaceOnMesh& place, const Positions& positions)
 {
-  return place.weights[0] * positions[place.triangle[0]] +
-    place.weights[1] * positions[place.triangle[1]] +
-    place.weights[2] * positions[place.triangle[2]];
+  const Vector4 weights = place.weights();
+  return weights[0] * positions[place.triangle[0]] + weights[1] * positions[place.triangle[1]] +
+    weights[2] * positions[place.triangle[2]];
 }
 
 /// Of the triangle of a place, by the positions of the vertices, twice as long as its area.

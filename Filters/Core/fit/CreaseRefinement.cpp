@@ -103,7 +103,8 @@ bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
     const std::vector<Vector4> places(mesh.positions().begin(), mesh.positions().end());
     if (!fit.findPlaces(partOf(part, 0., 0.5)) ||
       !fit.moveVertices(report.smoothness, partOf(part, 0.5, 1.)) ||
-      takeBackBrokenMoves(mesh, places, partOf(part, 1., 1.)) == AfterBrokenMoves::Cancelled)
+      takeBackBrokenMoves(mesh, places, partOf(part, 1., 1.), executor) ==
+        AfterBrokenMoves::Cancelled)
     {
       return false;
     }

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -44,6 +45,8 @@ constexpr double LeastRootsOfWeb = 0.25;
 /// chance.
 constexpr std::size_t LeastSamplesPerTriangle = 2;
 constexpr double LeastSpacingsIfEmpty = 1.5;
+/// A part for the executor.
+constexpr std::size_t TrianglesPerRange = 4096;
 /// Of the distance between samples on average: where they are farther from each other, it is theirs
 /// that counts, and triangles may be too small there.
 constexpr double SparseGapSpacings = 2.;
@@ -122,16 +125,17 @@ public:
     {
       return 0.;
     }
-    if (!points_)
-    {
-      std::vector<Vector4> points;
-      points.reserve(places_.size());
-      for (const PlaceOnMesh& place : places_)
+    std::call_once(hasPoints_,
+      [this]
       {
-        points.push_back(pointAt(place, mesh_.positions()));
-      }
-      points_.emplace(cloud_, std::move(points));
-    }
+        std::vector<Vector4> points;
+        points.reserve(places_.size());
+        for (const PlaceOnMesh& place : places_)
+        {
+          points.push_back(pointAt(place, mesh_.positions()));
+        }
+        points_.emplace(cloud_, std::move(points));
+      });
     const double spacing = double(spacing_.samplesAt(places_[points_->closest(point)]));
     return spacing > least_ ? spacing : 0.;
   }
@@ -143,6 +147,7 @@ private:
   LocalSpacing spacing_;
   double least_;
   bool isAnywhere_;
+  std::once_flag hasPoints_;
   std::optional<SomePoints> points_;
 };
 
@@ -191,7 +196,8 @@ std::vector<Triangle> leftOverPieces(const Mesh& mesh, std::span<const PlaceOnMe
 }
 
 std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
-  std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar)
+  std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar,
+  const Executor& executor)
 {
   const NumberedTriangles triangles(mesh);
   std::vector<std::uint32_t> samples(triangles.all().size(), 0);
@@ -200,12 +206,10 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
     ++samples[triangles.number(place.triangle[0], place.triangle[1])];
   }
   std::optional<SomePoints> points;
+  std::once_flag hasPoints;
   const auto distance = [&](std::uint32_t t)
   {
-    if (!points)
-    {
-      points.emplace(cloud, places.size());
-    }
+    std::call_once(hasPoints, [&] { points.emplace(cloud, places.size()); });
     return points->distance(centerOf(mesh, triangles.all()[t]));
   };
   // Where samples are sparse, their number on average tells nothing.
@@ -221,13 +225,20 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   const bool isFine = places.size() < LeastSamplesPerTriangle * triangles.all().size();
   const double meanDensity = isFine ? double(places.size()) / areaOf(mesh) : 0.;
   const double meanSpacing = isFine ? 1. / std::sqrt(meanDensity) : 0.;
-  std::vector<bool> isEmpty(samples.size());
-  for (std::uint32_t t = 0; t < samples.size(); ++t)
-  {
-    isEmpty[t] = samples[t] == 0 && (!isFine || distance(t) > LeastSpacingsIfEmpty * meanSpacing) &&
-      !isTooSmall(t);
-  }
-  std::vector<EmptyPiece> pieces = findEmptyPieces(mesh, triangles, samples, isEmpty);
+  std::vector<std::uint8_t> isEmpty(samples.size());
+  executor.forEachRange(samples.size(), TrianglesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto t = std::uint32_t(begin); t < end; ++t)
+      {
+        isEmpty[t] = samples[t] == 0 &&
+            (!isFine || distance(t) > LeastSpacingsIfEmpty * meanSpacing) && !isTooSmall(t)
+          ? 1
+          : 0;
+      }
+    });
+  std::vector<EmptyPiece> pieces =
+    findEmptyPieces(mesh, triangles, samples, { isEmpty.begin(), isEmpty.end() });
   // Small triangles around a piece may have too few samples to tell.
   const auto densityAt = [&](const EmptyPiece& piece)
   { return isFine && piece.samplesAround < LeastExpectedSamples ? meanDensity : piece.density(); };
@@ -251,7 +262,8 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
       (isGap[i] ||
         reaches(LeastSpacingsOfWeb, LeastMediansOfWeb, LeastRootsOfWeb * std::sqrt(piece.area)));
   }
-  for (const auto& [one, other] : findWebs(mesh, triangles.all(), pieces, isSideOfWeb))
+  points.reset();
+  for (const auto& [one, other] : findWebs(mesh, triangles.all(), pieces, isSideOfWeb, executor))
   {
     isGap[one] = true;
     isGap[other] = true;
@@ -269,11 +281,11 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
 }
 
 OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const PlaceOnMesh> places,
-  float medianDistance, const GapPlan& plan)
+  float medianDistance, const GapPlan& plan, const Executor& executor)
 {
   OpenedGaps result;
   const std::vector<Triangle> gaps = plan.mayOpen
-    ? findDataGaps(cloud, mesh, places, medianDistance, plan.mustBeFar)
+    ? findDataGaps(cloud, mesh, places, medianDistance, plan.mustBeFar, executor)
     : std::vector<Triangle>();
   result.triangles = gaps.size();
   if (!gaps.empty())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "cloud/PlaceOnMesh.h"
 #include "cloud/PointCloud.h"
 #include "mesh/Mesh.h"
@@ -21,7 +22,8 @@ namespace neuralmesh
 /// `places` are those of samples evenly picked from the cloud, `medianDistance` is that of the
 /// samples to the mesh.
 std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
-  std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar = false);
+  std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar = false,
+  const Executor& executor = Executor::sequential());
 
 /// How gaps are to be opened and closed.
 struct GapPlan
@@ -47,5 +49,5 @@ struct OpenedGaps
 /// than that which are close to points all along are closed: webs lay in creases there. Some vertices may
 /// be erased.
 OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const PlaceOnMesh> places,
-  float medianDistance, const GapPlan& plan);
+  float medianDistance, const GapPlan& plan, const Executor& executor = Executor::sequential());
 }

@@ -85,7 +85,7 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   if (mayBeBroken_)
   {
     // As long as a round follows that brings back what it rounds off.
-    repairIntersections(mesh_, partOf(progress, 0., 0.));
+    repairIntersections(mesh_, partOf(progress, 0., 0.), executor_);
   }
   if (!fit_.findPlaces(partOf(progress, 0., 0.3)))
   {
@@ -109,7 +109,8 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
     return false;
   }
   // What would mend it in the end rounds off creases.
-  const AfterBrokenMoves after = takeBackBrokenMoves(mesh_, before, partOf(progress, 1., 1.));
+  const AfterBrokenMoves after =
+    takeBackBrokenMoves(mesh_, before, partOf(progress, 1., 1.), executor_);
   mayBeBroken_ = after != AfterBrokenMoves::Sound;
   return after != AfterBrokenMoves::Cancelled;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Choices.h"
+#include "base/Executor.h"
 #include "base/Progress.h"
 #include "fit/SurfaceFit.h"
 #include "mesh/Mesh.h"
@@ -24,11 +25,13 @@ class FidelityRounds
 public:
   /// `vertexCount` is that of the mesh in the end, which may be missing some now. With `keepsPlaces` vertices
   /// do not go to creases, nor to where they are needed more.
-  FidelityRounds(Mesh& mesh, SurfaceFit& fit, std::size_t vertexCount, bool keepsPlaces)
+  FidelityRounds(Mesh& mesh, SurfaceFit& fit, std::size_t vertexCount, bool keepsPlaces,
+    const Executor& executor)
     : mesh_(mesh)
     , fit_(fit)
     , vertexCount_(vertexCount)
     , keepsPlaces_(keepsPlaces)
+    , executor_(executor)
   {
   }
 
@@ -53,6 +56,7 @@ private:
   SurfaceFit& fit_;
   std::size_t vertexCount_;
   bool keepsPlaces_;
+  const Executor& executor_;
   bool mayBeBroken_ = true; ///< by intersections or folds
   double lambda_ = 0.;
   std::size_t heldVertices_ = 0;

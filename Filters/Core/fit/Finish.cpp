@@ -30,9 +30,9 @@ constexpr double LeastSamplesPerVertex = 1.5;
 /// A piece with less than this part of the area has shrunk to a point.
 constexpr double ShrunkPart = 1e-14;
 
-DefectCount countDefects(const Mesh& mesh)
+DefectCount countDefects(const Mesh& mesh, const Executor& executor)
 {
-  return { intersectingTriangles(mesh).size(), foldedEdges(mesh).size() };
+  return { intersectingTriangles(mesh, executor).size(), foldedEdges(mesh, executor).size() };
 }
 
 VertexIndex nearestToCollapseInto(const Mesh& mesh, VertexIndex v)
@@ -65,7 +65,7 @@ Finish::Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
 
 bool Finish::run(const Progress& progress)
 {
-  const Mesh before = mesh_;
+  const StoredMesh before(mesh_, executor_);
   FitGuard guard(cloud_, mesh_, executor_, plan_.residualTo);
   if (!runRounds(plan_.rounds, guard, progress))
   {
@@ -78,7 +78,7 @@ bool Finish::run(const Progress& progress)
   for (int rounds = plan_.rounds - (hadMore ? 0 : 1); rounds >= 0 && isWorseThan(before, guard);
        --rounds)
   {
-    mesh_ = before;
+    mesh_ = before.mesh(executor_);
     report_ = FinishReport{};
     report_.roundsTakenBack = most - rounds;
     plan_.fidelity = Fidelity::Draft;
@@ -91,7 +91,7 @@ bool Finish::run(const Progress& progress)
 }
 
 /// Whether the mesh is, as it is finished now, against what it was at first.
-bool Finish::isWorseThan(const Mesh& before, FitGuard& guard) const
+bool Finish::isWorseThan(const StoredMesh& before, FitGuard& guard) const
 {
   // Whoever asks for a smoothness gets it.
   const ResidualRule rule = plan_.smoothness > 0. ? ResidualRule::MayGrow
@@ -101,11 +101,10 @@ bool Finish::isWorseThan(const Mesh& before, FitGuard& guard) const
   {
     return true;
   }
-  const auto shareOf = [](std::size_t triangles, const Mesh& mesh)
-  { return double(triangles) / double(mesh.vertexCount()); };
   return report_.left.intersectingTriangles > 0 &&
-    shareOf(report_.left.intersectingTriangles, mesh_) >
-    shareOf(intersectingTriangles(before).size(), before);
+    double(report_.left.intersectingTriangles) / double(mesh_.vertexCount()) >
+    double(intersectingTriangles(before.mesh(executor_), executor_).size()) /
+      double(before.vertexCount());
 }
 
 /// So many rounds of the fit, and what goes with them.
@@ -204,8 +203,9 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   {
     return false;
   }
+  surfaceFit.reset();
   dropShrunkPieces();
-  repairSlivers(mesh_, guard);
+  repairSlivers(mesh_, guard, executor_);
   return true;
 }
 
@@ -213,16 +213,16 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
 /// point. It stays where its vertices cannot come in again: nothing is left that is not as thin.
 void Finish::dropShrunkPieces()
 {
-  const Mesh before = mesh_;
+  const StoredMesh before(mesh_, executor_);
   if (dropPieces(mesh_, ShrunkPart) > 0)
   {
     refine(
       mesh_, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);
     if (mesh_.vertexCount() != before.vertexCount())
     {
-      mesh_ = before;
+      mesh_ = before.mesh(executor_);
     }
-    report_.left = countDefects(mesh_);
+    report_.left = countDefects(mesh_, executor_);
   }
 }
 
@@ -230,12 +230,13 @@ void Finish::dropShrunkPieces()
 /// before that was known.
 bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress)
 {
-  Mesh broken = mesh_;
-  const IntersectionRepair repair = repairIntersections(mesh_, progress);
+  const StoredMesh before(mesh_, executor_);
+  const IntersectionRepair repair = repairIntersections(mesh_, progress, executor_);
   report_.repaired = repair.before;
   report_.left = repair.after;
   if (repair.before.total() > 0 && guard.losesPoints(mesh_, true))
   {
+    Mesh broken = before.mesh(executor_);
     if (!surfaceFit.hasPlaces())
     {
       std::swap(mesh_, broken);
@@ -247,7 +248,7 @@ bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& pro
       }
     }
     report_.heldVertices += surfaceFit.holdAgainst(broken);
-    report_.left = countDefects(mesh_);
+    report_.left = countDefects(mesh_, executor_);
   }
   while (mendsBy([this] { collapseDefects(); }, guard, progress))
   {
@@ -269,18 +270,18 @@ bool Finish::mendsBy(const Remove& remove, FitGuard& guard, const Progress& prog
   {
     return false;
   }
-  const Mesh before = mesh_;
-  const bool wasWorse = guard.losesPoints(before, true);
+  const StoredMesh before(mesh_, executor_);
+  const bool wasWorse = guard.losesPoints(mesh_, true);
   remove();
   // As many vertices come in again where edges are long.
   mesh_.dropErased();
   refine(
     mesh_, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);
-  const IntersectionRepair again = repairIntersections(mesh_, progress);
+  const IntersectionRepair again = repairIntersections(mesh_, progress, executor_);
   if (again.after.total() >= report_.left.total() || mesh_.vertexCount() != before.vertexCount() ||
     (!wasWorse && guard.losesPoints(mesh_, true)))
   {
-    mesh_ = before;
+    mesh_ = before.mesh(executor_);
     return false;
   }
   report_.left = again.after;
@@ -327,7 +328,7 @@ void Finish::tell(const NoiseParts& parts)
 bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
 {
   report_.fidelityRounds = FidelityRounds::count(plan_.fidelity, report_.isClean);
-  FidelityRounds rounds(mesh_, surfaceFit, plan_.vertexCount, plan_.keepsPlaces);
+  FidelityRounds rounds(mesh_, surfaceFit, plan_.vertexCount, plan_.keepsPlaces, executor_);
   if (!rounds.run(plan_.fidelity, report_.isClean, plan_.smoothness > 0., progress))
   {
     return false;
@@ -364,7 +365,7 @@ bool Finish::openGaps(const SurfaceFit& surfaceFit, bool mustBeFar)
   GapPlan plan = *plan_.gaps;
   plan.mustBeFar = mustBeFar;
   const OpenedGaps gaps =
-    openDataGaps(cloud_, mesh_, surfaceFit.places(), surfaceFit.medianDistance(), plan);
+    openDataGaps(cloud_, mesh_, surfaceFit.places(), surfaceFit.medianDistance(), plan, executor_);
   if (!gaps.any())
   {
     return false;

@@ -10,6 +10,7 @@
 #include "fit/IntersectionRepair.h"
 #include "fit/SurfaceFit.h"
 #include "mesh/Mesh.h"
+#include "mesh/StoredMesh.h"
 
 #include <cstddef>
 #include <optional>
@@ -76,7 +77,7 @@ public:
 
 private:
   bool runRounds(int rounds, FitGuard& guard, const Progress& progress);
-  bool isWorseThan(const Mesh& before, FitGuard& guard) const;
+  bool isWorseThan(const StoredMesh& before, FitGuard& guard) const;
   bool move(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   void tell(const NoiseParts& parts);
   bool openGaps(const SurfaceFit& surfaceFit, bool mustBeFar);

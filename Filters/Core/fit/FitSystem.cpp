@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/FitSystem.h"
 
-#include "mesh/UmbrellaLaplacian.h"
-
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace neuralmesh
 {
@@ -19,24 +16,76 @@ constexpr float LeastSquaredNormal = 1e-30f;
 
 /// A part for the executor.
 constexpr std::size_t RowsPerRange = 4096;
+
+/// L x at a vertex with this ring; see UmbrellaLaplacian.h.
+template <typename Vectors>
+Vector4 umbrellaAt(
+  const Vectors& x, VertexIndex v, std::span<const VertexIndex> ring, bool isOpen, float weight)
+{
+  if (isOpen)
+  {
+    return 0.5f * (x[ring.front()] + x[ring.back()]) - x[v];
+  }
+  Vector4 sum = x[ring.front()];
+  for (const VertexIndex neighbor : ring.subspan(1))
+  {
+    sum += x[neighbor];
+  }
+  return weight * sum - x[v];
+}
 }
 
 FitSystem::FitSystem(const Mesh& mesh, double slip, const Executor& executor)
-  : mesh_(mesh)
+  : rings_(mesh, executor)
   , executor_(executor)
   , slip_(float(slip))
   , diagonal_(mesh.indexEnd())
+  , firstEntry_(mesh.indexEnd() + std::size_t(1))
+  , rank_(rings_.neighborCount())
   , rightSide_(mesh.indexEnd())
+  , innerWeights_(mesh.indexEnd())
 {
-  innerWeights_.reserve(mesh.indexEnd());
-  rowBegin_.reserve(mesh.indexEnd() + 1);
-  rowBegin_.push_back(0);
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    innerWeights_.push_back(mesh.isBoundary(v) ? 0.f : 1.f / float(mesh.valence(v)));
-    rowBegin_.push_back(rowBegin_.back() + mesh.valence(v));
-  }
-  others_.resize(rowBegin_.back());
+  executor_.forEachRange(rings_.size(), RowsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        const std::span<const VertexIndex> ring = rings_[v];
+        innerWeights_[v] = rings_.isOpen(v) ? 0.f : 1.f / float(ring.size());
+        std::uint8_t count = 0;
+        for (std::size_t slot = 0; slot < ring.size(); ++slot)
+        {
+          rank_[rings_.begin(v) + slot] = ring[slot] > v ? count++ : 0;
+        }
+        firstEntry_[v + std::size_t(1)] = count;
+      }
+    });
+  std::partial_sum(firstEntry_.begin(), firstEntry_.end(), firstEntry_.begin());
+  others_.emplace(firstEntry_.back());
+  executor_.forEachRange(rings_.size(), RowsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        const std::span<const VertexIndex> ring = rings_[v];
+        for (std::size_t slot = 0; slot < ring.size(); ++slot)
+        {
+          const VertexIndex neighbor = ring[slot];
+          if (neighbor < v)
+          {
+            rank_[rings_.begin(v) + slot] =
+              std::uint8_t(entryOf(neighbor, v) - firstEntry_[neighbor]);
+          }
+        }
+      }
+    });
+}
+
+std::size_t FitSystem::entryOf(VertexIndex lower, VertexIndex higher) const
+{
+  const std::span<const VertexIndex> ring = rings_[lower];
+  const auto slot = std::size_t(std::find(ring.begin(), ring.end(), higher) - ring.begin());
+  return firstEntry_[lower] + std::size_t(rank_[rings_.begin(lower) + slot]);
 }
 
 void FitSystem::add(
@@ -46,9 +95,9 @@ void FitSystem::add(
   const bool hasPlane = squared > LeastSquaredNormal;
   const float along = hasPlane ? weight * slip_ : weight;
   const float across = hasPlane ? weight * (1.f - slip_) / squared : 0.f;
-  const Block metric{ Vector4(along, along, along) + across * (normal * normal),
+  const SymmetricBlock metric{ Vector4(along, along, along) + across * (normal * normal),
     across * (normal * rotated(normal)) };
-  const Vector4 pull = metric * sample;
+  const Vector4 pull = metric * sample, weights = place.weights();
   for (unsigned i = 0; i < 3; ++i)
   {
     const VertexIndex v = place.triangle[i];
@@ -56,14 +105,15 @@ void FitSystem::add(
     {
       continue;
     }
-    const float share = place.weights[int(i)];
-    diagonal_[v] += share * share * metric;
-    rightSide_[v] += share * pull;
-    const Ring& ring = mesh_.ring(v);
+    const float share = weights[int(i)];
+    diagonal_.add(v, share * share * metric);
+    rightSide_.add(v, share * pull);
     for (const unsigned j : { (i + 1) % 3, (i + 2) % 3 })
     {
-      const std::uint32_t entry = rowBegin_[v] + ring.find(place.triangle[j]);
-      others_[entry] += share * place.weights[int(j)] * metric;
+      if (place.triangle[j] > v)
+      {
+        others_->add(entryOf(v, place.triangle[j]), share * weights[int(j)] * metric);
+      }
     }
   }
 }
@@ -71,7 +121,7 @@ void FitSystem::add(
 void FitSystem::addNormal(
   const PlaceOnMesh& place, Vector4 unitNormal, float weight, const Rows& rows)
 {
-  const Block metric{ weight * (unitNormal * unitNormal),
+  const SymmetricBlock metric{ weight * (unitNormal * unitNormal),
     weight * (unitNormal * rotated(unitNormal)) };
   for (unsigned i = 0; i < 3; ++i)
   {
@@ -80,11 +130,13 @@ void FitSystem::addNormal(
     {
       continue;
     }
-    diagonal_[v] += 2.f * metric;
-    const Ring& ring = mesh_.ring(v);
+    diagonal_.add(v, 2.f * metric);
     for (const unsigned j : { (i + 1) % 3, (i + 2) % 3 })
     {
-      others_[rowBegin_[v] + ring.find(place.triangle[j])] += -1.f * metric;
+      if (place.triangle[j] > v)
+      {
+        others_->add(entryOf(v, place.triangle[j]), -1.f * metric);
+      }
     }
   }
 }
@@ -92,7 +144,12 @@ void FitSystem::addNormal(
 float FitSystem::weight(VertexIndex vertex, VertexIndex neighbor) const
 {
   const float inner = innerWeights_[vertex];
-  return inner > 0.f ? inner : umbrellaWeight<float>(mesh_.ring(vertex), neighbor);
+  if (inner > 0.f)
+  {
+    return inner;
+  }
+  const std::span<const VertexIndex> ring = rings_[vertex];
+  return ring.front() == neighbor || ring.back() == neighbor ? 0.5f : 0.f;
 }
 
 float FitSystem::boundaryPart(double lambda)
@@ -100,33 +157,36 @@ float FitSystem::boundaryPart(double lambda)
   return float(std::min(1., MostBoundarySmoothness / lambda));
 }
 
-void FitSystem::apply(double lambda, std::span<const Vector4> x, std::span<Vector4> laplacian,
-  std::span<Vector4> result) const
+template <typename Vectors>
+void FitSystem::apply(
+  double lambda, const Vectors& x, PackedVectors& laplacian, PackedVectors& result) const
 {
   const auto smooth = float(lambda);
   const float onBoundary = boundaryPart(lambda);
-  executor_.forEachRange(x.size(), RowsPerRange,
+  const bool hasParts = onBoundary < 1.f || !parts_.empty();
+  executor_.forEachRange(rings_.size(), RowsPerRange,
     [&](std::size_t begin, std::size_t end)
     {
-      applyUmbrella<float>(mesh_, x, laplacian, begin, end);
-      for (auto v = VertexIndex(begin); v < end && (onBoundary < 1.f || !parts_.empty()); ++v)
+      for (auto v = VertexIndex(begin); v < end; ++v)
       {
-        laplacian[v] = smoothnessPart(v, onBoundary) * laplacian[v];
+        const Vector4 bend = umbrellaAt(x, v, rings_[v], rings_.isOpen(v), innerWeights_[v]);
+        laplacian.set(v, hasParts ? smoothnessPart(v, onBoundary) * bend : bend);
       }
     });
   const auto applyRow = [&](VertexIndex v)
   {
-    const Ring& ring = mesh_.ring(v);
+    const std::span<const VertexIndex> ring = rings_[v];
+    const std::uint8_t* rank = rank_.data() + rings_.begin(v);
     Vector4 sum = diagonal_[v] * x[v] - smooth * laplacian[v];
-    for (unsigned slot = 0; slot < ring.size(); ++slot)
+    for (const VertexIndex neighbor : ring)
     {
-      const VertexIndex neighbor = ring[slot];
-      sum += others_[rowBegin_[v] + slot] * x[neighbor];
+      const std::size_t entry = std::size_t(firstEntry_[std::min(v, neighbor)]) + *rank++;
+      sum += (*others_)[entry] * x[neighbor];
       sum += smooth * weight(neighbor, v) * laplacian[neighbor];
     }
-    result[v] = sum;
+    result.set(v, sum);
   };
-  executor_.forEachRange(x.size(), RowsPerRange,
+  executor_.forEachRange(rings_.size(), RowsPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (auto v = VertexIndex(begin); v < end; ++v)
@@ -147,41 +207,32 @@ void FitSystem::addBends(double lambda, std::span<const Vector4> bends)
       for (auto v = VertexIndex(begin); v < end; ++v)
       {
         Vector4 sum = -1.f * bendAt(v);
-        for (const VertexIndex neighbor : mesh_.ring(v))
+        for (const VertexIndex neighbor : rings_[v])
         {
           sum += weight(neighbor, v) * bendAt(neighbor);
         }
-        rightSide_[v] += sum;
+        rightSide_.add(v, sum);
       }
     });
 }
 
-FitSystem::Block FitSystem::Block::inverse() const
+SymmetricBlocks FitSystem::inverseDiagonal(double lambda) const
 {
-  const Eigen::Vector3d d = diagonal.toDouble(), o = others.toDouble();
-  Eigen::Matrix3d matrix;
-  matrix << d.x(), o.x(), o.z(), o.x(), d.y(), o.y(), o.z(), o.y(), d.z();
-  const Eigen::Matrix3d inverse = matrix.inverse();
-  return { Vector4(Eigen::Vector3d(inverse.diagonal())),
-    Vector4(Eigen::Vector3d(inverse(0, 1), inverse(1, 2), inverse(2, 0))) };
-}
-
-std::vector<FitSystem::Block> FitSystem::inverseDiagonal(double lambda) const
-{
-  std::vector<Block> result = diagonal_;
+  SymmetricBlocks result(diagonal_.size());
   const float onBoundary = boundaryPart(lambda);
   const auto part = [&](VertexIndex v) { return smoothnessPart(v, onBoundary); };
   const auto invert = [&](VertexIndex v)
   {
     float squares = part(v);
-    for (const VertexIndex neighbor : mesh_.ring(v))
+    for (const VertexIndex neighbor : rings_[v])
     {
       const float share = weight(neighbor, v);
       squares += part(neighbor) * share * share;
     }
     const float smooth = float(lambda) * squares;
-    result[v].diagonal += Vector4(smooth, smooth, smooth);
-    result[v] = result[v].inverse();
+    SymmetricBlock block = diagonal_[v];
+    block.diagonal += Vector4(smooth, smooth, smooth);
+    result.set(v, block.inverse());
   };
   executor_.forEachRange(result.size(), RowsPerRange,
     [&](std::size_t begin, std::size_t end)
@@ -195,20 +246,21 @@ std::vector<FitSystem::Block> FitSystem::inverseDiagonal(double lambda) const
 }
 
 bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<Vector4> x,
-  const Progress& progress) const
+  const Progress& progress, PackedVectors residual) const
 {
   const std::size_t n = x.size();
   // Across the surface the system is stiff, along it not: a whole block tells these apart.
-  const std::vector<Block> inverse = inverseDiagonal(lambda);
-  std::vector<Vector4> residual(n), direction(n), product(n), laplacian(n);
+  const SymmetricBlocks inverse = inverseDiagonal(lambda);
+  PackedVectors direction(n), product(n), laplacian(n);
   const auto sumOver = [&](const auto& term) { return executor_.sum(n, RowsPerRange, term); };
   apply(lambda, x, laplacian, product);
   double squared = sumOver(
     [&](std::size_t v)
     {
-      residual[v] = rightSide_[v] - product[v];
-      direction[v] = inverse[v] * residual[v];
-      return dot(direction[v], residual[v]);
+      const Vector4 left = residual[v] - product[v], towards = inverse[v] * left;
+      residual.set(v, left);
+      direction.set(v, towards);
+      return dot(towards, left);
     });
   scale = std::max(scale, std::sqrt(squared));
   const double start = squared, end = tolerance * tolerance * scale * scale;
@@ -230,14 +282,15 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
     const auto step = float(squared / curvature);
     const double before = squared;
     // Of what is no longer needed the memory is still near.
-    std::vector<Vector4>& preconditioned = product;
+    PackedVectors& preconditioned = product;
     squared = sumOver(
       [&](std::size_t v)
       {
         x[v] += step * direction[v];
-        residual[v] += -step * product[v];
-        preconditioned[v] = inverse[v] * residual[v];
-        return dot(preconditioned[v], residual[v]);
+        const Vector4 left = residual[v] + -step * product[v], towards = inverse[v] * left;
+        residual.set(v, left);
+        preconditioned.set(v, towards);
+        return dot(towards, left);
       });
     const auto turn = float(squared / before);
     executor_.forEachRange(n, RowsPerRange,
@@ -245,7 +298,7 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
       {
         for (std::size_t v = first; v < last; ++v)
         {
-          direction[v] = preconditioned[v] + turn * direction[v];
+          direction.set(v, preconditioned[v] + turn * direction[v]);
         }
       });
   }

@@ -2,12 +2,17 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/PackedVectors.h"
 #include "base/Progress.h"
 #include "cloud/PlaceOnMesh.h"
+#include "fit/SymmetricBlocks.h"
+#include "mesh/CompactRings.h"
 #include "mesh/Mesh.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace neuralmesh
@@ -16,7 +21,8 @@ namespace neuralmesh
 /// vertices of a mesh: B are the barycentric coordinates of the places of samples p, W how much they
 /// weigh in each direction, L is the umbrella Laplacian (of a vertex on a boundary, that along it, for
 /// which lambda is at most MostBoundarySmoothness).
-/// Solved by conjugate gradients; the matrices are kept beside the rings. About 330 bytes a vertex.
+/// Solved by conjugate gradients. As the matrix is symmetric, half of it is kept: about 150 bytes a vertex, and 72 more
+/// while it is solved.
 class FitSystem
 {
 public:
@@ -24,8 +30,8 @@ public:
   static constexpr double MostBoundarySmoothness = 20.;
 
   /// How much a sample weighs along the normal of its triangle is 1; along the triangle, `slip`: if
-  /// it is below 1, the surface may slide below its samples. Mesh and executor must outlive the
-  /// system.
+  /// it is below 1, the surface may slide below its samples. The executor must outlive the system, which has
+  /// the rings of the mesh, as they are now, for itself.
   FitSystem(const Mesh& mesh, double slip, const Executor& executor = Executor::sequential());
 
   /// Some of the vertices: those from `begin` to before `end`.
@@ -50,31 +56,40 @@ public:
   /// Pulls a vertex to a position.
   void addAnchor(VertexIndex v, Vector4 position, float weight)
   {
-    diagonal_[v].diagonal += Vector4(weight, weight, weight);
-    rightSide_[v] += weight * position;
+    diagonal_.add(v, { Vector4(weight, weight, weight), Vector4() });
+    rightSide_.add(v, weight * position);
   }
   /// Takes away what samples, normals and anchors pull to; how much they weigh stays.
-  void clearPulls() { rightSide_.assign(rightSide_.size(), Vector4()); }
+  void clearPulls() { rightSide_.clear(); }
   /// Adds to what a sample at this place pulls to, times its weight.
   void addPull(const PlaceOnMesh& place, Vector4 pull)
   {
+    const Vector4 weights = place.weights();
     for (unsigned i = 0; i < 3; ++i)
     {
-      rightSide_[place.triangle[i]] += place.weights[int(i)] * pull;
+      rightSide_.add(place.triangle[i], weights[int(i)] * pull);
     }
   }
   /// L x is to be this at each vertex, in place of 0, with the lambda of what is solved.
   void addBends(double lambda, std::span<const Vector4> bends);
-  /// Lambda counts so much of itself at each vertex; without any, all of it.
-  void setSmoothnessParts(std::span<const float> parts)
-  {
-    parts_.assign(parts.begin(), parts.end());
-  }
+  /// Lambda counts so much of itself at each vertex; without any, all of it. They must outlive the system.
+  void setSmoothnessParts(std::span<const float> parts) { parts_ = parts; }
 
   /// Improves `x` until the residual is `tolerance` times `scale`, which is raised first to the
   /// residual of the given `x`. Returns false if it was ended before.
   bool solve(double lambda, double tolerance, double& scale, std::span<Vector4> x,
-    const Progress& progress) const;
+    const Progress& progress) const
+  {
+    return solve(lambda, tolerance, scale, x, progress, rightSide_);
+  }
+  /// The same for the last time, in less memory.
+  bool solveLast(
+    double lambda, double tolerance, double& scale, std::span<Vector4> x, const Progress& progress)
+  {
+    return solve(lambda, tolerance, scale, x, progress, std::move(rightSide_));
+  }
+
+  const CompactRings& rings() const { return rings_; }
 
   /// The lambda for which each place of the surface follows about so many samples, with so many of them a vertex:
   /// it bends over a length of the fourth root of lambda over their density and that of the vertices.
@@ -84,47 +99,35 @@ public:
   }
 
 private:
-  /// A symmetric matrix of 3 x 3.
-  struct Block
-  {
-    Vector4 diagonal; ///< xx, yy, zz
-    Vector4 others;   ///< xy, yz, zx
-
-    Block& operator+=(const Block& b)
-    {
-      diagonal += b.diagonal;
-      others += b.others;
-      return *this;
-    }
-    Block inverse() const;
-    friend Block operator*(float s, const Block& b) { return { s * b.diagonal, s * b.others }; }
-    friend Vector4 operator*(const Block& b, Vector4 x)
-    {
-      return b.diagonal * x + b.others * rotated(x) + rotated(rotated(b.others * x));
-    }
-  };
-
-  void apply(double lambda, std::span<const Vector4> x, std::span<Vector4> laplacian,
-    std::span<Vector4> result) const;
+  /// `residual` is the right side at first.
+  bool solve(double lambda, double tolerance, double& scale, std::span<Vector4> x,
+    const Progress& progress, PackedVectors residual) const;
+  template <typename Vectors>
+  void apply(
+    double lambda, const Vectors& x, PackedVectors& laplacian, PackedVectors& result) const;
+  /// Where the block of an edge is, which is stored once, with the vertex of the lower index.
+  std::size_t entryOf(VertexIndex lower, VertexIndex higher) const;
   /// Of lambda, for a vertex.
   float smoothnessPart(VertexIndex v, float onBoundary) const
   {
-    return mesh_.isBoundary(v) ? onBoundary : parts_.empty() ? 1.f : parts_[v];
+    return rings_.isOpen(v) ? onBoundary : parts_.empty() ? 1.f : parts_[v];
   }
   /// Of lambda, for the vertices on boundaries.
   static float boundaryPart(double lambda);
-  std::vector<Block> inverseDiagonal(double lambda) const;
-  /// As umbrellaWeight(), without a look at the ring where there is no boundary.
+  SymmetricBlocks inverseDiagonal(double lambda) const;
+  /// How much a neighbour counts at a vertex, as umbrellaWeight() has it.
   float weight(VertexIndex vertex, VertexIndex neighbor) const;
 
-  const Mesh& mesh_;
+  CompactRings rings_;
   const Executor& executor_;
   float slip_;
-  std::vector<std::uint32_t> rowBegin_;
-  std::vector<Block> diagonal_;
-  std::vector<Block> others_; ///< for each slot of the ring of each vertex
-  std::vector<Vector4> rightSide_;
-  std::vector<float> parts_;        ///< of lambda; empty: all 1
+  SymmetricBlocks diagonal_;
+  std::vector<std::uint32_t> firstEntry_; ///< of each vertex, for its neighbours of a higher index
+  std::vector<std::uint8_t>
+    rank_; ///< of each neighbour of each vertex, among the entries of the lower of both
+  std::optional<SymmetricBlocks> others_; ///< one for each edge
+  PackedVectors rightSide_;
+  std::span<const float> parts_;    ///< of lambda; empty: all 1
   std::vector<float> innerWeights_; ///< umbrella weights at inner vertices; 0 at others
 };
 }

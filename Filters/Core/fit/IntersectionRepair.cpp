@@ -4,6 +4,7 @@
 #include "fit/PenetratingParts.h"
 #include "mesh/SelfIntersections.h"
 #include "mesh/Smoothing.h"
+#include "mesh/StoredMesh.h"
 
 #include <algorithm>
 #include <utility>
@@ -40,8 +41,9 @@ constexpr std::size_t LeastBroken = 6000;
 class Repairer
 {
 public:
-  explicit Repairer(Mesh& mesh)
+  Repairer(Mesh& mesh, const Executor& executor)
     : mesh_(mesh)
+    , executor_(executor)
     , isTouched_(mesh.indexEnd(), true)
     , roundsBroken_(mesh.indexEnd(), 0)
   {
@@ -56,7 +58,7 @@ public:
     {
       return result;
     }
-    Mesh best = mesh_;
+    StoredMesh best(mesh_, executor_);
     // From now on, new defects can only be where something has changed.
     isTouched_.assign(mesh_.indexEnd(), false);
     for (unsigned round = 0; round < MaximumRounds && result.after.total() > 0; ++round)
@@ -76,17 +78,18 @@ public:
       {
         result.after = count;
         result.flips = flips_;
-        best = mesh_;
+        best = StoredMesh(mesh_, executor_);
       }
     }
-    mesh_ = std::move(best);
+    mesh_ = best.mesh(executor_);
     return result;
   }
 
 private:
   void findDefects()
   {
-    defects_ = { intersectingTriangles(mesh_, isTouched_), foldedEdges(mesh_, isTouched_) };
+    defects_ = { intersectingTriangles(mesh_, isTouched_, executor_),
+      foldedEdges(mesh_, isTouched_, executor_) };
   }
 
   /// The corners of all that is broken.
@@ -271,6 +274,7 @@ private:
   }
 
   Mesh& mesh_;
+  const Executor& executor_;
   Defects defects_;
   std::vector<VertexIndex> broken_;
   std::vector<bool> isTouched_; ///< whether anything there may differ from the first mesh
@@ -279,8 +283,9 @@ private:
 };
 }
 
-IntersectionRepair repairIntersections(Mesh& mesh, const Progress& progress)
+IntersectionRepair repairIntersections(
+  Mesh& mesh, const Progress& progress, const Executor& executor)
 {
-  return Repairer(mesh).repair(progress);
+  return Repairer(mesh, executor).repair(progress);
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "base/Progress.h"
 #include "mesh/Mesh.h"
 
@@ -37,5 +38,6 @@ struct IntersectionRepair
 ///
 /// About O(n log n) for n triangles, of which most is spent to see whether there are defects.
 IntersectionRepair repairIntersections(
-  Mesh& mesh, const Progress& progress = [](double) { return true; });
+  Mesh& mesh, const Progress& progress = [](double) { return true; },
+  const Executor& executor = Executor::sequential());
 }

@@ -26,6 +26,8 @@ public:
   float usual() const { return usual_; }
   /// The mean edge.
   float edgeAt(const PlaceOnMesh& place) const { return meanAt(edges_, place); }
+  /// Edges are not asked for any more.
+  void forgetEdges() { std::vector<float>().swap(edges_); }
 
 private:
   static float meanAt(const std::vector<float>& values, const PlaceOnMesh& place)

@@ -47,8 +47,9 @@ struct PatchSample
 
 VertexIndex nearestCorner(const PlaceOnMesh& place)
 {
-  std::size_t nearest = place.weights[1] > place.weights[0] ? 1 : 0;
-  nearest = place.weights[2] > place.weights[int(nearest)] ? 2 : nearest;
+  const Vector4 weights = place.weights();
+  std::size_t nearest = weights[1] > weights[0] ? 1 : 0;
+  nearest = weights[2] > weights[int(nearest)] ? 2 : nearest;
   return place.triangle[nearest];
 }
 

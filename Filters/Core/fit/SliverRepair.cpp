@@ -4,6 +4,7 @@
 #include "mesh/Refinement.h"
 #include "mesh/SelfIntersections.h"
 #include "mesh/SliverRemoval.h"
+#include "mesh/StoredMesh.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -31,8 +32,8 @@ struct NewDefects
   bool any() const { return crossings > 0 || folds > 0; }
 };
 
-NewDefects newDefects(
-  const Mesh& mesh, const Mesh& before, const std::vector<AppliedChange>& changes)
+NewDefects newDefects(const Mesh& mesh, const StoredMesh& before,
+  const std::vector<AppliedChange>& changes, const Executor& executor)
 {
   std::vector<bool> isTouched(mesh.indexEnd(), false);
   for (const AppliedChange& applied : changes)
@@ -45,8 +46,8 @@ NewDefects newDefects(
   NewDefects defects{ 0, 0, std::vector<int>(mesh.indexEnd(), 0) };
   const auto count = [&](const Mesh& counted, int sign)
   {
-    const std::vector<Triangle> crossings = intersectingTriangles(counted, isTouched);
-    const std::vector<Edge> folds = foldedEdges(counted, isTouched);
+    const std::vector<Triangle> crossings = intersectingTriangles(counted, isTouched, executor);
+    const std::vector<Edge> folds = foldedEdges(counted, isTouched, executor);
     defects.crossings += sign * long(crossings.size());
     defects.folds += sign * long(folds.size());
     for (const Triangle& triangle : crossings)
@@ -65,24 +66,30 @@ NewDefects newDefects(
     }
   };
   count(mesh, 1);
-  count(before, -1);
+  count(before.mesh(executor), -1);
   return defects;
 }
 
 /// Until nothing is broken that was not before. Returns whether there is something to gain: else the mesh is
 /// not what it was.
-bool removeUnbroken(Mesh& mesh)
+bool removeUnbroken(Mesh& mesh, const StoredMesh& before, const Executor& executor)
 {
-  const Mesh before = mesh;
   std::set<SliverChange> refused;
   for (int attempt = 0; attempt < MostAttempts; ++attempt)
   {
-    mesh = before;
-    const std::vector<AppliedChange> changes = removeSlivers(mesh, LeastQuality, refused);
-    const NewDefects defects = newDefects(mesh, before, changes);
-    if (changes.empty() || !defects.any())
+    if (attempt > 0)
     {
-      return !changes.empty();
+      mesh = before.mesh(executor);
+    }
+    const std::vector<AppliedChange> changes = removeSlivers(mesh, LeastQuality, refused);
+    if (changes.empty())
+    {
+      return false;
+    }
+    const NewDefects defects = newDefects(mesh, before, changes, executor);
+    if (!defects.any())
+    {
+      return true;
     }
     for (const AppliedChange& applied : changes)
     {
@@ -96,29 +103,29 @@ bool removeUnbroken(Mesh& mesh)
   return false;
 }
 
-bool repairOnce(Mesh& mesh, FitGuard& guard)
+bool repairOnce(Mesh& mesh, FitGuard& guard, const Executor& executor)
 {
-  const Mesh before = mesh;
-  bool isBetter = removeUnbroken(mesh);
+  const StoredMesh before(mesh, executor);
+  bool isBetter = removeUnbroken(mesh, before, executor);
   if (isBetter)
   {
     mesh.dropErased();
     refine(
       mesh, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);
     isBetter = mesh.vertexCount() == before.vertexCount() &&
-      (!guard.losesPoints(mesh, false) || guard.losesPoints(before, false));
+      (!guard.losesPoints(mesh, false) || guard.losesPoints(before.mesh(executor), false));
   }
   if (!isBetter)
   {
-    mesh = before;
+    mesh = before.mesh(executor);
   }
   return isBetter;
 }
 }
 
-void repairSlivers(Mesh& mesh, FitGuard& guard)
+void repairSlivers(Mesh& mesh, FitGuard& guard, const Executor& executor)
 {
-  for (int time = 0; time < MostTimes && repairOnce(mesh, guard); ++time)
+  for (int time = 0; time < MostTimes && repairOnce(mesh, guard, executor); ++time)
   {
   }
 }

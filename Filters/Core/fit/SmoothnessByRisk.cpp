@@ -44,10 +44,12 @@ constexpr double DeviationFromAll = 3.;
 }
 
 SmoothnessByRisk::SmoothnessByRisk(const Mesh& mesh, const FitSystem& system,
-  const PlacedSamples& samples, std::span<const float> creases, const Executor& executor)
+  const PlacedSamples& samples, std::span<const Vector4> shifts, std::span<const float> creases,
+  const Executor& executor)
   : mesh_(mesh)
   , system_(system)
   , samples_(samples)
+  , shifts_(shifts)
   , executor_(executor)
   , unitNormals_(samples.points.size())
   , loads_(mesh.indexEnd())
@@ -59,10 +61,10 @@ SmoothnessByRisk::SmoothnessByRisk(const Mesh& mesh, const FitSystem& system,
     const float squared = squaredNorm(normal);
     if (samples.isUsed[i] != 0 && squared > 0.f && !isOnBoundary(place, mesh))
     {
-      unitNormals_[i] = 1.f / std::sqrt(squared) * normal;
+      unitNormals_.set(i, 1.f / std::sqrt(squared) * normal);
       for (int corner = 0; corner < 3; ++corner)
       {
-        loads_[place.triangle[std::size_t(corner)]] += samples.weight(i) * place.weights[corner];
+        loads_[place.triangle[std::size_t(corner)]] += samples.weight(i) * place.weights()[corner];
       }
     }
   }
@@ -128,16 +130,19 @@ void SmoothnessByRisk::measure(Candidate& candidate, std::span<const Vector4> po
   double sum = 0., count = 0.;
   for (std::size_t i = 0; i < samples_.points.size(); ++i)
   {
-    if (squaredNorm(unitNormals_[i]) > 0.f)
+    const Vector4 unitNormal = unitNormals_[i];
+    if (squaredNorm(unitNormal) > 0.f)
     {
       const PlaceOnMesh& place = samples_.places[i];
-      const float across = dot(unitNormals_[i], samples_.points[i] - pointAt(place, positions));
+      const Vector4 point =
+        shifts_.empty() ? samples_.points[i] : samples_.points[i] + pointAt(place, shifts_);
+      const float across = dot(unitNormal, point - pointAt(place, positions));
       const float square = samples_.weight(i) * across * across;
       sum += double(square);
       count += double(samples_.weight(i));
       for (int corner = 0; corner < 3; ++corner)
       {
-        around[place.triangle[std::size_t(corner)]] += place.weights[corner] * square;
+        around[place.triangle[std::size_t(corner)]] += place.weights()[corner] * square;
       }
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/PackedVectors.h"
 #include "base/Progress.h"
 #include "fit/FitSystem.h"
 #include "fit/TriangleSamples.h"
@@ -21,10 +22,11 @@ namespace neuralmesh
 class SmoothnessByRisk
 {
 public:
-  /// `samples` have their places on the mesh; `creases` tells for each vertex what part of lambda counts there
-  /// already: what lies at creases tells little of how smooth the rest is. All must outlive this.
+  /// `samples` have their places on the mesh, and count as moved by the `shifts` of its vertices, unless that is empty;
+  /// `creases` tells for each vertex what part of lambda counts there already: what lies at creases tells little of how
+  /// smooth the rest is. All must outlive this.
   SmoothnessByRisk(const Mesh& mesh, const FitSystem& system, const PlacedSamples& samples,
-    std::span<const float> creases, const Executor& executor);
+    std::span<const Vector4> shifts, std::span<const float> creases, const Executor& executor);
 
   /// Looks for lambda around `first`. Returns false if it was ended before.
   bool run(double first, const Progress& progress);
@@ -57,8 +59,9 @@ private:
   const Mesh& mesh_;
   const FitSystem& system_;
   PlacedSamples samples_;
+  std::span<const Vector4> shifts_;
   const Executor& executor_;
-  std::vector<Vector4> unitNormals_;  ///< of the places; 0 where samples do not count
+  PackedVectors unitNormals_;         ///< of the places; 0 where samples do not count
   std::vector<float> attention_;      ///< of each vertex: less at creases
   std::vector<float> loads_;          ///< of samples around each vertex
   std::vector<Candidate> candidates_; ///< from smooth to rough

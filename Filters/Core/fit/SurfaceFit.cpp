@@ -62,19 +62,14 @@ SurfaceFit::SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCo
   : cloud_(cloud)
   , mesh_(mesh)
   , executor_(executor)
+  , samples_(cloud, sampleCount)
 {
-  const std::size_t all = cloud.points().size();
-  const std::size_t fitted = all - all / HeldOutStride;
-  const std::size_t count = std::min(fitted, sampleCount);
-  samples_.reserve(count);
+  const std::size_t count = samples_.size();
   std::vector<Vector4> normals;
   normals.reserve(normalOf ? count : 0);
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count && (normalOf || viewOf || !cloud.weights().empty()); ++i)
   {
-    const std::size_t chosen = i * fitted / count;
-    // One is passed over behind each group of those that are fitted.
-    const std::size_t point = chosen + chosen / (HeldOutStride - 1);
-    samples_.push_back(cloud.points()[point]);
+    const std::size_t point = samples_.index(i);
     if (normalOf)
     {
       normals.push_back(normalOf(point));
@@ -120,7 +115,7 @@ bool SurfaceFit::findPlaces(const Progress& progress)
       });
   }
   const float edges = hasPlaces_ ? LaterOutlierEdges : FirstOutlierEdges;
-  hasPlaces_ = true;
+  hasPlaces_ = hasDistances_ = true;
   medianDistance_ = std::sqrt(medianOf(distances, executor_));
   outlierDistance_ = neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(), edges);
   chooseUsed(edges);
@@ -155,7 +150,7 @@ void SurfaceFit::findPlace(std::size_t sample, const VertexGrid& grid)
 
 void SurfaceFit::chooseUsed(float edges)
 {
-  const LocalSpacing& spacing = spacing_.emplace(mesh_, places_);
+  LocalSpacing& spacing = spacing_.emplace(mesh_, places_);
   const float usual = spacing.usual();
   executor_.forEachRange(places_.size(), SamplesPerRange,
     [&](std::size_t begin, std::size_t end)
@@ -174,6 +169,7 @@ void SurfaceFit::chooseUsed(float edges)
         isUsed_[i] = isUsed_[i] != 0 && (isWithin(outlierDistance_) || isNearForSparse()) ? 1 : 0;
       }
     });
+  spacing.forgetEdges();
 }
 
 void SurfaceFit::keepBoundaries()
@@ -343,7 +339,7 @@ void SurfaceFit::pullBoundariesIn()
         {
           Strip& strip = strips[from];
           ++strip.samples;
-          strip.width = std::min(strip.width, place.weights[int(i)]);
+          strip.width = std::min(strip.width, place.weights()[int(i)]);
         }
       }
     });
@@ -369,7 +365,7 @@ void SurfaceFit::pullBoundariesIn()
     if (retreat > 0.)
     {
       const Ring& ring = mesh.ring(v);
-      const PlaceOnMesh place{ { v, ring[0], ring[1] }, Vector4(0.5f, 0.5f, 0.f), 0.f };
+      const PlaceOnMesh place{ { v, ring[0], ring[1] }, 0.5f, 0.f, 0.f };
       const Vector4 edge = pointAt(place, mesh.positions());
       system_->add(place, edge + float(retreat) * (mesh.position(ring[1]) - edge), Vector4(),
         float(std::max(1., samples)));
@@ -382,7 +378,7 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
   fillSystem();
   if (!spacing_)
   {
-    spacing_.emplace(mesh_, places_);
+    spacing_.emplace(mesh_, places_).forgetEdges();
   }
   smoothness_ = lambda;
   const double choice = lambda > 0. ? 0. : PartOfChoice;
@@ -390,22 +386,34 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
   {
     return false;
   }
-  const std::vector<Vector4> before(mesh_.positions().begin(), mesh_.positions().end());
-  std::vector<Vector4> positions = before;
-  if (!system_->solve(smoothness_, Tolerance, scale_, positions, partOf(progress, choice, 1.)))
+  const std::span<Vector4> positions = mesh_.movablePositions();
+  PackedVectors before(positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v)
   {
+    before.set(v, positions[v]);
+  }
+  const bool isDone = laidAside(before,
+    [&]
+    {
+      return system_->solveLast(
+        smoothness_, Tolerance, scale_, positions, partOf(progress, choice, 1.));
+    });
+  system_.reset();
+  if (!isDone)
+  {
+    for (std::size_t v = 0; v < positions.size(); ++v)
+    {
+      positions[v] = before[v];
+    }
     return false;
   }
   noise_ = std::sqrt(residualVariance(positions, smoothness_));
-  for (VertexIndex v = 0; v < positions.size(); ++v)
+  for (VertexIndex v = 0; v < positions.size() && smoothnessOfVertices_; ++v)
   {
-    mesh_.setPosition(v, positions[v]);
-    if (smoothnessOfVertices_)
-    {
-      const float part = smoothnessParts_.empty() ? 1.f : smoothnessParts_[v];
-      mesh_.values(*smoothnessOfVertices_)[v] = float(smoothness_) * part;
-    }
+    const float part = smoothnessParts_.empty() ? 1.f : smoothnessParts_[v];
+    mesh_.values(*smoothnessOfVertices_)[v] = float(smoothness_) * part;
   }
+  hasDistances_ = false;
   heldCount_ = holdLost(before);
   return true;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/PackedVectors.h"
 #include "base/Progress.h"
 #include "cloud/PlaceOnMesh.h"
 #include "cloud/PointCloud.h"
@@ -10,7 +11,9 @@
 #include "fit/GivenNormals.h"
 #include "fit/HeldOutPoints.h"
 #include "fit/LocalSpacing.h"
+#include "fit/SamplePoints.h"
 #include "fit/SharedNoise.h"
+#include "fit/StoredPlaces.h"
 #include "fit/TriangleSamples.h"
 #include "mesh/Mesh.h"
 
@@ -124,6 +127,8 @@ private:
   static constexpr std::size_t VerticesPerRange = 4096;
   /// Median of the square of a Gaussian variable, against its variance.
   static constexpr double MedianOfSquares = 0.455;
+  /// With fewer samples memory does not matter.
+  static constexpr std::size_t LeastLaidAside = 500'000;
   /// Samples that are so many times farther from each other than usual are sparse.
   static constexpr float SparseSpacings = 2.f;
 
@@ -133,6 +138,30 @@ private:
   /// Tells outliers by how far samples are from each other around their places.
   void chooseUsed(float edges);
   void fillSystem();
+  /// The answer of `solve()`, while which the rings of the mesh and the places are laid aside, as the equations take
+  /// most of the memory. `positions` are those for which the places are.
+  template <typename Positions, typename Solve>
+  bool laidAside(const Positions& positions, const Solve& solve)
+  {
+    const RingsReleased released(mesh_, system_->rings(), executor_);
+    if (!hasDistances_ || places_.size() < LeastLaidAside)
+    {
+      return solve();
+    }
+    const StoredPlaces stored(places_, executor_);
+    LargeVector<PlaceOnMesh>().swap(places_);
+    const bool isDone = solve();
+    places_ = stored.places(executor_);
+    executor_.forEachRange(places_.size(), SamplesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          places_[i].squaredDistance = squaredNorm(samples_[i] - pointAt(places_[i], positions));
+        }
+      });
+    return isDone;
+  }
   template <typename Body>
   void forEachUsed(const Body& body) const;
   void fillRows(const FitSystem::Rows& rows, std::size_t sample);
@@ -143,9 +172,9 @@ private:
   bool isLost(std::size_t sample, float squaredBefore) const;
   template <typename Distance>
   std::vector<std::uint8_t> lostPlaces(const Distance& squaredBefore) const;
-  template <typename Distance>
-  std::size_t hold(std::span<const Vector4> before, const Distance& squaredBefore);
-  std::size_t holdLost(std::span<const Vector4> before);
+  template <typename Positions, typename Distance>
+  std::size_t hold(const Positions& before, const Distance& squaredBefore);
+  std::size_t holdLost(const PackedVectors& before);
   // In SurfaceFitSmoothness.cpp
   bool chooseSmoothness(const Progress& progress);
   std::vector<float> squaredBends(std::span<const Vector4> positions) const;
@@ -166,16 +195,17 @@ private:
   Mesh& mesh_;
   const Executor& executor_;
   std::optional<FitSystem> system_;
-  std::vector<Vector4> samples_;
+  SamplePoints samples_;
   GivenNormals normals_;
   double normalWeight_ = 0.;
   std::vector<float> weights_;       ///< of the samples; empty if all weigh alike
   std::vector<std::uint32_t> views_; ///< likewise; empty if none is known
-  std::vector<PlaceOnMesh> places_;
+  LargeVector<PlaceOnMesh> places_;
   /// Of the samples, those that are no outliers, and have not switched to the other side of a thin part.
   std::vector<std::uint8_t> isUsed_;
   std::vector<VertexIndex> opposite_; ///< of each vertex, see OppositeLayer.h
   bool hasPlaces_ = false;
+  bool hasDistances_ = false; ///< whether those of the places are still those to the mesh
   bool reachesTheEnd_ = false;
   bool isSettled_ = false;
   bool isExact_ = false;

@@ -77,8 +77,8 @@ std::vector<std::uint8_t> SurfaceFit::lostPlaces(const Distance& squaredBefore) 
 }
 
 /// Vertices around which samples are lost go back.
-template <typename Distance>
-std::size_t SurfaceFit::hold(std::span<const Vector4> before, const Distance& squaredBefore)
+template <typename Positions, typename Distance>
+std::size_t SurfaceFit::hold(const Positions& before, const Distance& squaredBefore)
 {
   std::size_t held = 0;
   for (int i = 0; i < MostHolds; ++i)
@@ -101,7 +101,7 @@ std::size_t SurfaceFit::hold(std::span<const Vector4> before, const Distance& sq
   return held;
 }
 
-std::size_t SurfaceFit::holdLost(std::span<const Vector4> before)
+std::size_t SurfaceFit::holdLost(const PackedVectors& before)
 {
   return hold(
     before, [this](std::size_t i) { return isUsed(i) ? places_[i].squaredDistance : -1.f; });
@@ -109,6 +109,7 @@ std::size_t SurfaceFit::holdLost(std::span<const Vector4> before)
 
 std::size_t SurfaceFit::holdAgainst(const Mesh& before)
 {
+  hasDistances_ = false;
   std::vector<float> squaredBefore(samples_.size(), -1.f);
   const auto hasMoved = [&](VertexIndex v)
   { return squaredNorm(mesh_.position(v) - before.position(v)) > 0.f; };

@@ -60,9 +60,14 @@ bool SurfaceFit::chooseSmoothness(const Progress& progress)
   std::vector<Vector4> positions(mesh_.positions().begin(), mesh_.positions().end());
   for (int i = 0; i < MostChoices; ++i)
   {
-    double scale = 0.;
-    if (!system_->solve(smoothness_, ToleranceOfChoice, scale, positions,
-          partOf(progress, double(i) / MostChoices, double(i + 1) / MostChoices)))
+    const Progress part = partOf(progress, double(i) / MostChoices, double(i + 1) / MostChoices);
+    const bool isDone = laidAside(mesh_.positions(),
+      [&]
+      {
+        double scale = 0.;
+        return system_->solve(smoothness_, ToleranceOfChoice, scale, positions, part);
+      });
+    if (!isDone)
     {
       return false;
     }
@@ -171,7 +176,7 @@ std::vector<float> SurfaceFit::supports() const
   {
     for (int corner = 0; corner < 3 && isUsed(i); ++corner)
     {
-      const float square = weight(i) * places_[i].weights[corner] * places_[i].weights[corner];
+      const float square = weight(i) * places_[i].weights()[corner] * places_[i].weights()[corner];
       result[places_[i].triangle[std::size_t(corner)]] += square;
       sum += double(square);
     }
@@ -229,14 +234,10 @@ NoiseParts SurfaceFit::noiseParts() const
 bool SurfaceFit::chooseSmoothnessByRisk(double first, const Progress& progress)
 {
   fillSystem();
-  std::vector<Vector4> points(samples_.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    points[i] = shifted(i);
-  }
-  SmoothnessByRisk choice(
-    mesh_, *system_, { points, places_, isUsed_, weights_ }, smoothnessParts_, executor_);
-  if (!choice.run(first, progress))
+  SmoothnessByRisk choice(mesh_, *system_, placedSamples(), shifts_, smoothnessParts_, executor_);
+  const bool isDone = choice.run(first, progress);
+  system_.reset();
+  if (!isDone)
   {
     return false;
   }

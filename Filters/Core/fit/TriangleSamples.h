@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cloud/PlaceOnMesh.h"
+#include "fit/SamplePoints.h"
 #include "mesh/Mesh.h"
 
 #include <array>
@@ -14,7 +15,7 @@ namespace neuralmesh
 /// Samples, their places on a mesh, and which of them count.
 struct PlacedSamples
 {
-  std::span<const Vector4> points;
+  SamplePoints points;
   std::span<const PlaceOnMesh> places;
   std::span<const std::uint8_t> isUsed;
   std::span<const float> weights; ///< empty: all weigh alike

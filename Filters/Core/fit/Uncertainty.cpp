@@ -148,7 +148,7 @@ void Uncertainty::measureNoise()
       count += double(weight);
       for (int corner = 0; corner < 3; ++corner)
       {
-        const float share = weight * place.weights[corner];
+        const float share = weight * place.weights()[corner];
         squares[place.triangle[std::size_t(corner)]] += share * place.squaredDistance;
         loads[place.triangle[std::size_t(corner)]] += share;
       }
@@ -186,7 +186,7 @@ void Uncertainty::measureBends()
       sum += double(weight);
       for (int corner = 0; corner < 3; ++corner)
       {
-        loads[place.triangle[std::size_t(corner)]] += weight * place.weights[corner];
+        loads[place.triangle[std::size_t(corner)]] += weight * place.weights()[corner];
       }
     });
   const float usual = medianOf(edges, executor_);
@@ -202,14 +202,14 @@ void Uncertainty::measureBends()
 }
 
 /// Across the surface, for each coordinate of what is solved alike.
-FitSystem Uncertainty::systemOfFit() const
+FitSystem Uncertainty::systemOfFit()
 {
   FitSystem system(mesh_, 1., executor_);
   const std::span<const float> smoothness = mesh_.values(*report_.smoothnessOfVertices);
-  std::vector<float> parts(smoothness.size());
-  std::transform(smoothness.begin(), smoothness.end(), parts.begin(),
+  smoothnessParts_.resize(smoothness.size());
+  std::transform(smoothness.begin(), smoothness.end(), smoothnessParts_.begin(),
     [&](float lambda) { return lambda / float(report_.smoothness); });
-  system.setSmoothnessParts(parts);
+  system.setSmoothnessParts(smoothnessParts_);
   const PlacedSamples samples = fit_.placedSamples();
   for (std::size_t i = 0; i < samples.points.size(); ++i)
   {
@@ -255,8 +255,9 @@ void Uncertainty::drawPulls(FitSystem& system, std::uint64_t draw) const
     if (samples.isUsed[i] != 0)
     {
       const PlaceOnMesh& place = samples.places[i];
-      const float noise = place.weights[0] * noise_[place.triangle[0]] +
-        place.weights[1] * noise_[place.triangle[1]] + place.weights[2] * noise_[place.triangle[2]];
+      const float noise = place.weights()[0] * noise_[place.triangle[0]] +
+        place.weights()[1] * noise_[place.triangle[1]] +
+        place.weights()[2] * noise_[place.triangle[2]];
       system.addPull(place, std::sqrt(samples.weight(i)) * noise * signsOf(ofSamples, i));
     }
   }
@@ -343,8 +344,8 @@ void Uncertainty::addSharedNoise()
             dot(samples.points[i] - mesh_.position(place.triangle[0]), normal) / length;
           for (int corner = 0; corner < 3; ++corner)
           {
-            count[place.triangle[std::size_t(corner)]] += place.weights[corner];
-            sum[place.triangle[std::size_t(corner)]] += place.weights[corner] * across;
+            count[place.triangle[std::size_t(corner)]] += place.weights()[corner];
+            sum[place.triangle[std::size_t(corner)]] += place.weights()[corner] * across;
           }
         }
       });

@@ -61,7 +61,7 @@ private:
   bool findPlaces(const Progress& progress);
   void measureNoise();
   void measureBends();
-  FitSystem systemOfFit() const;
+  FitSystem systemOfFit();
   bool addDraws(FitSystem& system, const Progress& progress);
   void drawPulls(FitSystem& system, std::uint64_t draw) const;
   bool addBias(FitSystem& system, const Progress& progress);
@@ -77,9 +77,10 @@ private:
   const Executor& executor_;
   std::vector<std::uint32_t> views_; ///< of the samples; empty if none is known
   SurfaceFit fit_;
-  std::vector<float> noise_;     ///< of the samples around each vertex, as a standard deviation
-  std::vector<float> bends_;     ///< by how much they may scatter at each vertex, likewise
-  std::vector<float> variances_; ///< of each vertex
+  std::vector<float> noise_; ///< of the samples around each vertex, as a standard deviation
+  std::vector<float> bends_; ///< by how much they may scatter at each vertex, likewise
+  std::vector<float> smoothnessParts_; ///< of lambda, at each vertex; the equations look there
+  std::vector<float> variances_;       ///< of each vertex
   std::vector<float> deviations_;
   ViewDisagreement disagreement_;
 };

@@ -24,18 +24,21 @@ constexpr float LeastBackwards = 0.8f;
 /// Of the area of a side: behind which is the other one.
 constexpr double LeastOfSide = 0.5;
 
+/// A part for the executor.
+constexpr std::size_t PiecesPerRange = 64;
 constexpr std::uint32_t NoneBehind = ~0u;
 constexpr std::size_t NoPiece = ~std::size_t(0);
 
 class WebSearch
 {
 public:
-  WebSearch(
-    const Mesh& mesh, std::span<const Triangle> triangles, std::span<const EmptyPiece> pieces)
+  WebSearch(const Mesh& mesh, std::span<const Triangle> triangles,
+    std::span<const EmptyPiece> pieces, const Executor& executor)
     : mesh_(mesh)
+    , meanEdge_(mesh.meanEdge())
     , triangles_(triangles)
     , pieces_(pieces)
-    , sorted_(sortedByPlace(mesh, triangles))
+    , sorted_(sortedByPlace(mesh, triangles, executor))
     , centers_(centersOf(mesh, triangles, sorted_))
     , nearest_(centers_)
     , pieceOf_(triangles.size(), NoPiece)
@@ -52,8 +55,7 @@ public:
   /// The piece behind most of the area of one, if there is one.
   std::size_t behind(const EmptyPiece& piece) const
   {
-    const double reach =
-      std::max(RootsBehind * std::sqrt(piece.area), EdgesBehind * double(mesh_.meanEdge()));
+    const double reach = std::max(RootsBehind * std::sqrt(piece.area), EdgesBehind * meanEdge_);
     std::map<std::size_t, double> areas;
     for (const std::uint32_t t : piece.triangles)
     {
@@ -72,7 +74,7 @@ public:
 private:
   /// The triangles in an order in which those that are near in space are near each other.
   static std::vector<std::uint32_t> sortedByPlace(
-    const Mesh& mesh, std::span<const Triangle> triangles)
+    const Mesh& mesh, std::span<const Triangle> triangles, const Executor& executor)
   {
     Box box;
     std::vector<Vector4> centers;
@@ -82,7 +84,7 @@ private:
       centers.push_back(centerOf(mesh, triangle));
       box.extend(centers.back());
     }
-    return mortonOrder(centers, box.low, box.high);
+    return mortonOrder(centers, box.low, box.high, executor);
   }
 
   static std::vector<Vector4> centersOf(
@@ -126,6 +128,7 @@ private:
   }
 
   const Mesh& mesh_;
+  double meanEdge_;
   std::span<const Triangle> triangles_;
   std::span<const EmptyPiece> pieces_;
   std::vector<std::uint32_t> sorted_;
@@ -137,20 +140,28 @@ private:
 
 std::vector<std::pair<std::size_t, std::size_t>> findWebs(const Mesh& mesh,
   std::span<const Triangle> triangles, std::span<const EmptyPiece> pieces,
-  const std::vector<bool>& mayBeSide)
+  const std::vector<bool>& mayBeSide, const Executor& executor)
 {
   std::vector<std::pair<std::size_t, std::size_t>> webs;
   if (std::count(mayBeSide.begin(), mayBeSide.end(), true) < 2)
   {
     return webs;
   }
-  const WebSearch search(mesh, triangles, pieces);
+  const WebSearch search(mesh, triangles, pieces, executor);
+  std::vector<std::size_t> behind(pieces.size(), NoPiece);
+  executor.forEachRange(pieces.size(), PiecesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        behind[i] = mayBeSide[i] ? search.behind(pieces[i]) : NoPiece;
+      }
+    });
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    const std::size_t other = mayBeSide[i] ? search.behind(pieces[i]) : NoPiece;
-    if (other != NoPiece && other != i && mayBeSide[other])
+    if (behind[i] != NoPiece && behind[i] != i && mayBeSide[behind[i]])
     {
-      webs.emplace_back(i, other);
+      webs.emplace_back(i, behind[i]);
     }
   }
   return webs;

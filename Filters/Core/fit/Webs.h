@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "fit/EmptyPieces.h"
 #include "mesh/Mesh.h"
 
@@ -16,5 +17,5 @@ namespace neuralmesh
 /// the other, as close as that is wide, and nothing lies between.
 std::vector<std::pair<std::size_t, std::size_t>> findWebs(const Mesh& mesh,
   std::span<const Triangle> triangles, std::span<const EmptyPiece> pieces,
-  const std::vector<bool>& mayBeSide);
+  const std::vector<bool>& mayBeSide, const Executor& executor = Executor::sequential());
 }

@@ -14,7 +14,7 @@ constexpr int MostTakingsBack = 8;
 }
 
 AfterBrokenMoves takeBackBrokenMoves(
-  Mesh& mesh, std::span<const Vector4> before, const Progress& progress)
+  Mesh& mesh, std::span<const Vector4> before, const Progress& progress, const Executor& executor)
 {
   std::vector<bool> isAsked(mesh.indexEnd(), true);
   AfterBrokenMoves result = AfterBrokenMoves::Sound;
@@ -25,7 +25,7 @@ AfterBrokenMoves takeBackBrokenMoves(
     {
       return AfterBrokenMoves::Cancelled;
     }
-    const std::vector<VertexIndex> broken = brokenVertices(mesh, isAsked);
+    const std::vector<VertexIndex> broken = brokenVertices(mesh, isAsked, executor);
     isAsked.assign(isAsked.size(), false);
     hasMoved = false;
     for (const VertexIndex v : broken)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "base/Progress.h"
 #include "mesh/Mesh.h"
 
@@ -18,6 +19,6 @@ enum class AfterBrokenMoves
 
 /// Where the surface folds or intersects, vertices go back to where they were before they moved; `before` has the
 /// positions of then. Again and again, as what goes back may run into what has not.
-AfterBrokenMoves takeBackBrokenMoves(
-  Mesh& mesh, std::span<const Vector4> before, const Progress& progress);
+AfterBrokenMoves takeBackBrokenMoves(Mesh& mesh, std::span<const Vector4> before,
+  const Progress& progress, const Executor& executor = Executor::sequential());
 }

@@ -14,6 +14,8 @@
 namespace neuralmesh
 {
 class Archive;
+class CompactRings;
+class Executor;
 
 using Triangle = std::array<VertexIndex, 3>;
 
@@ -45,6 +47,8 @@ public:
   Vector4 position(VertexIndex v) const { return positions_[v]; }
   void setPosition(VertexIndex v, Vector4 position) { positions_[v] = position; }
   std::span<const Vector4> positions() const { return positions_; }
+  /// To move all of them.
+  std::span<Vector4> movablePositions() { return positions_; }
 
   const Ring& ring(VertexIndex v) const { return rings_[v]; }
   unsigned valence(VertexIndex v) const { return rings_[v].size(); }
@@ -156,6 +160,11 @@ public:
   /// Gives the vertex `permutation[i]` the index i, for all vertices; erased ones vanish.
   void renumber(std::span<const VertexIndex> permutation);
 
+  /// Gives the memory of the rings back to the system until restoreRings(), which gets the same rings. In between there
+  /// is nothing but positions and properties.
+  void releaseRings();
+  void restoreRings(const CompactRings& rings, const Executor& executor);
+
   /// Turns all triangles of the given vertices, which must be whole components, inside out.
   void reverseOrientation(std::span<const VertexIndex> component);
 
@@ -163,6 +172,8 @@ public:
   void exchange(Archive& archive);
 
 private:
+  friend class StoredMesh;
+
   VertexIndex newVertex(Vector4 position);
   void eraseVertex(VertexIndex v);
   bool isSound() const;

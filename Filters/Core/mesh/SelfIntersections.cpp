@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SelfIntersections.h"
 
+#include "base/Morton.h"
 #include "mesh/BoxTree.h"
 #include "mesh/TriangleIntersection.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -18,6 +20,8 @@ namespace
 const double FoldCosine = std::cos(150. * std::numbers::pi / 180.);
 /// So much of a right angle is left that rounding does not matter.
 constexpr float LeastSquaredCosine = 0.04f;
+/// A part for the executor.
+constexpr std::size_t FoldsPerRange = 4096;
 
 /// Brings the corners that `other` has, too, to the front; returns how many there are.
 unsigned sharedToFront(Triangle& triangle, const Triangle& other)
@@ -69,7 +73,7 @@ bool isStarSimple(const Mesh& mesh, VertexIndex v)
   return turns == 1;
 }
 
-/// Whether stars are simple, asked for when it is needed.
+/// Whether stars are simple, asked for when it is needed, by several threads maybe.
 class SimpleStars
 {
 public:
@@ -81,11 +85,14 @@ public:
 
   bool operator[](VertexIndex v)
   {
-    if (known_[v] == Unknown)
+    const std::atomic_ref<std::uint8_t> known(known_[v]);
+    std::uint8_t isSimple = known.load(std::memory_order_relaxed);
+    if (isSimple == Unknown)
     {
-      known_[v] = isStarSimple(mesh_, v) ? 1 : 0;
+      isSimple = isStarSimple(mesh_, v) ? 1 : 0;
+      known.store(isSimple, std::memory_order_relaxed);
     }
-    return known_[v] == 1;
+    return isSimple == 1;
   }
 
 private:
@@ -126,69 +133,147 @@ bool doIntersect(const Mesh& mesh, SimpleStars& isSimple, Triangle first, Triang
   }
 }
 
-/// The triangles of a mesh, and which of them to ask for.
+/// Along a Morton curve.
+std::vector<VertexIndex> verticesAlongCurve(
+  const Mesh& mesh, const std::vector<VertexIndex>& vertices, const Executor& executor)
+{
+  std::vector<Vector4> positions;
+  positions.reserve(vertices.size());
+  Box bounds;
+  for (const VertexIndex v : vertices)
+  {
+    positions.push_back(mesh.position(v));
+    bounds.extend(positions.back());
+  }
+  std::vector<VertexIndex> order = mortonOrder(positions, bounds.low, bounds.high, executor);
+  for (VertexIndex& v : order)
+  {
+    v = vertices[v];
+  }
+  return order;
+}
+
+/// The triangles of a mesh, those first that are asked for, which are neighbours where they follow each other.
 class Candidates
 {
 public:
-  Candidates(const Mesh& mesh, const std::vector<bool>& isAsked)
+  Candidates(const Mesh& mesh, const std::vector<bool>& isAsked, const Executor& executor)
+    : mesh_(mesh)
+    , executor_(executor)
   {
-    const std::size_t expected = 2 * mesh.vertexCount();
-    triangles_.reserve(expected);
-    boxes_.reserve(expected);
-    isAsked_.reserve(expected);
-    mesh.forEachTriangle(
-      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    // By their corners of the lowest index.
+    std::vector<VertexIndex> vertices;
+    vertices.reserve(mesh.vertexCount());
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      bool isAny = false;
+      forEachAt(v,
+        [&](VertexIndex b, VertexIndex c)
+        { isAny = isAny || isAsked[v] || isAsked[b] || isAsked[c]; });
+      if (isAny)
       {
-        triangles_.push_back({ a, b, c });
-        Box& box = boxes_.emplace_back();
-        box.extend(mesh.position(a));
-        box.extend(mesh.position(b));
-        box.extend(mesh.position(c));
-        isAsked_.push_back(isAsked[a] || isAsked[b] || isAsked[c]);
-      });
+        vertices.push_back(v);
+      }
+    }
+    vertices = verticesAlongCurve(mesh, vertices, executor);
+    triangles_.reserve(2 * mesh.vertexCount());
+    for (const VertexIndex v : vertices)
+    {
+      forEachAt(v,
+        [&](VertexIndex b, VertexIndex c)
+        {
+          if (isAsked[v] || isAsked[b] || isAsked[c])
+          {
+            triangles_.push_back({ v, b, c });
+          }
+        });
+    }
+    askedCount_ = triangles_.size();
+    for (VertexIndex v = 0; v < mesh.indexEnd() && askedCount_ > 0; ++v)
+    {
+      forEachAt(v,
+        [&](VertexIndex b, VertexIndex c)
+        {
+          if (!isAsked[v] && !isAsked[b] && !isAsked[c])
+          {
+            triangles_.push_back({ v, b, c });
+          }
+        });
+    }
   }
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
-  /// Calls `use(i, j)` for the indices of every two triangles whose boxes overlap.
+  /// Calls `use(i, j)` for the indices of every two triangles whose boxes overlap; threads of the executor do so at the
+  /// same time.
   template <typename Use>
-  void forEachPair(Use use) const
+  void forEachPair(const Use& use) const
   {
-    BoxTree(boxes_, isAsked_).forEachOverlap(use);
+    const auto boxOf = [this](std::uint32_t i)
+    {
+      Box box;
+      for (const VertexIndex v : triangles_[i])
+      {
+        box.extend(mesh_.position(v));
+      }
+      return box;
+    };
+    BoxTree(std::uint32_t(askedCount_), std::uint32_t(triangles_.size()), boxOf, executor_)
+      .forEachOverlap(use);
   }
 
 private:
+  /// The triangles of which a vertex is the corner of the lowest index.
+  template <typename Use>
+  void forEachAt(VertexIndex v, const Use& use) const
+  {
+    const Ring& ring = mesh_.ring(v);
+    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+    {
+      const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
+      if (v < b && v < c)
+      {
+        use(b, c);
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  const Executor& executor_;
   std::vector<Triangle> triangles_;
-  std::vector<Box> boxes_;
-  std::vector<bool> isAsked_;
+  std::size_t askedCount_ = 0;
 };
 }
 
-std::vector<Triangle> intersectingTriangles(const Mesh& mesh)
+std::vector<Triangle> intersectingTriangles(const Mesh& mesh, const Executor& executor)
 {
-  return intersectingTriangles(mesh, std::vector<bool>(mesh.indexEnd(), true));
+  return intersectingTriangles(mesh, std::vector<bool>(mesh.indexEnd(), true), executor);
 }
 
-std::vector<Triangle> intersectingTriangles(const Mesh& mesh, const std::vector<bool>& isAsked)
+std::vector<Triangle> intersectingTriangles(
+  const Mesh& mesh, const std::vector<bool>& isAsked, const Executor& executor)
 {
-  const Candidates candidates(mesh, isAsked);
+  const Candidates candidates(mesh, isAsked, executor);
   const std::vector<Triangle>& all = candidates.triangles();
-  std::vector<bool> isFound(all.size(), false);
+  std::vector<std::uint8_t> isFound(all.size());
   SimpleStars isSimple(mesh);
+  const auto found = [&](std::uint32_t i) { return std::atomic_ref<std::uint8_t>(isFound[i]); };
   candidates.forEachPair(
     [&](std::uint32_t i, std::uint32_t j)
     {
       // Nothing is to be learnt of two that are found.
-      if (!(isFound[i] && isFound[j]) && doIntersect(mesh, isSimple, all[i], all[j]))
+      constexpr auto Order = std::memory_order_relaxed;
+      if (!(found(i).load(Order) != 0 && found(j).load(Order) != 0) &&
+        doIntersect(mesh, isSimple, all[i], all[j]))
       {
-        isFound[i] = true;
-        isFound[j] = true;
+        found(i).store(1, Order);
+        found(j).store(1, Order);
       }
     });
   std::vector<Triangle> triangles;
   for (std::size_t i = 0; i < all.size(); ++i)
   {
-    if (isFound[i])
+    if (isFound[i] != 0)
     {
       triangles.push_back(all[i]);
     }
@@ -204,7 +289,7 @@ std::vector<TrianglePair> intersectingPairs(const Mesh& mesh)
 
 std::vector<TrianglePair> intersectingPairs(const Mesh& mesh, const std::vector<bool>& isAsked)
 {
-  const Candidates candidates(mesh, isAsked);
+  const Candidates candidates(mesh, isAsked, Executor::sequential());
   const std::vector<Triangle>& all = candidates.triangles();
   std::vector<TrianglePair> pairs;
   SimpleStars isSimple(mesh);
@@ -241,16 +326,17 @@ bool isFolded(const Mesh& mesh, const Edge& edge)
   return left.dot(right) < FoldCosine * left.norm() * right.norm();
 }
 
-std::vector<Edge> foldedEdges(const Mesh& mesh)
+std::vector<Edge> foldedEdges(const Mesh& mesh, const Executor& executor)
 {
-  return foldedEdges(mesh, std::vector<bool>(mesh.indexEnd(), true));
+  return foldedEdges(mesh, std::vector<bool>(mesh.indexEnd(), true), executor);
 }
 
-std::vector<Edge> foldedEdges(const Mesh& mesh, const std::vector<bool>& isAsked)
+std::vector<Edge> foldedEdges(
+  const Mesh& mesh, const std::vector<bool>& isAsked, const Executor& executor)
 {
-  std::vector<Edge> edges;
   const auto isAskedVertex = [&](VertexIndex v) { return v != NoVertex && isAsked[v]; };
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  std::vector<std::vector<Edge>> edgesOf((mesh.indexEnd() + FoldsPerRange - 1) / FoldsPerRange);
+  const auto lookAt = [&](VertexIndex v, std::vector<Edge>& edges)
   {
     const Ring& ring = mesh.ring(v);
     for (unsigned slot = 0; slot < ring.size(); ++slot)
@@ -264,19 +350,33 @@ std::vector<Edge> foldedEdges(const Mesh& mesh, const std::vector<bool>& isAsked
         edges.push_back({ v, neighbor });
       }
     }
+  };
+  executor.forEachRange(mesh.indexEnd(), FoldsPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        lookAt(v, edgesOf[begin / FoldsPerRange]);
+      }
+    });
+  std::vector<Edge> edges;
+  for (const std::vector<Edge>& some : edgesOf)
+  {
+    edges.insert(edges.end(), some.begin(), some.end());
   }
   std::sort(edges.begin(), edges.end());
   return edges;
 }
 
-std::vector<VertexIndex> brokenVertices(const Mesh& mesh, const std::vector<bool>& isAsked)
+std::vector<VertexIndex> brokenVertices(
+  const Mesh& mesh, const std::vector<bool>& isAsked, const Executor& executor)
 {
   std::vector<VertexIndex> broken;
-  for (const Triangle& triangle : intersectingTriangles(mesh, isAsked))
+  for (const Triangle& triangle : intersectingTriangles(mesh, isAsked, executor))
   {
     broken.insert(broken.end(), triangle.begin(), triangle.end());
   }
-  for (const Edge& edge : foldedEdges(mesh, isAsked))
+  for (const Edge& edge : foldedEdges(mesh, isAsked, executor))
   {
     const Edge opposite = oppositeTo(mesh, edge);
     broken.insert(broken.end(), edge.begin(), edge.end());

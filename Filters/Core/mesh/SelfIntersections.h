@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/Mesh.h"
 
 #include <array>
@@ -25,8 +26,10 @@ std::vector<TrianglePair> intersectingPairs(const Mesh& mesh);
 std::vector<TrianglePair> intersectingPairs(const Mesh& mesh, const std::vector<bool>& isAsked);
 
 /// The triangles of these pairs, each once, in order: faster where there are many.
-std::vector<Triangle> intersectingTriangles(const Mesh& mesh);
-std::vector<Triangle> intersectingTriangles(const Mesh& mesh, const std::vector<bool>& isAsked);
+std::vector<Triangle> intersectingTriangles(
+  const Mesh& mesh, const Executor& executor = Executor::sequential());
+std::vector<Triangle> intersectingTriangles(const Mesh& mesh, const std::vector<bool>& isAsked,
+  const Executor& executor = Executor::sequential());
 
 /// The corners opposite to an edge: of the triangle to its left, as it runs from the first to the
 /// second end, and of the one to its right. NoVertex where there is none.
@@ -37,10 +40,12 @@ std::array<VertexIndex, 2> oppositeTo(const Mesh& mesh, const Edge& edge);
 bool isFolded(const Mesh& mesh, const Edge& edge);
 /// All edges that are folded, in order; or only those of which a triangle has a corner v with
 /// `isAsked[v]`.
-std::vector<Edge> foldedEdges(const Mesh& mesh);
-std::vector<Edge> foldedEdges(const Mesh& mesh, const std::vector<bool>& isAsked);
+std::vector<Edge> foldedEdges(const Mesh& mesh, const Executor& executor = Executor::sequential());
+std::vector<Edge> foldedEdges(const Mesh& mesh, const std::vector<bool>& isAsked,
+  const Executor& executor = Executor::sequential());
 
 /// The corners of triangles that intersect and those around folds, of what has a corner v with `isAsked[v]`; some
 /// more than once.
-std::vector<VertexIndex> brokenVertices(const Mesh& mesh, const std::vector<bool>& isAsked);
+std::vector<VertexIndex> brokenVertices(const Mesh& mesh, const std::vector<bool>& isAsked,
+  const Executor& executor = Executor::sequential());
 }

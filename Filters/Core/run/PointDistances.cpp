@@ -133,7 +133,7 @@ public:
     for (unsigned corner = 0; corner < 3; ++corner)
     {
       const double weight =
-        double(cloud_.weight(point)) * std::max(0., double(place.weights[int(corner)]));
+        double(cloud_.weight(point)) * std::max(0., double(place.weights()[int(corner)]));
       weights_[place.triangle[corner]] += weight;
       squares_[place.triangle[corner]] += weight * double(place.squaredDistance);
     }

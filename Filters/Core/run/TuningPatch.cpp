@@ -228,7 +228,7 @@ void TuningPatch::aim(const Mesh& mesh)
     Vector4 direction{};
     for (int corner = 0; corner < 3; ++corner)
     {
-      direction += place.weights[corner] * normals[place.triangle[std::size_t(corner)]];
+      direction += place.weights()[corner] * normals[place.triangle[std::size_t(corner)]];
     }
     probes_.push_back({ point, unitVector(direction), pointAt(place, mesh.positions()), farthest });
   }

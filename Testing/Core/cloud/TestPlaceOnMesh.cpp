@@ -29,7 +29,7 @@ Vector4 pointNear(
 {
   const Triangle& triangle = triangles[random.below(std::uint32_t(triangles.size()))];
   const auto s = float(std::sqrt(random.uniform())), t = float(random.uniform());
-  const PlaceOnMesh place{ triangle, Vector4(1.f - s, s * (1.f - t), s * t), 0.f };
+  const PlaceOnMesh place{ triangle, s * (1.f - t), s * t, 0.f };
   return pointAt(place, mesh.positions()) + randomPoint(random, by);
 }
 
@@ -51,8 +51,8 @@ void expectConsistent(const PlaceOnMesh& place, Vector4 point, const Mesh& mesh)
   float sum = 0.f;
   for (int i = 0; i < 3; ++i)
   {
-    EXPECT_GE(place.weights[i], -1e-5f);
-    sum += place.weights[i];
+    EXPECT_GE(place.weights()[i], -1e-5f);
+    sum += place.weights()[i];
   }
   EXPECT_NEAR(sum, 1.f, 1e-5f);
   EXPECT_NEAR(place.squaredDistance, squaredNorm(point - pointAt(place, mesh.positions())), 1e-9f);

@@ -34,9 +34,8 @@ std::vector<Sample> makeSamples(const Mesh& mesh, std::size_t count, Random& ran
     std::rotate(sample.place.triangle.begin(), sample.place.triangle.begin() + random.below(3),
       sample.place.triangle.end());
     const auto b = float(0.5 * random.uniform()), c = float(0.5 * random.uniform());
-    sample.place.weights = i % 7 == 0 ? Vector4(1.f, 0.f, 0.f)
-      : i % 5 == 0                    ? Vector4(1.f - b, b, 0.f)
-                                      : Vector4(1.f - b - c, b, c);
+    sample.place.second = i % 7 == 0 ? 0.f : b;
+    sample.place.third = i % 7 == 0 || i % 5 == 0 ? 0.f : c;
     sample.point = randomPoint(random);
     sample.normal = i % 3 == 0 ? Vector4() : randomPoint(random, 3.f);
     sample.weight = float(0.5 + random.uniform());
@@ -96,7 +95,7 @@ Eigen::VectorXd denseSolution(
     for (int i = 0; i < 3; ++i)
     {
       b.middleCols<3>(3 * Eigen::Index(sample.place.triangle[std::size_t(i)])) +=
-        double(sample.place.weights[i]) * Eigen::Matrix3d::Identity();
+        double(sample.place.weights()[i]) * Eigen::Matrix3d::Identity();
     }
     Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
     const Eigen::Vector3d normal = sample.normal.toDouble();
@@ -240,7 +239,7 @@ TEST(FitSystem, SolvesForOtherPullsAndBends)
       Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
       for (int i = 0; i < 3; ++i)
       {
-        b[Eigen::Index(sample.place.triangle[std::size_t(i)])] += double(sample.place.weights[i]);
+        b[Eigen::Index(sample.place.triangle[std::size_t(i)])] += double(sample.place.weights()[i]);
       }
       matrix += double(sample.weight) * b * b.transpose();
       right += b * pull.toDouble().transpose();

@@ -24,7 +24,7 @@ TEST(LocalSpacing, TellsSparseFromDense)
       const bool isDense = cloud.toInput(mesh.position(a)).x() < 0.5;
       for (int i = 0; i < (isDense ? 16 : 1); ++i)
       {
-        places.push_back({ { a, b, c }, Vector4(1.f, 0.f, 0.f), 0.f });
+        places.push_back({ { a, b, c }, 0.f, 0.f, 0.f });
       }
     });
   const LocalSpacing spacing(mesh, places);

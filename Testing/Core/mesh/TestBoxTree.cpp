@@ -2,10 +2,13 @@
 #include "mesh/BoxTree.h"
 
 #include "base/Random.h"
+#include "base/ThreadPool.h"
 #include "MeshTools.h"
 
 #include <gtest/gtest.h>
 
+#include <mutex>
+#include <numeric>
 #include <utility>
 
 namespace neuralmesh::testing
@@ -16,10 +19,21 @@ using Overlaps = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 Overlaps found(const std::vector<Box>& boxes, const std::vector<bool>& isAsked)
 {
+  std::vector<std::uint32_t> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto end =
+    std::stable_partition(order.begin(), order.end(), [&](std::uint32_t i) { return isAsked[i]; });
+  const auto boxOf = [&](std::uint32_t i) { return boxes[order[i]]; };
+  const ThreadPool threads(3);
+  std::mutex mutex;
   Overlaps overlaps;
-  BoxTree(boxes, isAsked)
-    .forEachOverlap([&](std::uint32_t i, std::uint32_t j)
-      { overlaps.emplace_back(std::min(i, j), std::max(i, j)); });
+  BoxTree(std::uint32_t(end - order.begin()), std::uint32_t(order.size()), boxOf, threads)
+    .forEachOverlap(
+      [&](std::uint32_t i, std::uint32_t j)
+      {
+        const std::lock_guard lock(mutex);
+        overlaps.emplace_back(std::min(order[i], order[j]), std::max(order[i], order[j]));
+      });
   std::sort(overlaps.begin(), overlaps.end());
   return overlaps;
 }

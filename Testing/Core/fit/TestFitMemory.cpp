@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What large fits take of memory, and that what is laid aside for it comes back.
+#include "fit/StoredPlaces.h"
+#include "fit/SurfaceFit.h"
+
+#include "base/ThreadPool.h"
+#include "cloud/MeshBuilder.h"
+#include "MeshTools.h"
+#include "SphereRuns.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+#ifdef __linux__
+double anonymousBytes()
+{
+  std::ifstream file("/proc/self/statm");
+  double size = 0., resident = 0., shared = 0.;
+  file >> size >> resident >> shared;
+  return (resident - shared) * double(sysconf(_SC_PAGESIZE));
+}
+#endif
+
+PointCloud sphereOf(std::size_t count)
+{
+  CloudOptions options;
+  options.count = count;
+  return PointCloud(sphereCloud(options));
+}
+}
+
+// Places come back as they were but for their distances, however far apart their corners are in number, on any number
+// of threads.
+TEST(FitMemory, PlacesComeBack)
+{
+  Random random(1);
+  const auto anyVertex = [&] { return VertexIndex(random.below(0xffffffffu) >> random.below(32)); };
+  std::vector<PlaceOnMesh> places(10000);
+  for (PlaceOnMesh& place : places)
+  {
+    place = { { anyVertex(), anyVertex(), anyVertex() }, float(random.uniform()),
+      -float(random.uniform()), 1.f };
+  }
+  const ThreadPool threads(3);
+  const StoredPlaces stored(places, threads);
+  const auto again = stored.places(Executor::sequential()), parallel = stored.places(threads);
+  ASSERT_EQ(again.size(), places.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    EXPECT_EQ(again[i].triangle, places[i].triangle);
+    EXPECT_EQ(again[i].second, places[i].second);
+    EXPECT_EQ(again[i].third, places[i].third);
+    EXPECT_EQ(again[i].squaredDistance, 0.f);
+    EXPECT_EQ(parallel[i].triangle, places[i].triangle);
+  }
+}
+
+#ifdef __linux__
+// While the equations of a large fit are solved, they take at most 500 bytes a vertex with ten samples for each, and the
+// distances of the places are those that were found.
+TEST(FitMemory, ALargeFitTakesLittle)
+{
+  const PointCloud cloud = sphereOf(570000);
+  Mesh mesh = buildMesh(makeSphere(100), cloud);
+  const double before = anonymousBytes();
+  SurfaceFit fit(cloud, mesh, 10 * mesh.vertexCount());
+  ASSERT_TRUE(fit.findPlaces(goOn));
+  const std::vector<PlaceOnMesh> found(fit.places().begin(), fit.places().end());
+  ASSERT_GE(found.size(), 500000u);
+  const double copied = double(found.size() * sizeof(PlaceOnMesh));
+  double most = 0.;
+  ASSERT_TRUE(fit.moveVertices(1.,
+    [&](double)
+    {
+      most = std::max(most, anonymousBytes());
+      return true;
+    }));
+  EXPECT_GT(most, 0.);
+  EXPECT_LT((most - copied - before) / double(mesh.vertexCount()), 500.);
+  ASSERT_EQ(fit.places().size(), found.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    ASSERT_EQ(fit.places()[i].triangle, found[i].triangle);
+    ASSERT_EQ(fit.places()[i].squaredDistance, found[i].squaredDistance);
+  }
+}
+#endif
+}
