@@ -32,9 +32,9 @@ std::string whyNoLevels(std::span<const std::uint64_t> levels, const Parameters&
 using LevelTaker = std::function<void(std::size_t level, Reconstruction mesh)>;
 
 /// Grows one mesh and finishes a copy of it whenever it has as many vertices as a level, so that each level
-/// is as good as a run of its own, and they take little longer than the largest of them. `levels` ascend;
-/// each is given to `take`, the last one is returned. A run that ends early, by a rule or its caller, ends
-/// with the level that it is at. There must be such a run, see whyNoLevels().
+/// is as good as a run of its own, and all start and learn in little more time than the largest. `levels`
+/// ascend; each is given to `take`, the last one is returned. A run that ends early, by a rule or its
+/// caller, ends with the level that it is at. There must be such a run, see whyNoLevels().
 Reconstruction reconstructLevels(const RunRequest& request, std::span<const std::uint64_t> levels,
   const LevelTaker& take, const Progress& progress);
 }

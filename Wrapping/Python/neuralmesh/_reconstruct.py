@@ -108,7 +108,7 @@ def reconstruct(
                 ended the run.
             levels: Levels of detail: numbers of vertices, in ascending order, in place of `vertices`. Then
                 the meshes of all, in that order, are a list in place of the mesh, made in one run that takes
-                little longer than that of the largest. If progress ended the run, the list ends with the
+                up to twice as long as that of the largest. If progress ended the run, the list ends with the
                 mesh learnt so far. What explain and feature_lines give is that of the largest.
             progress: A function that is called now and then with the fraction that is done, from 0 to
                 1. If it returns False, the mesh learnt so far is the result. An exception that it
