@@ -170,8 +170,7 @@ class Planted(InFolder):
     # user keeps there changes nothing for them; the blocks of shell are one session, to which only the
     # page has shown what was built.
     def test_pages(self):
-        # Of these two, what is quick.
-        self.edit("README.md", lambda text: text.partition("\n## Install it\n")[0])
+        # Of the batch, what is quick.
         recipe = '"matrix": {"vertices": 200}, "gallery": false,'
         self.edit("Documentation/Batch.md", lambda text: re.sub('"matrix": .*', recipe, text))
         write(self.folder / "Documentation" / "Session.md", SESSION.replace("BUILD", str(BUILD)))
