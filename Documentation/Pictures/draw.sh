@@ -11,6 +11,7 @@ declare -A pictures=(
   [draw_house.py]="rooms"
   [draw_lines.py]="feature_lines"
   [draw_bars.py]="error_bars"
+  [draw_levels.py]="levels"
   [draw_tutorial.sh]="tutorial_scan tutorial_mesh tutorial_window tutorial_colours
     tutorial_distances tutorial_step12 tutorial_step17 tutorial_step23"
   [draw_pyvista.sh]="pyvista_mesh pyvista_distance pyvista_left_out"
@@ -48,7 +49,7 @@ for maker in draw.py draw_charts.py draw_house.py; do
   [ -z "$names" ] || xvfb-run -a /usr/bin/python3 "$folder/$maker" "$folder" $names
 done
 # In ParaView, which is told where the plugin is.
-for maker in draw_lines.py draw_bars.py; do
+for maker in draw_lines.py draw_bars.py draw_levels.py; do
   [ -z "$(wanted_of $maker)" ] ||
     PV_PLUGIN_CONFIG_FILE=$PWD/build/lib/neuralmesh/neuralmesh.plugins.xml xvfb-run -a \
       -s "-screen 0 1280x1024x24 -noreset" pvpython "$folder/$maker" "$folder"
