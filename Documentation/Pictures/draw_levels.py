@@ -38,14 +38,17 @@ def show(mesh, vertices):
     return view
 
 
-def main():
+def draw_levels(path):
     with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "scan.ply")
-        clouds.write_ply(path, scan())
-        mesh = simple.NeuralMesh(Input=simple.PLYReader(FileNames=[path]), Levels=LEVELS)
+        cloud = os.path.join(folder, "scan.ply")
+        clouds.write_ply(cloud, scan())
+        mesh = simple.NeuralMesh(Input=simple.PLYReader(FileNames=[cloud]), Levels=LEVELS)
         mesh.UpdatePipeline()
-        views = [show(mesh, vertices) for vertices in LEVELS]
-        save_beside(views, SIZE, os.path.join(sys.argv[1], "levels.png"))
+        save_beside([show(mesh, vertices) for vertices in LEVELS], SIZE, path)
+
+
+def main():
+    draw_levels(os.path.join(sys.argv[1], "levels.png"))
     delete_views()
 
 
