@@ -20,7 +20,7 @@ class Levels(unittest.TestCase):
         self.assertEqual([mesh.GetNumberOfPoints() for mesh in meshes], [100, 300, 900])
         for mesh in meshes:
             self.assertEqual(mesh.GetFieldData().GetArray("Components").GetValue(0), 1)
-        again, explained = neuralmesh.reconstruct(sphere(), levels=[200, 400], explain=True)
+        again, explained = neuralmesh.reconstruct(sphere(), levels=np.array([200, 400]), explain=True)
         self.assertEqual([mesh.GetNumberOfPoints() for mesh in again], [200, 400])
         self.assertEqual(explained.GetNumberOfPoints(), 5000)
 

@@ -174,11 +174,12 @@ def reconstruct(
     first = None if first_mesh is None else _world.take_surface(first_mesh, "first_mesh")
     mesh.SetExplainPoints(bool(explain))
     mesh.SetComputeFeatureLines(bool(feature_lines))
-    for level in levels or ():
+    sizes = [] if levels is None else list(levels)
+    for level in sizes:
         _add_level(mesh, level)
     result, explained, lines, smaller = _world.learn(mesh, cloud, first, progress, points)
     require_points(result)
-    meshes = [*smaller, result] if levels else result
+    meshes = [*smaller, result] if sizes else result
     more = ([explained] if explain else []) + ([lines] if feature_lines else [])
     return (meshes, *more) if more else meshes
 
