@@ -19,6 +19,7 @@ declare -A pictures=(
     laboratory_sparse_meshes laboratory_cost laboratory_models laboratory_jumps"
   [../../Testing/Benchmarks/peers.sh]="peers peers_meshes"
   [../../Testing/Benchmarks/scans.sh]="battery"
+  [../../Testing/Benchmarks/uncertainty.sh]="reliability"
 )
 if [ "${1:-}" = --list ]; then
   for maker in "${!pictures[@]}"; do
@@ -67,5 +68,5 @@ done
     kinect room building b9_training spheres hippo2 || [ $? -eq 1 ] # Some miss their goals.
 # Some minutes.
 [ -z "$(wanted_of ../../Testing/Benchmarks/uncertainty.sh)" ] ||
-  bash Testing/Benchmarks/uncertainty.sh --picture "$folder/reliability.png" "sphere*" "torus*" "bunny*" "fandisk*" ||
+  bash Testing/Benchmarks/uncertainty.sh --seeds 1,2,3 --picture "$folder/reliability.png" "sphere*" "torus*" "bunny*" "fandisk*" ||
   [ $? -eq 1 ] # Some may miss their goals.
