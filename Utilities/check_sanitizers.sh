@@ -36,9 +36,9 @@ check()
   ctest --preset "$preset" -j "$(nproc)" --no-tests=error "$@"
 }
 
-# A sanitizer has memory of its own, of which this test would learn nothing; and a million operations on
+# A sanitizer has memory of its own, of which these tests would learn nothing; and a million operations on
 # one thread take long for nothing with that of threads.
-memory='^Filters\.TestNeuralMeshManyRuns$' million='^Core\.AnyOperation\.Million'
+memory='^Filters\.TestNeuralMeshManyRuns$|^Core\.FitMemory\.ALargeFitTakesLittle$' million='^Core\.AnyOperation\.Million'
 programs='NeuralMeshCoreMemoryTests NeuralMeshCoreThreadTests NeuralMeshFilterTests
   NeuralMeshFilterThreadTests NeuralMeshFuzzEngineShortly'
 
@@ -53,7 +53,7 @@ check_address()
     # What chooses parameters only calls what others test here.
     NEURALMESH_RANDOM_RUNS=15 \
       check sanitize "$programs" -R '^(Core|Filters|Fuzzing.Engine)' -L 'fast|sanitized' \
-      -E 'Tuning|Automatic' "$@"
+      -E "Tuning|Automatic|$memory" "$@"
   fi
 }
 
@@ -66,7 +66,7 @@ check_thread()
     # This sanitizer takes twenty times as long.
     NEURALMESH_RANDOM_RUNS=8 \
       check sanitize-threads 'NeuralMeshCoreThreadTests NeuralMeshFilterThreadTests' \
-      -R '^(Core|Filters)\.' -L '(fast|sanitized)-threads' "$@"
+      -R '^(Core|Filters)\.' -L '(fast|sanitized)-threads' -E "$memory" "$@"
   fi
 }
 
