@@ -2,6 +2,7 @@
 #include "LevelFiles.h"
 
 #include "FieldNumber.h"
+#include "LearningParameters.h"
 #include "MeshWriter.h"
 
 #include "vtkNeuralMesh.h"
@@ -9,6 +10,9 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPolyData.h"
 
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -34,6 +38,34 @@ void ForEachSmallerLevel(vtkNeuralMesh* filter, const std::string& output,
     }
   }
 }
+}
+
+void AddLevelsOption(
+  CLI::App* command, std::vector<vtkIdType>& levels, vtkIdType fewest, vtkIdType most)
+{
+  command
+    ->add_option("--levels", levels,
+      "Levels of detail: meshes of N1, N2, ... vertices in one run, in place of --vertices; the "
+      "largest is OUTPUT, the others lie beside it, such as OUTPUT_1000.vtp")
+    ->type_name("N1,N2,...")
+    ->delimiter(',')
+    ->expected(1, CLI::detail::expected_max_vector_size - 1)
+    ->allow_extra_args(false)
+    ->check(CLI::Range(fewest, most))
+    ->excludes("--vertices");
+}
+
+void RequireSoundLevels(
+  const std::vector<vtkIdType>& levels, double timeLimit, const neuralmesh::BesideLevels& beside)
+{
+  const std::vector<std::uint64_t> sizes(levels.begin(), levels.end());
+  neuralmesh::Parameters parameters;
+  parameters.timeLimit = timeLimit;
+  const std::string problem = neuralmesh::whyNoLevels(sizes, parameters, beside);
+  if (!sizes.empty() && !problem.empty())
+  {
+    throw UsageError("--levels: " + problem);
+  }
 }
 
 std::vector<std::string> SmallerLevelPaths(

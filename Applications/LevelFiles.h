@@ -3,6 +3,7 @@
 #define LevelFiles_h
 
 #include "MeshShift.h"
+#include "run/Levels.h"
 
 #include "vtkType.h"
 
@@ -10,6 +11,18 @@
 #include <vector>
 
 class vtkNeuralMesh;
+namespace CLI
+{
+class App;
+}
+
+/** Adds --levels, numbers of vertices within both ends, to a command that has --vertices. */
+void AddLevelsOption(
+  CLI::App* command, std::vector<vtkIdType>& levels, vtkIdType fewest, vtkIdType most);
+
+/** Throws UsageError if there are levels, and no run with them. A time limit of 0 is none. */
+void RequireSoundLevels(
+  const std::vector<vtkIdType>& levels, double timeLimit, const neuralmesh::BesideLevels& beside);
 
 /** The files of all levels but the largest, which is OUTPUT itself: with _N before its extension. */
 std::vector<std::string> SmallerLevelPaths(

@@ -18,7 +18,6 @@
 #include "PointInputs.h"
 #include "ProgressBar.h"
 #include "PropertyOptions.h"
-#include "run/Levels.h"
 #include "RunEstimate.h"
 #include "RunReport.h"
 #include "TableWriter.h"
@@ -187,22 +186,6 @@ void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
   RequireSoundParameters(filter);
 }
 
-/** Throws UsageError if there is no run with such levels. */
-void RequireSoundLevels(const ReconstructOptions& options)
-{
-  const std::vector<std::uint64_t> levels(options.Levels.begin(), options.Levels.end());
-  neuralmesh::Parameters parameters;
-  parameters.timeLimit = options.TimeLimit;
-  const std::string problem = neuralmesh::whyNoLevels(levels, parameters,
-    { .firstMesh = !options.Initial.empty() || options.Members > 0,
-      .checkpoint = !options.Checkpoint.empty(),
-      .automatic = options.Automatic });
-  if (!levels.empty() && !problem.empty())
-  {
-    throw UsageError("--levels: " + problem);
-  }
-}
-
 std::string NamesOf(const std::vector<std::string>& paths)
 {
   std::string names = paths.front();
@@ -333,7 +316,10 @@ int Reconstruct(const ReconstructOptions& options)
   {
     files.push_back({ "--levels", path, true });
   }
-  RequireSoundLevels(options);
+  RequireSoundLevels(options.Levels, options.TimeLimit,
+    { .firstMesh = !options.Initial.empty() || options.Members > 0,
+      .checkpoint = !options.Checkpoint.empty(),
+      .automatic = options.Automatic });
   RequireDistinctFiles(files);
   RequireWritableExtension(options.Output);
   const MeshShift shift = ParseShift(options.Shift);
@@ -477,16 +463,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     "Mesh: .vtp .ply .obj .stl .glb .off .vtk; another file than all others");
   AddNumber(command, "--vertices", options->Vertices, vertices,
     "Vertices of the mesh, " + Described(vertices), "N");
-  command
-    ->add_option("--levels", options->Levels,
-      "Levels of detail: meshes of N1, N2, ... vertices in one run, in place of --vertices; the "
-      "largest is OUTPUT, the others lie beside it, such as OUTPUT_1000.vtp")
-    ->type_name("N1,N2,...")
-    ->delimiter(',')
-    ->expected(1, CLI::detail::expected_max_vector_size - 1)
-    ->allow_extra_args(false)
-    ->check(CLI::Range(vertices.Minimum, vertices.Maximum))
-    ->excludes("--vertices");
+  AddLevelsOption(command, options->Levels, vertices.Minimum, vertices.Maximum);
   AddNumber(command, "--seed", options->Seed, seed,
     "Seed of the random numbers, " + Described(seed) + ": the same seed, the same mesh", "N");
   CLI::Option* const initial =

@@ -25,7 +25,6 @@
 #include "vtkInformationVector.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
@@ -560,52 +559,6 @@ bool vtkNeuralMesh::Learn(
   this->ResumedIterations = static_cast<vtkIdType>(result.resumedIterations);
   this->StopReason = neuralmesh::name(result.stopReason).data();
   return true;
-}
-
-/// Its warnings and times.
-void vtkNeuralMesh::Tell(const neuralmesh::Reconstruction& result, const std::string& of)
-{
-  for (const std::string& warning : result.warnings)
-  {
-    vtkWarningMacro(<< of << warning);
-  }
-  this->Times->add(result.times);
-}
-
-/// Mesh, arrays and report.
-void vtkNeuralMesh::FillOutput(
-  const vtkNeuralMeshRun& run, const neuralmesh::Reconstruction& result, vtkPolyData* output)
-{
-  vtkNeuralMeshReport::FillMesh(result, run.PointsPrecision, output);
-  vtkNeuralMeshReport::AddRun(result, run.Cloud, this->Seed, output);
-  vtkNeuralMeshReport::RemoveFrom(output);
-  if (run.Tuning)
-  {
-    vtkNeuralMeshReport::AddTuning(*run.Tuning, output);
-  }
-  vtkNeuralMeshOrientation::AddReport(result.orientation, output);
-  if (result.quality)
-  {
-    vtkNeuralMeshReport::AddQuality(result, run.Cloud.unit(), output);
-  }
-  if (result.explanation)
-  {
-    vtkExplainedPoints::AddCounts(*result.explanation, output);
-  }
-  std::vector<std::string> warnings = run.Warnings;
-  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
-  vtkNeuralMeshReport::AddWarnings(warnings, output);
-}
-
-/// Point data of the input goes over to the mesh. False if that was aborted.
-bool vtkNeuralMesh::Carry(const vtkNeuralMeshRun& run, const neuralmesh::Reconstruction& result,
-  const vtkPointDataCarrier& carrier, const neuralmesh::Progress& progress, vtkPolyData* output)
-{
-  const neuralmesh::CloudPlaces places(
-    run.Cloud, result.surface, neuralmesh::partOf(progress, 0.0, 0.5), run.Executor);
-  carrier.Carry(
-    places, output->GetPointData(), run.Executor, neuralmesh::partOf(progress, 0.5, 1.0));
-  return !this->AbortExecute;
 }
 
 void vtkNeuralMesh::PrepareRun(
