@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "cloud/PointCloud.h"
 #include "mesh/Mesh.h"
 #include "mesh/NarrowHandles.h"
@@ -22,6 +23,6 @@ struct MeshQuality
 };
 
 /// `triangles` are those of the mesh. Of very many points only some are measured.
-MeshQuality measureQuality(
-  const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles);
+MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles,
+  const Executor& executor = Executor::sequential());
 }

@@ -51,6 +51,43 @@ Beginning simplified(Beginning beginning, std::uint64_t vertices, std::uint64_t 
   }
   return beginning;
 }
+
+/// The same parameters with another number of vertices; `parameters` must outlive it.
+RunRequest requestOf(const RunRequest& request, const Parameters& parameters)
+{
+  return { request.cloud, parameters, request.first, request.executor, request.hints,
+    request.explainsAll };
+}
+
+/// A level that may have lost thin parts.
+struct DoubtfulLevel
+{
+  std::size_t number;
+  Reconstruction mesh;
+};
+
+/// Tells of the doubtful levels: as they are, or simplified from what the last one has learnt if that holds more.
+void takeDoubtful(Run& run, const std::optional<LearntRun>& learnt, Reconstruction& last,
+  std::vector<DoubtfulLevel> doubtful, const LevelTaker& take)
+{
+  for (auto& [number, mesh] : doubtful)
+  {
+    if (learnt && last.isComplete())
+    {
+      Reconstruction other = run.finish(*learnt, mesh.surface.vertexCount(), { 1., 1. });
+      if (other.stopReason == StopReason::Cancelled)
+      {
+        last.stopReason = StopReason::Cancelled;
+      }
+      else if (holdsMore(other, mesh))
+      {
+        other.times.add(mesh.times);
+        mesh = std::move(other);
+      }
+    }
+    take(number, std::move(mesh));
+  }
+}
 }
 
 std::string whyNoLevels(
@@ -91,6 +128,7 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
   const Beginning beginning = run.begin(levels.back(), { 0., StartOfLearning });
   times.leave();
   Checkpoint none({}, request.cloud, request.parameters);
+  std::vector<DoubtfulLevel> doubtful;
   const double all = std::accumulate(levels.begin(), levels.end(), 0.);
   double done = StartOfLearning;
   for (const Chain& chain : chainsOf(levels))
@@ -100,24 +138,38 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
     {
       Parameters parameters = request.parameters;
       parameters.numberOfVertices = levels[level];
-      const RunRequest own{ request.cloud, parameters, request.first, request.executor,
-        request.hints, request.explainsAll };
+      const RunRequest own = requestOf(request, parameters);
       const double end = done + (1. - StartOfLearning) * double(levels[level]) / all;
       const double endOfGrowth = done + PartOfGrowth * (end - done);
       LearntRun learnt =
         run.learn(verticesToLearn(own), std::move(next), { done, endOfGrowth }, none);
-      // Small levels are simplified from one mesh.
-      learnt.isLearnt = learnt.isLearnt || level > chain.first;
+      // A first surface that has more vertices than a level is simplified, and learns nothing.
+      learnt.isLearnt = true;
       next = { learnt.learnt.mesh, beginning.gaps, beginning.weights };
+      const bool isLast = level + 1 == levels.size();
+      const auto learntForDoubtful =
+        isLast && !doubtful.empty() ? std::optional<LearntRun>(learnt) : std::nullopt;
       Reconstruction result =
         betterRun(run.finish(std::move(learnt), levels[level], { endOfGrowth, end }), own,
           partOf(progress, end, end));
       result.times.add(std::exchange(times, {}));
-      if (level + 1 == levels.size() || !result.isComplete())
+      if (isLast)
       {
+        result = runWithThinParts(std::move(result), own, partOf(progress, end, end));
+      }
+      if (isLast || !result.isComplete())
+      {
+        takeDoubtful(run, learntForDoubtful, result, std::move(doubtful), take);
         return result;
       }
-      take(level, std::move(result));
+      if (mayHaveLostThinParts(result, own))
+      {
+        doubtful.push_back({ level, std::move(result) });
+      }
+      else
+      {
+        take(level, std::move(result));
+      }
       done = end;
     }
   }

@@ -28,7 +28,8 @@ struct BesideLevels
 std::string whyNoLevels(std::span<const std::uint64_t> levels, const Parameters& parameters,
   const BesideLevels& beside = {});
 
-/// Told of each level but the last, with its place among all.
+/// Told of each level but the last, with its place among all. A level that may have lost thin parts comes after the
+/// others.
 using LevelTaker = std::function<void(std::size_t level, Reconstruction mesh)>;
 
 /// Grows one mesh and finishes a copy of it whenever it has as many vertices as a level, so that each level

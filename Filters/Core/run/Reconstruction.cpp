@@ -5,6 +5,7 @@
 #include "run/Run.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace neuralmesh
@@ -18,7 +19,12 @@ constexpr std::size_t LeastLearnt = 100;
 /// learnt, if there are twenty points for each, and simplified.
 constexpr std::uint64_t LeastLearntToFit = 1000;
 constexpr std::uint64_t PointsToSimplify = 20;
+/// So many, if there are ten points for each, where a mesh of fewer has lost what is thin or narrow.
+constexpr std::uint64_t LearntForThinParts = 20000;
+constexpr std::uint64_t PointsToHoldThinParts = 10;
 
+/// Of all points: a coarse mesh has some beside its bends.
+constexpr double LeastDifferenceOfUnexplained = 0.005;
 /// Of residuals: a few points at creases make most of them, so they are told no better.
 constexpr double TimesOfDraw = 1.2;
 
@@ -98,6 +104,17 @@ bool isBetterRefined(const Reconstruction& refined, const Reconstruction& learnt
   return isCloser(
     refined, learnt, learnt.surface.vertexCount(), hasMoreSlivers ? 1. / TimesOfDraw : TimesOfDraw);
 }
+
+/// Of a run and another one that came after it: the second if it is better, or was cancelled.
+Reconstruction betterOf(Reconstruction first, Reconstruction other,
+  const std::function<bool(const Reconstruction&, const Reconstruction&)>& isOtherBetter)
+{
+  other.resumedIterations = first.resumedIterations;
+  other.times.add(first.times);
+  first.times = other.times;
+  const bool isTaken = other.stopReason == StopReason::Cancelled || isOtherBetter(first, other);
+  return isTaken ? other : first;
+}
 }
 
 Parameters learnable(Parameters parameters, const PointCloud& cloud)
@@ -130,24 +147,66 @@ std::uint64_t verticesToLearn(const RunRequest& request)
   return mayLearnOtherwise(request) ? std::max(asked, least) : asked;
 }
 
+bool mayHaveLostThinParts(const Reconstruction& result, const RunRequest& request)
+{
+  return mayLearnOtherwise(request) && result.stopReason == StopReason::Vertices && result.finish &&
+    result.explanation && result.quality && request.parameters.fidelity != Fidelity::Draft &&
+    (!result.explanation->pieces.empty() || result.finish->left.intersectingTriangles > 0 ||
+      result.quality->surface.foldedEdges > 0);
+}
+
+bool holdsMore(const Reconstruction& finer, const Reconstruction& other)
+{
+  if (finer.stopReason != StopReason::Vertices || !finer.finish || !finer.explanation ||
+    finer.surface.vertexCount() != other.surface.vertexCount() ||
+    finer.finish->left.total() > other.finish->left.total() ||
+    finer.explanation->unexplainedShare() >
+      other.explanation->unexplainedShare() + LeastDifferenceOfUnexplained)
+  {
+    return false;
+  }
+  return finer.warnings.size() < other.warnings.size() ||
+    (finer.warnings.size() == other.warnings.size() &&
+      isCloser(finer, other, other.surface.vertexCount()));
+}
+
 Reconstruction betterRun(Reconstruction result, const RunRequest& request, const Progress& progress)
 {
   const std::uint64_t asked = request.parameters.numberOfVertices;
-  const bool isSimplified = asked < verticesToLearn(request);
-  if (!mayLearnOtherwise(request) || !result.isComplete() ||
-    (isSimplified ? isRight(result, asked)
-                  : !mayHaveRoundedCreases(result, request.cloud, request.parameters)))
+  if (!mayLearnOtherwise(request) || !result.isComplete())
+  {
+    return result;
+  }
+  if (asked < verticesToLearn(request))
+  {
+    return isRight(result, asked)
+      ? result
+      : betterOf(std::move(result), learnAndFinish(asked, request, progress, {}, {}),
+          [&](const Reconstruction& first, const Reconstruction& other)
+          { return !isCloser(first, other, asked); });
+  }
+  if (!mayHaveRoundedCreases(result, request.cloud, request.parameters))
   {
     return result;
   }
   const std::uint64_t fewer = request.cloud.differentCount() / PointsThatTellCreases;
-  Reconstruction other = learnAndFinish(isSimplified ? asked : fewer, request, progress, {}, {});
-  other.resumedIterations = result.resumedIterations;
-  other.times.add(result.times);
-  result.times = other.times;
-  const bool isTaken = other.stopReason == StopReason::Cancelled ||
-    (isSimplified ? !isCloser(result, other, asked) : isBetterRefined(other, result));
-  return isTaken ? other : result;
+  return betterOf(std::move(result), learnAndFinish(fewer, request, progress, {}, {}),
+    [](const Reconstruction& first, const Reconstruction& other)
+    { return isBetterRefined(other, first); });
+}
+
+Reconstruction runWithThinParts(
+  Reconstruction result, const RunRequest& request, const Progress& progress)
+{
+  const std::uint64_t finer = std::min<std::uint64_t>(
+    LearntForThinParts, request.cloud.differentCount() / PointsToHoldThinParts);
+  if (request.parameters.numberOfVertices >= finer || !mayHaveLostThinParts(result, request))
+  {
+    return result;
+  }
+  return betterOf(std::move(result), learnAndFinish(finer, request, progress, {}, {}),
+    [](const Reconstruction& first, const Reconstruction& other)
+    { return holdsMore(other, first); });
 }
 
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
@@ -156,7 +215,10 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
   bool explainsAll)
 {
   const RunRequest request{ cloud, parameters, first, executor, hints, explainsAll };
-  return betterRun(learnAndFinish(verticesToLearn(request), request, progress, watch, plan),
-    request, partOf(progress, 1., 1.));
+  const Progress atTheEnd = partOf(progress, 1., 1.);
+  return runWithThinParts(
+    betterRun(
+      learnAndFinish(verticesToLearn(request), request, progress, watch, plan), request, atTheEnd),
+    request, atTheEnd);
 }
 }

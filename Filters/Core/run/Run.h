@@ -83,4 +83,14 @@ std::uint64_t verticesToLearn(const RunRequest& request);
 /// may be better and is.
 Reconstruction betterRun(
   Reconstruction result, const RunRequest& request, const Progress& progress);
+/// Whether the mesh misses points that are no outliers, or crosses or folds itself, as it does where parts are thinner
+/// than its edges are long. Not where a draft is asked for.
+bool mayHaveLostThinParts(const Reconstruction& result, const RunRequest& request);
+/// Of a mesh that is simplified from a finer one, and one that is not: whether the first has as many vertices, and
+/// holds more of the cloud.
+bool holdsMore(const Reconstruction& finer, const Reconstruction& other);
+/// `result`; or a mesh that is simplified from one of 20,000 vertices, if the first may have lost thin parts, and
+/// the second holds more.
+Reconstruction runWithThinParts(
+  Reconstruction result, const RunRequest& request, const Progress& progress);
 }

@@ -252,7 +252,7 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
   }
   if (all)
   {
-    result.quality = measureQuality(*all, learnt.mesh, result.mesh);
+    result.quality = measureQuality(*all, learnt.mesh, result.mesh, executor);
   }
   result.surface = std::move(learnt.mesh);
 }

@@ -4,6 +4,7 @@
 #include "ManifoldCheck.h"
 #include "run/Levels.h"
 #include "Shapes.h"
+#include "ThinPlate.h"
 
 #include <gtest/gtest.h>
 
@@ -73,6 +74,25 @@ TEST(Levels, AreAsGoodAsRunsOfTheirOwn)
     EXPECT_EQ(mesh.quality->surface.genus, 1);
     EXPECT_EQ(mesh.quality->surface.boundaryLoops, 0u);
     EXPECT_LT(mesh.quality->residual, 1.25 * ownRun(cloud, levels[level]).quality->residual);
+  }
+}
+
+// Promise: a level that has fewer vertices than the start of the largest, as on thin plates, is fitted like any other,
+// and is closed with both sides where they are.
+TEST(Levels, OfThinPlatesAreFitted)
+{
+  constexpr double Thickness = 0.012;
+  CloudOptions options;
+  options.count = 100000;
+  const PointCloud cloud(generateCloud(makePlate(20, Thickness), options));
+  for (const Reconstruction& mesh : meshesOf(cloud, { 500, 2000, 8000 }))
+  {
+    SCOPED_TRACE(mesh.mesh.points.size());
+    EXPECT_TRUE(mesh.finish);
+    ASSERT_TRUE(mesh.quality);
+    EXPECT_EQ(mesh.quality->surface.boundaryLoops, 0u);
+    EXPECT_EQ(mesh.quality->surface.foldedEdges, 0u);
+    EXPECT_LT(mesh.quality->residual, 0.2 * Thickness);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "cloud/PlaceOnMesh.h"
 #include "Shapes.h"
 #include "SphereRuns.h"
+#include "ThinPlate.h"
 
 #include <gtest/gtest.h>
 
@@ -88,5 +89,23 @@ TEST(SmallMeshes, AreOfTheSizeAskedFor)
   {
     EXPECT_EQ(reconstructed(points, vertices, 1).mesh.points.size(), vertices);
   }
+}
+
+// A plate of two sides, that are a tenth of an edge apart, by 400 vertices: it is closed, and both sides are where they
+// are. As the mesh learns, it lies between them in places.
+TEST(SmallMeshes, KeepAThinPlate)
+{
+  constexpr double Thickness = 0.012;
+  constexpr std::uint64_t Vertices = 400;
+  CloudOptions options;
+  options.count = 100000;
+  const TriangleMesh plate = makePlate(20, Thickness);
+  const Reconstruction run = reconstructed(generateCloud(plate, options), Vertices, 1);
+  EXPECT_EQ(run.mesh.points.size(), Vertices);
+  ASSERT_TRUE(run.quality);
+  EXPECT_EQ(run.quality->surface.boundaryLoops, 0u);
+  EXPECT_EQ(run.quality->surface.genus, 0);
+  EXPECT_NEAR(run.quality->surface.area, 2. + 4. * Thickness, 0.02);
+  EXPECT_LT(run.quality->residual, 0.1 * Thickness);
 }
 }
