@@ -19,10 +19,12 @@ constexpr std::size_t LeastLearnt = 100;
 /// learnt, if there are twenty points for each, and simplified.
 constexpr std::uint64_t LeastLearntToFit = 1000;
 constexpr std::uint64_t PointsToSimplify = 20;
-/// So many, if there are ten points for each, where a mesh of fewer has lost what is thin or narrow.
+/// Where a mesh has lost what is thin or narrow, so many are learnt, or twice as many as are asked for, if there are five
+/// points for each.
 constexpr std::uint64_t LearntForThinParts = 20000;
-constexpr std::uint64_t PointsToHoldThinParts = 10;
-
+constexpr std::uint64_t TimesForThinParts = 2;
+constexpr std::uint64_t MostLearntForThinParts = 100000;
+constexpr std::uint64_t PointsToHoldThinParts = 5;
 /// Of all points: a coarse mesh has some beside its bends.
 constexpr double LeastDifferenceOfUnexplained = 0.005;
 /// Of residuals: a few points at creases make most of them, so they are told no better.
@@ -198,9 +200,11 @@ Reconstruction betterRun(Reconstruction result, const RunRequest& request, const
 Reconstruction runWithThinParts(
   Reconstruction result, const RunRequest& request, const Progress& progress)
 {
-  const std::uint64_t finer = std::min<std::uint64_t>(
-    LearntForThinParts, request.cloud.differentCount() / PointsToHoldThinParts);
-  if (request.parameters.numberOfVertices >= finer || !mayHaveLostThinParts(result, request))
+  const std::uint64_t asked = request.parameters.numberOfVertices;
+  const std::uint64_t finer =
+    std::min({ std::max(LearntForThinParts, TimesForThinParts * asked), MostLearntForThinParts,
+      std::uint64_t(request.cloud.differentCount() / PointsToHoldThinParts) });
+  if (asked >= finer || !mayHaveLostThinParts(result, request))
   {
     return result;
   }

@@ -89,8 +89,8 @@ bool mayHaveLostThinParts(const Reconstruction& result, const RunRequest& reques
 /// Of a mesh that is simplified from a finer one, and one that is not: whether the first has as many vertices, and
 /// holds more of the cloud.
 bool holdsMore(const Reconstruction& finer, const Reconstruction& other);
-/// `result`; or a mesh that is simplified from one of 20,000 vertices, if the first may have lost thin parts, and
-/// the second holds more.
+/// `result`; or a mesh that is simplified from a finer one, of 20,000 vertices or twice as many, if the first may have
+/// lost thin parts, and the second holds more.
 Reconstruction runWithThinParts(
   Reconstruction result, const RunRequest& request, const Progress& progress);
 }
