@@ -39,6 +39,12 @@ check()
 # A sanitizer has memory of its own, of which these tests would learn nothing; and a million operations on
 # one thread take long for nothing with that of threads.
 memory='^Filters\.TestNeuralMeshManyRuns$|^Core\.FitMemory\.ALargeFitTakesLittle$' million='^Core\.AnyOperation\.Million'
+# What chooses parameters only calls what others test here; and how good a mesh comes out is no matter of memory or
+# threads: the longest tests of that are left to --all.
+choice='Tuning|Automatic'
+quality='\.(CreaseRefinement\.MoreVertices|Fidelity\.(SharpensACube|MoreVertices|AveragesNoise)|ScatteredPoints\.'
+quality+='|SmallMeshes\.KeepA|Levels\.OfThin|Levels\.AreAsGood|Warnings\.LostRod|FirstSurface\.HollowBodies'
+quality+='|Uncertainty\.(Grows|IsThere|Knows|Holds|Leaves|IsLargest|Chance))'
 programs='NeuralMeshCoreMemoryTests NeuralMeshCoreThreadTests NeuralMeshFilterTests
   NeuralMeshFilterThreadTests NeuralMeshFuzzEngineShortly'
 
@@ -50,10 +56,9 @@ check_address()
       -R '^(Core|Filters|Fuzzing)\.|^Applications\.(BadFiles|PointReader|MeshReader)\.' \
       -E "$memory" "$@"
   else
-    # What chooses parameters only calls what others test here.
     NEURALMESH_RANDOM_RUNS=15 \
       check sanitize "$programs" -R '^(Core|Filters|Fuzzing.Engine)' -L 'fast|sanitized' \
-      -E "Tuning|Automatic|$memory" "$@"
+      -E "$choice|$quality|$memory" "$@"
   fi
 }
 
@@ -66,7 +71,7 @@ check_thread()
     # This sanitizer takes twenty times as long.
     NEURALMESH_RANDOM_RUNS=8 \
       check sanitize-threads 'NeuralMeshCoreThreadTests NeuralMeshFilterThreadTests' \
-      -R '^(Core|Filters)\.' -L '(fast|sanitized)-threads' -E "$memory" "$@"
+      -R '^(Core|Filters)\.' -L '(fast|sanitized)-threads' -E "$choice|$quality|$memory" "$@"
   fi
 }
 
