@@ -31,4 +31,23 @@
   virtual type Get##name##MinValue() { return min; }                                               \
   virtual type Get##name##MaxValue() { return max; }
 
+/** The same where 0 is a value, too, and stands for something else than what is in the range. */
+#define vtkNeuralMeshSetClampOrZeroMacro(name, type, min, max)                                     \
+  virtual void Set##name(type value)                                                               \
+  {                                                                                                \
+    const type clamped = value == 0 ? 0 : std::clamp<type>(value, min, max);                       \
+    if (clamped != value)                                                                          \
+    {                                                                                              \
+      vtkWarningMacro(<< #name " must be 0, or from " << (min) << " to " << (max) << ": not "      \
+                      << value << " but " << clamped << " is used.");                              \
+    }                                                                                              \
+    if (this->name != clamped)                                                                     \
+    {                                                                                              \
+      this->name = clamped;                                                                        \
+      this->Modified();                                                                            \
+    }                                                                                              \
+  }                                                                                                \
+  virtual type Get##name##MinValue() { return min; }                                               \
+  virtual type Get##name##MaxValue() { return max; }
+
 #endif

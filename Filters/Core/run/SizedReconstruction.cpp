@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/SizedReconstruction.h"
+
+#include "run/HeldOutError.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Of the progress that is left, what a trial takes.
+constexpr double PartOfTrial = 0.2;
+/// ... and of a trial its growth.
+constexpr double PartOfGrowthOfTrial = 0.4;
+constexpr std::uint64_t FewestTried = 25;
+
+// All that the cloud tells: trials of few vertices, of which the second tells the noise.
+constexpr std::uint64_t PointsPerVertexAtFirst = 128;
+constexpr std::uint64_t PointsPerVertexAtSecond = 32;
+/// Without noise more vertices than that bring nothing.
+constexpr double PointsPerVertexIfClean = 3.3;
+constexpr double PointsPerVertexAtLeast = 10.;
+/// What the mesh is too coarse for falls by this power of the number of vertices, as a mean square.
+constexpr double PowerOfCoarseness = 1.7;
+/// What may be left of it, of what noise makes of a mesh that has a vertex for so many points.
+constexpr double CoarsenessLeft = 0.03;
+
+// A tolerance.
+constexpr std::uint64_t PointsPerVertexOfGuess = 256;
+constexpr std::size_t MostTrials = 5;
+constexpr double LeastGrowthOfTrials = 2.5;
+/// So much finer than the last trial a mesh may be that is told by it.
+constexpr double MostBeyondTrial = 2.8;
+/// A mesh of so many times as many vertices as are needed is as good as one of just those.
+constexpr double TimesEnough = 1.1;
+/// Errors vary from run to run: so many times the vertices that are just enough are made.
+constexpr double Margin = 1.04;
+constexpr std::size_t MostCorrections = 2;
+constexpr double LeastExponent = 0.15, UsualExponent = 1., MostExponent = 2.5;
+
+/// Noise, if what neighbours do not have in common is more than the shape would make of it: the sparser the points are
+/// at the vertices, the more that is.
+double noiseBy(const HeldOutError& error, std::uint64_t vertices, std::size_t points)
+{
+  constexpr double Part = 0.6;
+  const double part =
+    Part * std::cbrt(double(PointsPerVertexAtSecond) * double(vertices) / double(points));
+  return error.apart > part * error.rootMeanSquare ? error.apart : 0.;
+}
+
+/// The least error that is told apart from none: by the standard error of a mean square under noise.
+double leastTold(const HeldOutError& error, double noise)
+{
+  return noise * std::pow(8. / std::max(1., double(error.count)), 0.25);
+}
+
+/// A run that grows one mesh, and finishes copies of it.
+class SizedRun
+{
+public:
+  SizedRun(const RunRequest& request, const SizeGoal& goal, const Progress& progress)
+    : request_(request)
+    , progress_(progress)
+    , run_(request, progress_)
+    , points_(request.cloud.differentCount())
+    , none_({}, request.cloud, request.parameters)
+  {
+    choice_.goal = goal;
+    choice_.length = goal.lengthFor(request.cloud);
+  }
+
+  Reconstruction run()
+  {
+    return choice_.goal.isAutomatic() ? runByCloud() : runByTolerance();
+  }
+
+private:
+  struct Measured
+  {
+    std::uint64_t vertices = 0;
+    HeldOutError error;
+  };
+
+  Reconstruction runByCloud()
+  {
+    const std::uint64_t first = std::max(FewestTried, points_ / PointsPerVertexAtFirst);
+    const std::uint64_t second = std::max(4 * first, points_ / PointsPerVertexAtSecond);
+    if (!tryWith(first, second) || !tryWith(second, second))
+    {
+      return *std::move(ended_);
+    }
+    const std::uint64_t vertices = sizeByCloud();
+    choice_.predicted = errorOf(measured_.back().error) *
+      std::pow(double(measured_.back().vertices) / double(vertices), lastExponent());
+    if (choice_.noise > 0.)
+    {
+      choice_.predicted = std::sqrt(coarseness() * std::pow(double(vertices), -PowerOfCoarseness)) *
+        request_.cloud.unit();
+    }
+    return conclude(ownRun(vertices));
+  }
+
+  /// Trials that grow, until they tell how many vertices are enough; then these, and a few more if they are not.
+  Reconstruction runByTolerance()
+  {
+    std::uint64_t vertices = std::max(FewestTried, points_ / PointsPerVertexOfGuess);
+    double wanted = 4. * double(vertices);
+    for (std::size_t trial = 0; trial < MostTrials; ++trial)
+    {
+      if (!tryWith(vertices, std::uint64_t(wanted)))
+      {
+        return *std::move(ended_);
+      }
+      wanted = enough();
+      if (wanted <= MostBeyondTrial * double(vertices))
+      {
+        break;
+      }
+      vertices = std::uint64_t(std::max(wanted / MostBeyondTrial, LeastGrowthOfTrials * double(vertices)));
+    }
+    for (std::size_t correction = 0;; ++correction)
+    {
+      const auto size = std::uint64_t(std::clamp(
+        std::ceil(Margin * enough()), double(FewestToAsk), double(mostVertices())));
+      choice_.predicted = std::min(predictedWith(size), choice_.length);
+      Reconstruction result = grownRun(size);
+      if (!result.isComplete() || correction == MostCorrections || size == mostVertices())
+      {
+        return conclude(std::move(result));
+      }
+      const HeldOutError error = heldOutError(request_.cloud, result.surface, request_.executor);
+      if (errorOf(error) <= choice_.length)
+      {
+        return conclude(std::move(result));
+      }
+      times_.add(std::exchange(result.times, {}));
+      note(result.surface.vertexCount(), error);
+    }
+  }
+
+  static constexpr std::uint64_t FewestToAsk = 4;
+
+  /// Vertices that just meet the tolerance, by the last trials.
+  double enough() const
+  {
+    const Measured& last = measured_.back();
+    const double error = errorOf(last.error);
+    const double exponent = lastExponent();
+    const double times = std::pow(std::max(error, 1e-6 * choice_.length) / choice_.length, 1. / exponent);
+    return std::clamp(times * double(last.vertices), double(FewestToAsk), double(mostVertices()));
+  }
+
+  double predictedWith(std::uint64_t vertices) const
+  {
+    const Measured& last = measured_.back();
+    return errorOf(last.error) *
+      std::pow(double(last.vertices) / double(vertices), lastExponent());
+  }
+
+  /// By which power of the number of vertices the error falls from the last trial on.
+  double lastExponent() const
+  {
+    const auto between = [&](std::size_t more)
+    {
+      const Measured& a = measured_[more - 1];
+      const Measured& b = measured_[more];
+      const double exponent = std::log(errorOf(a.error) / errorOf(b.error)) /
+        std::log(double(b.vertices) / double(a.vertices));
+      return std::isfinite(exponent) ? std::clamp(exponent, LeastExponent, MostExponent)
+                                     : UsualExponent;
+    };
+    return measured_.size() > 1 ? between(measured_.size() - 1) : UsualExponent;
+  }
+
+  std::uint64_t mostVertices() const
+  {
+    return std::max<std::uint64_t>(FewestTried, std::uint64_t(double(points_) / 2.));
+  }
+
+  /// In units of the input, noise taken off.
+  double errorOf(const HeldOutError& error) const
+  {
+    return request_.cloud.unit() * error.withoutNoise(choice_.goal.measure, noise_);
+  }
+
+  /// Of the mean square that the mesh is too coarse for, the factor of its power of the number of vertices.
+  double coarseness() const
+  {
+    double sum = 0., weights = 0.;
+    for (const Measured& one : measured_)
+    {
+      const double power = std::pow(double(one.vertices), -PowerOfCoarseness);
+      const double error = one.error.withoutNoise(ToleranceMeasure::RootMeanSquare, noise_);
+      sum += error * error * power;
+      weights += power * power;
+    }
+    return sum / weights;
+  }
+
+  std::uint64_t sizeByCloud() const
+  {
+    const double most = double(points_) / PointsPerVertexIfClean;
+    double size = most;
+    if (noise_ > 0.)
+    {
+      // Where coarseness and noise have equal parts, and farther on until little is left of the first.
+      const double factor = coarseness();
+      const double balance = std::pow(
+        factor * double(points_) / (noise_ * noise_), 1. / (PowerOfCoarseness + 1.));
+      size = balance * std::pow(CoarsenessLeft, -1. / PowerOfCoarseness);
+    }
+    return std::uint64_t(std::clamp(size, double(points_) / PointsPerVertexAtLeast, most));
+  }
+
+  /// Keeps what is known of a mesh. The noise is that of the largest that has enough points a vertex to tell.
+  void note(std::uint64_t vertices, const HeldOutError& error)
+  {
+    if (measured_.empty() || vertices <= points_ / PointsPerVertexAtSecond)
+    {
+      noise_ = noiseBy(error, vertices, points_);
+      choice_.noise = noise_ * request_.cloud.unit();
+    }
+    measured_.push_back({ vertices, error });
+  }
+
+  Parameters parametersWith(std::uint64_t vertices) const
+  {
+    Parameters parameters = request_.parameters;
+    parameters.numberOfVertices = vertices;
+    return parameters;
+  }
+
+  RunRequest requestWith(const Parameters& parameters) const
+  {
+    return { request_.cloud, parameters, request_.first, request_.executor, request_.hints,
+      request_.explainsAll };
+  }
+
+  /// Where what comes next ends, of the whole progress.
+  ProgressPart next(double part)
+  {
+    const double begin = done_;
+    done_ += part * (1. - done_);
+    return { begin, done_ };
+  }
+
+  /// What a mesh of so many vertices grows from: the last one, if its first surface is fine enough for the `largest`
+  /// that is expected, or a new first surface.
+  Beginning beginningFor(std::uint64_t vertices, std::uint64_t largest, ProgressPart part)
+  {
+    constexpr double TimesFiner = 1.5;
+    const bool isFine = grown_ && double(firstVertices(largest)) <= TimesFiner * double(firstVertices(startedFor_));
+    if (isFine && grown_->mesh && grown_->mesh->vertexCount() <= vertices)
+    {
+      isGrown_ = true;
+      return *grown_;
+    }
+    PhaseTimes times;
+    times.enter(Phase::Start);
+    startedFor_ = std::max(vertices, largest);
+    start_ = run_.begin(startedFor_, part);
+    times.leave();
+    times_.add(times);
+    isGrown_ = false;
+    return start_;
+  }
+
+  LearntRun learn(std::uint64_t vertices, std::uint64_t largest, ProgressPart part)
+  {
+    const double middle = part.begin + 0.2 * (part.end - part.begin);
+    const Parameters parameters = parametersWith(vertices);
+    const std::uint64_t learnt = verticesToLearn(requestWith(parameters));
+    Beginning beginning = beginningFor(learnt, largest, { part.begin, middle });
+    LearntRun run = run_.learn(learnt, std::move(beginning), { middle, part.end }, none_);
+    run.isLearnt = run.isLearnt || isGrown_;
+    grown_ = Beginning{ run.learnt.mesh, start_.gaps, start_.weights };
+    return run;
+  }
+
+  /// Makes and measures a mesh. False if that was ended: then there is what the run ends with.
+  bool tryWith(std::uint64_t vertices, std::uint64_t largest)
+  {
+    const ProgressPart part = next(PartOfTrial);
+    const double middle = part.begin + PartOfGrowthOfTrial * (part.end - part.begin);
+    LearntRun learnt = learn(vertices, largest, { part.begin, middle });
+    times_.add(std::exchange(learnt.result.times, {}));
+    PhaseTimes times;
+    times.enter(Phase::Choice);
+    std::optional<Mesh> mesh;
+    if (learnt.result.isComplete())
+    {
+      mesh = run_.meshOf(learnt, vertices, { middle, part.end });
+    }
+    if (!mesh)
+    {
+      ended_ = run_.finish(std::move(learnt), vertices, { part.end, part.end });
+      ended_->times.add(times_);
+      return false;
+    }
+    note(mesh->vertexCount(), heldOutError(request_.cloud, *mesh, request_.executor));
+    times.leave();
+    times_.add(times);
+    return true;
+  }
+
+  /// A mesh that goes on from the last trial.
+  Reconstruction grownRun(std::uint64_t vertices)
+  {
+    const ProgressPart part = next(0.5);
+    const double middle = part.begin + PartOfGrowthOfTrial * (part.end - part.begin);
+    const Parameters parameters = parametersWith(vertices);
+    LearntRun learnt = learn(vertices, vertices, { part.begin, middle });
+    return betterRun(run_.finish(std::move(learnt), vertices, { middle, part.end }),
+      requestWith(parameters), partOf(progress_, part.end, part.end));
+  }
+
+  Reconstruction ownRun(std::uint64_t vertices)
+  {
+    return reconstruct(request_.cloud, parametersWith(vertices), partOf(progress_, done_, 1.),
+      request_.first, {}, {}, request_.executor, request_.hints, request_.explainsAll);
+  }
+
+  /// Measures what the run ends with, and tells how it came to be.
+  Reconstruction conclude(Reconstruction result)
+  {
+    result.times.add(times_);
+    if (!result.isComplete())
+    {
+      return result;
+    }
+    for (const Measured& one : measured_)
+    {
+      choice_.trials.push_back({ one.vertices, errorOf(one.error) });
+    }
+    const HeldOutError error = heldOutError(request_.cloud, result.surface, request_.executor);
+    choice_.vertices = result.surface.vertexCount();
+    choice_.reached = errorOf(error);
+    choice_.least = leastTold(error, noise_) * request_.cloud.unit();
+    if (const std::string warning = choice_.warning(); !warning.empty())
+    {
+      result.warnings.push_back(warning);
+    }
+    result.size = std::move(choice_);
+    progress_(1.);
+    return result;
+  }
+
+  RunRequest request_;
+  const Progress& progress_;
+  Run run_;
+  std::uint64_t points_;
+  Checkpoint none_;
+  SizeChoice choice_;
+  std::vector<Measured> measured_;
+  double noise_ = 0.; ///< in units of the cloud
+  Beginning start_;
+  std::uint64_t startedFor_ = 0;
+  std::optional<Beginning> grown_; ///< what was learnt last, before its fit
+  bool isGrown_ = false;           ///< whether the mesh that learns comes from another one
+  double done_ = 0.;
+  PhaseTimes times_;
+  std::optional<Reconstruction> ended_;
+};
+}
+
+Reconstruction reconstructSized(
+  const RunRequest& request, const SizeGoal& goal, const Progress& progress)
+{
+  return SizedRun(request, goal, progress).run();
+}
+}
