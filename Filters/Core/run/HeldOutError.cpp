@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -14,28 +16,90 @@ namespace neuralmesh
 namespace
 {
 constexpr std::size_t MostMeasured = 20000;
-constexpr std::size_t MeasuredPerRange = 512;
 /// 99 % of a normal distribution lie within so many standard deviations.
 constexpr double DeviationsOfNinetyNine = 2.5758;
 
-/// How far a point is above its place on a mesh; below it the number is negative.
-float signedDistance(Vector4 point, const Mesh& mesh, const VertexGrid& grid)
+/// Neighbours are looked at of about so many points, at some of the vertices.
+constexpr std::size_t PointsWithNeighbours = 40000;
+/// Of those at a vertex so many are compared with each other.
+constexpr std::size_t MostBesideVertex = 256;
+constexpr std::size_t PlacedPerRange = 4096;
+
+/// A point beside a mesh, and how far above it; below it the distance is negative.
+struct PlacedPoint
 {
-  const PlaceOnMesh place =
-    closestPlaceAround(point, mesh, grid.closest(point, mesh.positions()));
-  const Vector4 away = point - pointAt(place, mesh.positions());
+  Vector4 point;
+  Vector4 normal; ///< of the mesh, of length 1
+  float distance = 0.f;
+};
+
+/// `vertex` is the one that is nearest to the point.
+PlacedPoint placedAt(VertexIndex vertex, Vector4 point, const Mesh& mesh)
+{
+  PlacedPoint result;
+  const PlaceOnMesh place = closestPlaceAround(point, mesh, vertex);
+  result.point = point;
+  const Vector4 normal = normalAt(place, mesh.positions());
+  const float length = std::sqrt(squaredNorm(normal));
+  result.normal = length > 0.f ? 1.f / length * normal : Vector4();
   const float distance = std::sqrt(place.squaredDistance);
-  return dot(away, normalAt(place, mesh.positions())) < 0.f ? -distance : distance;
+  const bool isBelow = dot(point - pointAt(place, mesh.positions()), normal) < 0.f;
+  result.distance = isBelow ? -distance : distance;
+  return result;
 }
 
-/// The point before it in the order of the cloud, or the one after it, whichever is nearer.
-std::size_t neighbourOf(std::size_t point, const PointCloud& cloud)
+/// Squares of differences, and how many there are.
+struct Differences
 {
-  const std::size_t before = point > 0 ? point - 1 : point + 1;
-  const std::size_t after = point + 1 < cloud.points().size() ? point + 1 : before;
-  const auto distance = [&](std::size_t other)
-  { return squaredNorm(cloud.points()[other] - cloud.points()[point]); };
-  return distance(before) <= distance(after) ? before : after;
+  double squares = 0.;
+  std::size_t count = 0;
+};
+
+/// Between each of these points, which are nearest to one vertex, and the one that lies closest beside it. Their places
+/// on the mesh do not tell that: at an edge that sticks out are those of points above it alone.
+Differences differencesBeside(std::span<const PlacedPoint> points)
+{
+  Differences result;
+  for (const PlacedPoint& one : points)
+  {
+    const PlacedPoint* nearest = nullptr;
+    float least = std::numeric_limits<float>::infinity();
+    for (const PlacedPoint& other : points)
+    {
+      const Vector4 apart = other.point - one.point;
+      const float above = dot(apart, one.normal);
+      const float squared = squaredNorm(apart) - above * above;
+      if (&other != &one && squared < least)
+      {
+        nearest = &other;
+        least = squared;
+      }
+    }
+    if (nearest)
+    {
+      const double difference = double(one.distance) - double(nearest->distance);
+      result.squares += difference * difference;
+      ++result.count;
+    }
+  }
+  return result;
+}
+
+/// For each point of a cloud the vertex that is nearest.
+std::vector<VertexIndex> nearestVertices(
+  const PointCloud& cloud, const Mesh& mesh, const Executor& executor)
+{
+  const VertexGrid grid = gridOf(mesh, cloud);
+  std::vector<VertexIndex> result(cloud.points().size());
+  executor.forEachRange(result.size(), PlacedPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        result[i] = grid.closest(cloud.points()[i], mesh.positions());
+      }
+    });
+  return result;
 }
 
 /// The largest of so many normal numbers is expected to be about so many standard deviations.
@@ -72,38 +136,21 @@ double HeldOutError::withoutNoise(ToleranceMeasure measure, double noise) const
 HeldOutError heldOutError(const PointCloud& cloud, const Mesh& mesh, const Executor& executor)
 {
   const std::vector<std::size_t> points = heldOutPoints(cloud, MostMeasured);
-  const VertexGrid grid = gridOf(mesh, cloud);
-  std::vector<float> distances(points.size()), differences(points.size());
-  executor.forEachRange(points.size(), MeasuredPerRange,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const float distance = signedDistance(cloud.points()[points[i]], mesh, grid);
-        const Vector4 neighbour = cloud.points()[neighbourOf(points[i], cloud)];
-        distances[i] = std::abs(distance);
-        differences[i] = distance - signedDistance(neighbour, mesh, grid);
-      }
-    });
-  const double farthest = outlierDistance(medianOf(distances), mesh.meanEdge());
+  std::vector<float> distances = squaredDistances(cloud, points, mesh, executor);
+  std::transform(distances.begin(), distances.end(), distances.begin(),
+    [](float squared) { return std::sqrt(squared); });
   HeldOutError result;
+  result.farthest = outlierDistance(medianOf(distances), mesh.meanEdge());
   std::vector<float> kept;
-  double squares = 0., weights = 0., apart = 0., pairs = 0.;
+  double squares = 0., weights = 0.;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    if (double(distances[i]) > farthest)
+    if (double(distances[i]) <= result.farthest)
     {
-      continue;
-    }
-    const double weight = double(cloud.weight(points[i]));
-    squares += weight * double(distances[i]) * double(distances[i]);
-    weights += weight;
-    kept.push_back(distances[i]);
-    // Of a neighbour that is an outlier nothing is told.
-    if (double(std::abs(differences[i])) <= farthest)
-    {
-      apart += weight * double(differences[i]) * double(differences[i]);
-      pairs += weight;
+      const double weight = double(cloud.weight(points[i]));
+      squares += weight * double(distances[i]) * double(distances[i]);
+      weights += weight;
+      kept.push_back(distances[i]);
     }
   }
   result.count = kept.size();
@@ -115,8 +162,35 @@ HeldOutError heldOutError(const PointCloud& cloud, const Mesh& mesh, const Execu
     result.ninetyNine = double(*ninetyNine);
     result.largest = double(*std::max_element(kept.begin(), kept.end()));
   }
-  // Each of both has its noise.
-  result.apart = pairs > 0. ? std::sqrt(apart / pairs / 2.) : 0.;
   return result;
+}
+
+double differenceOfNeighbours(
+  const PointCloud& cloud, const Mesh& mesh, const HeldOutError& error, const Executor& executor)
+{
+  const std::vector<VertexIndex> vertices = nearestVertices(cloud, mesh, executor);
+  const std::size_t stride = std::max<std::size_t>(1, vertices.size() / PointsWithNeighbours);
+  std::vector<std::vector<PlacedPoint>> beside(mesh.indexEnd() / stride + 1);
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    std::vector<PlacedPoint>& points = beside[vertices[i] / stride];
+    if (vertices[i] % stride == 0 && points.size() < MostBesideVertex)
+    {
+      const PlacedPoint placed = placedAt(vertices[i], cloud.points()[i], mesh);
+      if (double(std::abs(placed.distance)) <= error.farthest)
+      {
+        points.push_back(placed);
+      }
+    }
+  }
+  Differences sum;
+  for (const std::vector<PlacedPoint>& points : beside)
+  {
+    const Differences differences = differencesBeside(points);
+    sum.squares += differences.squares;
+    sum.count += differences.count;
+  }
+  // Each of both has its noise.
+  return sum.count > 0 ? std::sqrt(sum.squares / double(sum.count) / 2.) : 0.;
 }
 }

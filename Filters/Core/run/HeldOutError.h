@@ -18,9 +18,7 @@ struct HeldOutError
   double rootMeanSquare = 0.;
   double ninetyNine = 0.; ///< so far are 99 % of them at most
   double largest = 0.;
-  /// What neighbours do not have in common, as a standard deviation: noise, and a little of the shape where
-  /// the mesh has few vertices for its points.
-  double apart = 0.;
+  double farthest = 0.; ///< what is farther is an outlier
 
   double of(ToleranceMeasure measure) const;
 
@@ -32,4 +30,10 @@ struct HeldOutError
 /// Of a mesh of which no vertex may be erased. At most 20,000 points are measured, of those that the fit leaves out.
 HeldOutError heldOutError(
   const PointCloud& cloud, const Mesh& mesh, const Executor& executor = Executor::sequential());
+
+/// What points do not have in common with those that lie beside them on the mesh, as a standard deviation of one of
+/// them: noise, and a little of the shape where the mesh has few points a vertex. Neighbours in space would not do: they
+/// have noise in common. Some 40,000 points are looked at, of which none counts that is an outlier by `error`.
+double differenceOfNeighbours(const PointCloud& cloud, const Mesh& mesh, const HeldOutError& error,
+  const Executor& executor = Executor::sequential());
 }

@@ -97,8 +97,17 @@ std::string whyNoSizeFor(const PointCloud& cloud, const SizeGoal& goal)
   return {};
 }
 
+double ErrorUnderNoise::errorWith(std::uint64_t vertices) const
+{
+  return std::hypot(coarseness * std::pow(double(vertices), -exponent), floor);
+}
+
 std::optional<double> SizeChoice::expectedWith(std::uint64_t wanted) const
 {
+  if (byNoise)
+  {
+    return byNoise->errorWith(wanted);
+  }
   std::vector<SizeTrial> known = trials;
   std::erase_if(known, [&](const SizeTrial& trial) { return trial.vertices >= vertices; });
   known.push_back({ vertices, reached });

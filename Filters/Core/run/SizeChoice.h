@@ -51,6 +51,16 @@ struct SizeTrial
   double error = 0.;
 };
 
+/// What is left of the error of a mesh under noise: less for more vertices, down to what noise makes of it.
+struct ErrorUnderNoise
+{
+  double errorWith(std::uint64_t vertices) const;
+
+  double coarseness = 0.; ///< what one vertex would give
+  double exponent = 0.;   ///< by which it falls with their number
+  double floor = 0.;
+};
+
 /// A number of vertices, and why it is that.
 struct SizeChoice
 {
@@ -65,6 +75,7 @@ struct SizeChoice
   SizeGoal goal;
   double length = 0.;            ///< the tolerance in units of the input
   double noise = 0.;             ///< that was taken off, of one point; 0 if none is told
+  std::optional<ErrorUnderNoise> byNoise; ///< if the number was chosen by it
   std::vector<SizeTrial> trials; ///< of rising numbers; without the mesh itself
   std::uint64_t vertices = 0;    ///< that the mesh has
   double predicted = 0.;         ///< before it was made

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -23,35 +24,37 @@ constexpr std::uint64_t FewestTried = 25;
 // All that the cloud tells: trials of few vertices, of which the second tells the noise.
 constexpr std::uint64_t PointsPerVertexAtFirst = 128;
 constexpr std::uint64_t PointsPerVertexAtSecond = 32;
-/// Without noise more vertices than that bring nothing.
-constexpr double PointsPerVertexIfClean = 3.3;
+/// More vertices than that bring hardly anything: without noise, and with some.
+constexpr double PointsPerVertexIfClean = 2.2, PointsPerVertexUnderNoise = 3.3;
 constexpr double PointsPerVertexAtLeast = 10.;
+/// Without noise errors fall by a power of the number of vertices that becomes less: so many times that of the trials.
+constexpr double ExponentAfterTrials = 0.62;
 /// What the mesh is too coarse for falls by this power of the number of vertices, as a mean square.
 constexpr double PowerOfCoarseness = 1.7;
 /// What may be left of it, of what noise makes of a mesh that has a vertex for so many points.
-constexpr double CoarsenessLeft = 0.03;
+constexpr double CoarsenessLeft = 0.04;
 
 // A tolerance.
 constexpr std::uint64_t PointsPerVertexOfGuess = 256;
 constexpr std::size_t MostTrials = 5;
 constexpr double LeastGrowthOfTrials = 2.5;
 /// So much finer than the last trial a mesh may be that is told by it.
-constexpr double MostBeyondTrial = 2.8;
-/// A mesh of so many times as many vertices as are needed is as good as one of just those.
-constexpr double TimesEnough = 1.1;
+constexpr double MostBeyondTrial = 2.3;
 /// Errors vary from run to run: so many times the vertices that are just enough are made.
 constexpr double Margin = 1.04;
 constexpr std::size_t MostCorrections = 2;
-constexpr double LeastExponent = 0.15, UsualExponent = 1., MostExponent = 2.5;
+constexpr double LeastExponent = 0.15, UsualExponent = 0.7, MostExponent = 2.5;
+/// Errors fall by a power that becomes less: beyond two trials at most 1 counts, and so much of it.
+constexpr double PartOfExponent = 0.85;
 
 /// Noise, if what neighbours do not have in common is more than the shape would make of it: the sparser the points are
 /// at the vertices, the more that is.
-double noiseBy(const HeldOutError& error, std::uint64_t vertices, std::size_t points)
+double noiseBy(double difference, double error, std::uint64_t vertices, std::uint64_t points)
 {
   constexpr double Part = 0.6;
   const double part =
     Part * std::cbrt(double(PointsPerVertexAtSecond) * double(vertices) / double(points));
-  return error.apart > part * error.rootMeanSquare ? error.apart : 0.;
+  return difference > part * error ? difference : 0.;
 }
 
 /// The least error that is told apart from none: by the standard error of a mean square under noise.
@@ -96,20 +99,22 @@ private:
       return *std::move(ended_);
     }
     const std::uint64_t vertices = sizeByCloud();
-    choice_.predicted = errorOf(measured_.back().error) *
-      std::pow(double(measured_.back().vertices) / double(vertices), lastExponent());
-    if (choice_.noise > 0.)
-    {
-      choice_.predicted = std::sqrt(coarseness() * std::pow(double(vertices), -PowerOfCoarseness)) *
-        request_.cloud.unit();
-    }
+    const Measured& last = measured_.back();
+    const double exponent =
+      ExponentAfterTrials * slopeBetween(measured_.size() - 2, measured_.size() - 1).exponent;
+    choice_.predicted = choice_.byNoise
+      ? choice_.byNoise->errorWith(vertices)
+      : errorOf(last.error) * std::pow(double(last.vertices) / double(vertices), exponent);
     return conclude(ownRun(vertices));
   }
 
-  /// Trials that grow, until they tell how many vertices are enough; then these, and a few more if they are not.
+  /// Trials that grow, until they tell how many vertices are enough; then these, and others if they are too few.
   Reconstruction runByTolerance()
   {
-    std::uint64_t vertices = std::max(FewestTried, points_ / PointsPerVertexOfGuess);
+    // Smaller ones are simplified from as many as are learnt at least.
+    const Parameters fewest = parametersWith(FewestToAsk);
+    std::uint64_t vertices =
+      std::max({ FewestTried, points_ / PointsPerVertexOfGuess, verticesToLearn(requestWith(fewest)) });
     double wanted = 4. * double(vertices);
     for (std::size_t trial = 0; trial < MostTrials; ++trial)
     {
@@ -122,15 +127,17 @@ private:
       {
         break;
       }
-      vertices = std::uint64_t(std::max(wanted / MostBeyondTrial, LeastGrowthOfTrials * double(vertices)));
+      vertices = std::uint64_t(
+        std::max(wanted / MostBeyondTrial, LeastGrowthOfTrials * double(vertices)));
     }
     for (std::size_t correction = 0;; ++correction)
     {
       const auto size = std::uint64_t(std::clamp(
         std::ceil(Margin * enough()), double(FewestToAsk), double(mostVertices())));
-      choice_.predicted = std::min(predictedWith(size), choice_.length);
+      choice_.predicted = std::min(expected(size), choice_.length);
       Reconstruction result = grownRun(size);
-      if (!result.isComplete() || correction == MostCorrections || size == mostVertices())
+      const bool isLast = correction == MostCorrections || size == mostVertices();
+      if (!result.isComplete() || isLast)
       {
         return conclude(std::move(result));
       }
@@ -140,42 +147,74 @@ private:
         return conclude(std::move(result));
       }
       times_.add(std::exchange(result.times, {}));
-      note(result.surface.vertexCount(), error);
+      note(result.surface);
     }
   }
 
   static constexpr std::uint64_t FewestToAsk = 4;
 
-  /// Vertices that just meet the tolerance, by the last trials.
+  /// Two trials, between or beyond which errors follow a power of the number of vertices.
+  struct Slope
+  {
+    double vertices; ///< of the one from which it is counted
+    double error;
+    double exponent;
+  };
+
+  /// Between the largest that does not meet the tolerance and the next one; else beyond the last, or before the first.
+  Slope slope() const
+  {
+    const auto meets = [&](const Measured& one) { return errorOf(one.error) <= choice_.length; };
+    const auto first = std::find_if(measured_.rbegin(), measured_.rend(), std::not_fn(meets)).base();
+    // Of [0, below) the last does not meet it.
+    const auto below = std::size_t(first - measured_.begin());
+    const std::size_t from = below > 0 ? below - 1 : 0;
+    if (below > 0 && below < measured_.size())
+    {
+      return slopeBetween(from, below);
+    }
+    // Errors vary: what lies close together tells no power.
+    constexpr double TimesApart = 1.5;
+    std::size_t other = from;
+    while (other > 0 &&
+      double(measured_[other].vertices) * TimesApart > double(measured_[from].vertices))
+    {
+      --other;
+    }
+    const bool isApart =
+      double(measured_[other].vertices) * TimesApart <= double(measured_[from].vertices);
+    Slope result{ double(measured_[from].vertices), errorOf(measured_[from].error), UsualExponent };
+    if (isApart)
+    {
+      result.exponent = std::max(
+        LeastExponent, PartOfExponent * std::min(1., slopeBetween(other, from).exponent));
+    }
+    return result;
+  }
+
+  Slope slopeBetween(std::size_t fewer, std::size_t more) const
+  {
+    const Measured& a = measured_[fewer];
+    const Measured& b = measured_[more];
+    const double exponent = std::log(errorOf(a.error) / errorOf(b.error)) /
+      std::log(double(b.vertices) / double(a.vertices));
+    return { double(a.vertices), errorOf(a.error),
+      std::isfinite(exponent) ? std::clamp(exponent, LeastExponent, MostExponent) : UsualExponent };
+  }
+
+  /// Vertices that just meet the tolerance, by the trials.
   double enough() const
   {
-    const Measured& last = measured_.back();
-    const double error = errorOf(last.error);
-    const double exponent = lastExponent();
-    const double times = std::pow(std::max(error, 1e-6 * choice_.length) / choice_.length, 1. / exponent);
-    return std::clamp(times * double(last.vertices), double(FewestToAsk), double(mostVertices()));
+    const Slope by = slope();
+    const double error = std::max(by.error, 1e-6 * choice_.length);
+    const double times = std::pow(error / choice_.length, 1. / by.exponent);
+    return std::clamp(times * by.vertices, double(FewestToAsk), double(mostVertices()));
   }
 
-  double predictedWith(std::uint64_t vertices) const
+  double expected(std::uint64_t vertices) const
   {
-    const Measured& last = measured_.back();
-    return errorOf(last.error) *
-      std::pow(double(last.vertices) / double(vertices), lastExponent());
-  }
-
-  /// By which power of the number of vertices the error falls from the last trial on.
-  double lastExponent() const
-  {
-    const auto between = [&](std::size_t more)
-    {
-      const Measured& a = measured_[more - 1];
-      const Measured& b = measured_[more];
-      const double exponent = std::log(errorOf(a.error) / errorOf(b.error)) /
-        std::log(double(b.vertices) / double(a.vertices));
-      return std::isfinite(exponent) ? std::clamp(exponent, LeastExponent, MostExponent)
-                                     : UsualExponent;
-    };
-    return measured_.size() > 1 ? between(measured_.size() - 1) : UsualExponent;
+    const Slope by = slope();
+    return by.error * std::pow(by.vertices / double(vertices), by.exponent);
   }
 
   std::uint64_t mostVertices() const
@@ -189,23 +228,22 @@ private:
     return request_.cloud.unit() * error.withoutNoise(choice_.goal.measure, noise_);
   }
 
-  /// Of the mean square that the mesh is too coarse for, the factor of its power of the number of vertices.
+  /// Of the mean square that the mesh is too coarse for, the factor of its power of the number of vertices: by how much
+  /// less it is with more of them. Noise is in both.
   double coarseness() const
   {
-    double sum = 0., weights = 0.;
-    for (const Measured& one : measured_)
-    {
-      const double power = std::pow(double(one.vertices), -PowerOfCoarseness);
-      const double error = one.error.withoutNoise(ToleranceMeasure::RootMeanSquare, noise_);
-      sum += error * error * power;
-      weights += power * power;
-    }
-    return sum / weights;
+    const Measured& fewer = measured_.front();
+    const Measured& more = measured_.back();
+    const auto power = [](const Measured& one)
+    { return std::pow(double(one.vertices), -PowerOfCoarseness); };
+    const auto square = [](const Measured& one)
+    { return one.error.rootMeanSquare * one.error.rootMeanSquare; };
+    return std::max(0., square(fewer) - square(more)) / (power(fewer) - power(more));
   }
 
-  std::uint64_t sizeByCloud() const
+  std::uint64_t sizeByCloud()
   {
-    const double most = double(points_) / PointsPerVertexIfClean;
+    double most = double(points_) / PointsPerVertexIfClean;
     double size = most;
     if (noise_ > 0.)
     {
@@ -213,20 +251,30 @@ private:
       const double factor = coarseness();
       const double balance = std::pow(
         factor * double(points_) / (noise_ * noise_), 1. / (PowerOfCoarseness + 1.));
+      most = double(points_) / PointsPerVertexUnderNoise;
       size = balance * std::pow(CoarsenessLeft, -1. / PowerOfCoarseness);
+      const double unit = request_.cloud.unit();
+      choice_.byNoise = ErrorUnderNoise{ unit * std::sqrt(factor), PowerOfCoarseness / 2.,
+        unit * noise_ * std::sqrt(balance / double(points_)) };
     }
     return std::uint64_t(std::clamp(size, double(points_) / PointsPerVertexAtLeast, most));
   }
 
   /// Keeps what is known of a mesh. The noise is that of the largest that has enough points a vertex to tell.
-  void note(std::uint64_t vertices, const HeldOutError& error)
+  void note(const Mesh& mesh)
   {
-    if (measured_.empty() || vertices <= points_ / PointsPerVertexAtSecond)
+    const std::uint64_t vertices = mesh.vertexCount();
+    const HeldOutError error = heldOutError(request_.cloud, mesh, request_.executor);
+    if (measured_.empty() || (vertices > noiseOf_ && vertices <= points_ / PointsPerVertexAtSecond))
     {
-      noise_ = noiseBy(error, vertices, points_);
+      const double difference =
+        differenceOfNeighbours(request_.cloud, mesh, error, request_.executor);
+      noise_ = noiseBy(difference, error.rootMeanSquare, vertices, points_);
+      noiseOf_ = vertices;
       choice_.noise = noise_ * request_.cloud.unit();
     }
     measured_.push_back({ vertices, error });
+    std::ranges::sort(measured_, {}, &Measured::vertices);
   }
 
   Parameters parametersWith(std::uint64_t vertices) const
@@ -303,7 +351,7 @@ private:
       ended_->times.add(times_);
       return false;
     }
-    note(mesh->vertexCount(), heldOutError(request_.cloud, *mesh, request_.executor));
+    note(*mesh);
     times.leave();
     times_.add(times);
     return true;
@@ -358,7 +406,8 @@ private:
   Checkpoint none_;
   SizeChoice choice_;
   std::vector<Measured> measured_;
-  double noise_ = 0.; ///< in units of the cloud
+  double noise_ = 0.;          ///< in units of the cloud
+  std::uint64_t noiseOf_ = 0;  ///< the mesh that told it has so many vertices
   Beginning start_;
   std::uint64_t startedFor_ = 0;
   std::optional<Beginning> grown_; ///< what was learnt last, before its fit
