@@ -108,22 +108,28 @@ std::optional<double> SizeChoice::expectedWith(std::uint64_t wanted) const
   {
     return byNoise->errorWith(wanted);
   }
-  std::vector<SizeTrial> known = trials;
-  std::erase_if(known, [&](const SizeTrial& trial) { return trial.vertices >= vertices; });
-  known.push_back({ vertices, reached });
-  if (known.size() < 2 || !(reached > least))
+  // What is too near in size tells no power of it.
+  constexpr double TimesApart = 1.5;
+  std::vector<SizeTrial> known;
+  for (const SizeTrial& trial : trials)
+  {
+    if (double(trial.vertices) * TimesApart <= double(vertices))
+    {
+      known.push_back(trial);
+    }
+  }
+  if (known.empty() || !(reached > least))
   {
     return {};
   }
-  const SizeTrial& last = known.back();
-  double exponent = exponentOf(known[known.size() - 2], last);
-  if (wanted > last.vertices && known.size() > 2)
+  double exponent = exponentOf(known.back(), { vertices, reached });
+  if (wanted > vertices && known.size() > 1)
   {
     // It falls: what noise and edges leave cannot be had by vertices.
-    const double before = exponentOf(known[known.size() - 3], known[known.size() - 2]);
+    const double before = exponentOf(known[known.size() - 2], known.back());
     exponent *= before > 0. ? std::min(1., exponent / before) : 1.;
   }
-  return last.error * std::pow(double(last.vertices) / double(wanted), exponent);
+  return reached * std::pow(double(vertices) / double(wanted), exponent);
 }
 
 std::vector<std::string> SizeChoice::reasons() const

@@ -24,6 +24,8 @@ constexpr std::uint64_t FewestTried = 25;
 // All that the cloud tells: trials of few vertices, of which the second tells the noise.
 constexpr std::uint64_t PointsPerVertexAtFirst = 128;
 constexpr std::uint64_t PointsPerVertexAtSecond = 32;
+/// With fewer points a vertex neighbours are too far apart to tell noise.
+constexpr std::uint64_t FewestPointsThatTellNoise = 8;
 /// More vertices than that bring hardly anything: without noise, and with some.
 constexpr double PointsPerVertexIfClean = 2.2, PointsPerVertexUnderNoise = 3.3;
 constexpr double PointsPerVertexAtLeast = 10.;
@@ -41,20 +43,20 @@ constexpr double LeastGrowthOfTrials = 2.5;
 /// So much finer than the last trial a mesh may be that is told by it.
 constexpr double MostBeyondTrial = 2.3;
 /// Errors vary from run to run: so many times the vertices that are just enough are made.
-constexpr double Margin = 1.04;
+constexpr double Margin = 1.06;
 constexpr std::size_t MostCorrections = 2;
-constexpr double LeastExponent = 0.15, UsualExponent = 0.7, MostExponent = 2.5;
+constexpr double LeastExponent = 0.15, UsualExponent = 0.85, MostExponent = 2.5;
 /// Errors fall by a power that becomes less: beyond two trials at most 1 counts, and so much of it.
 constexpr double PartOfExponent = 0.85;
 
-/// Noise, if what neighbours do not have in common is more than the shape would make of it: the sparser the points are
-/// at the vertices, the more that is.
-double noiseBy(double difference, double error, std::uint64_t vertices, std::uint64_t points)
+/// Whether what neighbours do not have in common is noise: more than the shape would make of it. The sparser the points
+/// are at the vertices, the more that is.
+bool isNoiseBy(double difference, double error, std::uint64_t vertices, std::uint64_t points)
 {
   constexpr double Part = 0.6;
   const double part =
     Part * std::cbrt(double(PointsPerVertexAtSecond) * double(vertices) / double(points));
-  return difference > part * error ? difference : 0.;
+  return difference > std::min(part, 0.95) * error;
 }
 
 /// The least error that is told apart from none: by the standard error of a mean square under noise.
@@ -260,17 +262,19 @@ private:
     return std::uint64_t(std::clamp(size, double(points_) / PointsPerVertexAtLeast, most));
   }
 
-  /// Keeps what is known of a mesh. The noise is that of the largest that has enough points a vertex to tell.
+  /// Keeps what is known of a mesh. The more vertices it has, the less of the shape is left in what neighbours do not
+  /// have in common.
   void note(const Mesh& mesh)
   {
     const std::uint64_t vertices = mesh.vertexCount();
     const HeldOutError error = heldOutError(request_.cloud, mesh, request_.executor);
-    if (measured_.empty() || (vertices > noiseOf_ && vertices <= points_ / PointsPerVertexAtSecond))
+    if (measured_.empty() ||
+      (vertices > measured_.back().vertices && vertices <= points_ / FewestPointsThatTellNoise))
     {
       const double difference =
         differenceOfNeighbours(request_.cloud, mesh, error, request_.executor);
-      noise_ = noiseBy(difference, error.rootMeanSquare, vertices, points_);
-      noiseOf_ = vertices;
+      const bool isNoise = isNoiseBy(difference, error.rootMeanSquare, vertices, points_);
+      noise_ = isNoise ? difference : std::min(noise_, difference);
       choice_.noise = noise_ * request_.cloud.unit();
     }
     measured_.push_back({ vertices, error });
@@ -406,8 +410,7 @@ private:
   Checkpoint none_;
   SizeChoice choice_;
   std::vector<Measured> measured_;
-  double noise_ = 0.;          ///< in units of the cloud
-  std::uint64_t noiseOf_ = 0;  ///< the mesh that told it has so many vertices
+  double noise_ = 0.; ///< in units of the cloud
   Beginning start_;
   std::uint64_t startedFor_ = 0;
   std::optional<Beginning> grown_; ///< what was learnt last, before its fit
