@@ -134,12 +134,11 @@ private:
     }
     for (std::size_t correction = 0;; ++correction)
     {
-      const auto size = std::uint64_t(std::clamp(
-        std::ceil(Margin * enough()), double(FewestToAsk), double(mostVertices())));
+      const bool isLast = correction == MostCorrections;
+      const std::uint64_t size = isLast ? soundSize() : sizeByTrials();
       choice_.predicted = std::min(expected(size), choice_.length);
       Reconstruction result = grownRun(size);
-      const bool isLast = correction == MostCorrections || size == mostVertices();
-      if (!result.isComplete() || isLast)
+      if (!result.isComplete() || isLast || size == mostVertices())
       {
         return conclude(std::move(result));
       }
@@ -151,6 +150,21 @@ private:
       times_.add(std::exchange(result.times, {}));
       note(result.surface);
     }
+  }
+
+  /// A little more than are just enough.
+  std::uint64_t sizeByTrials() const
+  {
+    return std::uint64_t(
+      std::clamp(std::ceil(Margin * enough()), double(FewestToAsk), double(mostVertices())));
+  }
+
+  /// That of the smallest trial which meets the tolerance, if one does.
+  std::uint64_t soundSize() const
+  {
+    const auto sound = std::ranges::find_if(measured_,
+      [&](const Measured& one) { return errorOf(one.error) <= choice_.length; });
+    return sound != measured_.end() ? sound->vertices : sizeByTrials();
   }
 
   static constexpr std::uint64_t FewestToAsk = 4;
@@ -307,6 +321,12 @@ private:
   Beginning beginningFor(std::uint64_t vertices, std::uint64_t largest, ProgressPart part)
   {
     constexpr double TimesFiner = 1.5;
+    // A mesh grows from a first surface of fewer vertices.
+    constexpr double MostOfMesh = 0.6;
+    while (largest > vertices && double(firstVertices(largest)) > MostOfMesh * double(vertices))
+    {
+      largest = std::max(vertices, largest / 2);
+    }
     const bool isFine = grown_ && double(firstVertices(largest)) <= TimesFiner * double(firstVertices(startedFor_));
     if (isFine && grown_->mesh && grown_->mesh->vertexCount() <= vertices)
     {

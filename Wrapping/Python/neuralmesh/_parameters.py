@@ -13,6 +13,8 @@ from typing import Any, Callable, Mapping
 
 import numpy as np
 
+from ._list import PROPERTIES
+
 # What other libraries call it, PyVista, Open3D, PyMeshLab and Trimesh among them: in lower case, without
 # underscores.
 _WORDS_OF_OTHERS = {
@@ -42,6 +44,9 @@ _WORDS_FOR_TRIANGLES = (
 )  # fmt: skip
 
 
+_WITH_ZERO = frozenset(one.name for one in PROPERTIES if one.takes_zero)
+
+
 @dataclass(frozen=True)
 class Number:
     """A property with a range: SetX, GetXMinValue and GetXMaxValue."""
@@ -50,6 +55,7 @@ class Number:
     default: float
     minimum: float
     maximum: float
+    takes_zero: bool = False  # 0 is a value, too, and below the range
 
     @property
     def integral(self) -> bool:
@@ -59,7 +65,9 @@ class Number:
         is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
         return (
             is_number
-            and bool(self.minimum <= value <= self.maximum)
+            and bool(
+                self.minimum <= value <= self.maximum or (self.takes_zero and value == 0)
+            )
             and (not self.integral or value == int(value))
         )
 
@@ -68,7 +76,8 @@ class Number:
 
     def __str__(self) -> str:
         kind = "an integer" if self.integral else "a number"
-        return f"{kind} from {_plain(self.minimum)} to {_plain(self.maximum)}"
+        zero = "0 or " if self.takes_zero else ""
+        return f"{zero}{kind} from {_plain(self.minimum)} to {_plain(self.maximum)}"
 
 
 @dataclass(frozen=True)
@@ -205,7 +214,7 @@ def _parameter(vtk_class: type, name: str) -> Parameter | None:
         minimum = getattr(prototype, f"Get{name}MinValue")()
         maximum = getattr(prototype, f"Get{name}MaxValue")()
         default = getattr(prototype, "Get" + name)()
-        return Number("Set" + name, default, minimum, maximum)
+        return Number("Set" + name, default, minimum, maximum, name in _WITH_ZERO)
     return None
 
 
