@@ -50,7 +50,7 @@ FIRST = {
     "NeuralMeshFileSampler": "NumberOfPoints",
     "NeuralMeshScan": "NumberOfPoints",
 }
-GROUPS = ["Learning", "Growth", "Topology", "Noise", "Finish", "Outer Side", "Output"]
+GROUPS = ["Tolerance", "Learning", "Growth", "Topology", "Noise", "Finish", "Outer Side", "Output"]
 
 
 def setUpModule():
@@ -327,7 +327,7 @@ class Panel(unittest.TestCase):
 
     # Promise: few properties are shown at first, and those are the ones that most people need.
     def test_advanced(self):
-        most = {"NumberOfVertices", "Variant", "Seed", "TimeLimit", "Boundaries", "Fidelity",
+        most = {"NumberOfVertices", "Tolerance", "ToleranceIsPercent", "ToleranceMeasure", "Variant", "Seed", "TimeLimit", "Boundaries", "Fidelity",
                 "TopologyLearning", "CarryPointData", "GrowthAsTime", "Automatic", "ComputeUncertainty"}
         for name, wanted in (
             ("NeuralMesh", most),
