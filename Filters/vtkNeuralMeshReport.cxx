@@ -134,7 +134,7 @@ void vtkNeuralMeshReport::RemoveFrom(vtkPolyData* output)
          "TriangleQuality", "Components", "Genus", "BoundaryLoops", "FoldedEdges",
          "IntersectingTriangles", "NarrowHandles", "FitRoundsTakenBack", "ChosenParameters",
          "ReasonsOfChoice", "Choice",
-         "PredictedError", "ReachedError", "ErrorWithHalf", "ErrorWithTwice", "OutlierPoints", "SmallPiecePoints", "UnreachablePoints",
+         "PredictedError", "ReachedError", "NoiseTakenOff", "ErrorWithHalf", "ErrorWithTwice", "OutlierPoints", "SmallPiecePoints", "UnreachablePoints",
          "UnexplainedPoints", "UnexplainedShare", "Warnings" })
   {
     output->GetFieldData()->RemoveArray(name);
@@ -185,6 +185,7 @@ void vtkNeuralMeshReport::AddSize(const neuralmesh::SizeChoice& choice, vtkPolyD
   constexpr double NotTold = std::numeric_limits<double>::quiet_NaN();
   addNumber("PredictedError", choice.predicted);
   addNumber("ReachedError", choice.reached);
+  addNumber("NoiseTakenOff", choice.noise);
   addNumber("ErrorWithHalf", choice.expectedWith(choice.vertices / 2).value_or(NotTold));
   addNumber("ErrorWithTwice", choice.expectedWith(2 * choice.vertices).value_or(NotTold));
   output->GetFieldData()->AddArray(MakeStrings("Choice", choice.reasons()));

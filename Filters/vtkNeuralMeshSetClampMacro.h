@@ -31,7 +31,10 @@
   virtual type Get##name##MinValue() { return min; }                                               \
   virtual type Get##name##MaxValue() { return max; }
 
-/** The same where 0 is a value, too, and stands for something else than what is in the range. */
+/**
+ * The same where 0 is a value, too, and stands for something else than what is in the range; tells so by
+ * Get##name##TakesZero().
+ */
 #define vtkNeuralMeshSetClampOrZeroMacro(name, type, min, max)                                     \
   virtual void Set##name(type value)                                                               \
   {                                                                                                \
@@ -48,6 +51,7 @@
     }                                                                                              \
   }                                                                                                \
   virtual type Get##name##MinValue() { return min; }                                               \
-  virtual type Get##name##MaxValue() { return max; }
+  virtual type Get##name##MaxValue() { return max; }                                               \
+  virtual bool Get##name##TakesZero() { return true; }
 
 #endif

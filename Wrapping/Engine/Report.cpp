@@ -127,6 +127,7 @@ void addSize(const SizeChoice& choice, nb::dict& fields)
   constexpr double NotTold = std::numeric_limits<double>::quiet_NaN();
   fields["PredictedError"] = choice.predicted;
   fields["ReachedError"] = choice.reached;
+  fields["NoiseTakenOff"] = choice.noise;
   fields["ErrorWithHalf"] = choice.expectedWith(choice.vertices / 2).value_or(NotTold);
   fields["ErrorWithTwice"] = choice.expectedWith(2 * choice.vertices).value_or(NotTold);
   fields["Choice"] = choice.reasons();

@@ -13,8 +13,6 @@ from typing import Any, Callable, Mapping
 
 import numpy as np
 
-from ._list import PROPERTIES
-
 # What other libraries call it, PyVista, Open3D, PyMeshLab and Trimesh among them: in lower case, without
 # underscores.
 _WORDS_OF_OTHERS = {
@@ -42,9 +40,6 @@ _WORDS_FOR_TRIANGLES = (
     "nfaces", "ncells", "ntriangles", "numtriangles", "numfaces", "targetfaces", "targetfacenum",
     "targettriangles", "targetnumberoftriangles", "numberoftriangles", "facecount", "triangles", "faces",
 )  # fmt: skip
-
-
-_WITH_ZERO = frozenset(one.name for one in PROPERTIES if one.takes_zero)
 
 
 @dataclass(frozen=True)
@@ -214,7 +209,8 @@ def _parameter(vtk_class: type, name: str) -> Parameter | None:
         minimum = getattr(prototype, f"Get{name}MinValue")()
         maximum = getattr(prototype, f"Get{name}MaxValue")()
         default = getattr(prototype, "Get" + name)()
-        return Number("Set" + name, default, minimum, maximum, name in _WITH_ZERO)
+        takes_zero = hasattr(vtk_class, f"Get{name}TakesZero")
+        return Number("Set" + name, default, minimum, maximum, takes_zero)
     return None
 
 

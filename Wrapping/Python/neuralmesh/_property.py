@@ -82,6 +82,8 @@ class Property:
         # The ends of choices and switches are not asked for: they have methods of their own.
         made[f"Get{name}MinValue"] = lambda this: self.low
         made[f"Get{name}MaxValue"] = lambda this: self.high
+        if self.takes_zero:
+            made[f"Get{name}TakesZero"] = lambda this: True
         if self.kind == "bool":
             made[f"{name}On"] = lambda this: set_value(this, 1)
             made[f"{name}Off"] = lambda this: set_value(this, 0)
