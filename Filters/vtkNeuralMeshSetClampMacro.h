@@ -41,7 +41,7 @@
     const type clamped = value == 0 ? 0 : std::clamp<type>(value, min, max);                       \
     if (clamped != value)                                                                          \
     {                                                                                              \
-      vtkWarningMacro(<< #name " must be 0, or from " << (min) << " to " << (max) << ": not "      \
+      vtkWarningMacro(<< #name " must be from " << (min) << " to " << (max) << ", or 0: not "      \
                       << value << " but " << clamped << " is used.");                              \
     }                                                                                              \
     if (this->name != clamped)                                                                     \

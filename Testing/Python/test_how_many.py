@@ -47,8 +47,8 @@ class HowMany(unittest.TestCase):
     # Promise: wrong use, and clouds that tell nothing, are told in words.
     def test_wrong_use(self):
         for points, more, words in (
-            (sphere(), {"vertices": 3}, "0 or an integer from 4"),
-            (sphere(), {"vertices": "many"}, "0 or an integer from 4"),
+            (sphere(), {"vertices": 3}, "an integer from 4 to 1000000000, or 0"),
+            (sphere(), {"vertices": "many"}, "an integer from 4 to 1000000000, or 0"),
             (sphere(), {"tolerance": -1}, "from 0"),
             (sphere(), {"tolerance": 100}, "any mesh would do"),
             (sphere(3), {"vertices": "auto"}, "3 points"),

@@ -15,8 +15,8 @@ namespace neuralmesh
 {
 namespace
 {
-/// Of the progress that is left, what a trial takes.
-constexpr double PartOfTrial = 0.2;
+/// Of the progress that is left, what a trial and the result take.
+constexpr double PartOfTrial = 0.2, PartOfResult = 0.9;
 /// ... and of a trial its growth.
 constexpr double PartOfGrowthOfTrial = 0.4;
 constexpr std::uint64_t FewestTried = 25;
@@ -40,6 +40,8 @@ constexpr double CoarsenessLeft = 0.04;
 constexpr std::uint64_t PointsPerVertexOfGuess = 256;
 constexpr std::size_t MostTrials = 5;
 constexpr double LeastGrowthOfTrials = 2.5;
+/// A trial that is to miss the tolerance has so many times fewer vertices than are expected to meet it.
+constexpr double TimesBelow = 1.25;
 /// So much finer than the last trial a mesh may be that is told by it.
 constexpr double MostBeyondTrial = 2.3;
 /// Errors vary from run to run: so many times the vertices that are just enough are made.
@@ -125,12 +127,15 @@ private:
         return *std::move(ended_);
       }
       wanted = enough();
-      if (wanted <= MostBeyondTrial * double(vertices))
+      const bool isBracketed = errorOf(measured_.front().error) > choice_.length;
+      const auto largest = double(measured_.back().vertices);
+      if (isBracketed && wanted <= MostBeyondTrial * largest)
       {
         break;
       }
-      vertices = std::uint64_t(
-        std::max(wanted / MostBeyondTrial, LeastGrowthOfTrials * double(vertices)));
+      vertices = std::uint64_t(isBracketed
+          ? std::max(wanted / MostBeyondTrial, LeastGrowthOfTrials * largest)
+          : std::max(wanted / TimesBelow, double(FewestToAsk)));
     }
     for (std::size_t correction = 0;; ++correction)
     {
@@ -384,7 +389,7 @@ private:
   /// A mesh that goes on from the last trial.
   Reconstruction grownRun(std::uint64_t vertices)
   {
-    const ProgressPart part = next(0.5);
+    const ProgressPart part = next(PartOfResult);
     const double middle = part.begin + PartOfGrowthOfTrial * (part.end - part.begin);
     const Parameters parameters = parametersWith(vertices);
     LearntRun learnt = learn(vertices, vertices, { part.begin, middle });

@@ -71,8 +71,8 @@ class Number:
 
     def __str__(self) -> str:
         kind = "an integer" if self.integral else "a number"
-        zero = "0 or " if self.takes_zero else ""
-        return f"{zero}{kind} from {_plain(self.minimum)} to {_plain(self.maximum)}"
+        zero = ", or 0" if self.takes_zero else ""
+        return f"{kind} from {_plain(self.minimum)} to {_plain(self.maximum)}{zero}"
 
 
 @dataclass(frozen=True)

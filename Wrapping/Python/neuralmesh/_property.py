@@ -48,8 +48,8 @@ class Property:
             return ""
         shown = "%g" if self.kind == "double" else "%d"
         low, high, given, clamped = (shown % one for one in (self.low, self.high, value, used))
-        zero = "0, or " if self.takes_zero else ""
-        return f"{self.name} must be {zero}from {low} to {high}: not {given} but {clamped} is used."
+        zero = ", or 0" if self.takes_zero else ""
+        return f"{self.name} must be from {low} to {high}{zero}: not {given} but {clamped} is used."
 
     def documentation(self) -> str:
         """What it does, its default and its range."""
