@@ -26,6 +26,8 @@ constexpr std::uint64_t PointsPerVertexAtFirst = 128;
 constexpr std::uint64_t PointsPerVertexAtSecond = 32;
 /// With fewer points a vertex neighbours are too far apart to tell noise.
 constexpr std::uint64_t FewestPointsThatTellNoise = 8;
+/// It takes time: the first trials tell it.
+constexpr std::size_t MostThatTellNoise = 2;
 /// More vertices than that bring hardly anything: without noise, and with some.
 constexpr double PointsPerVertexIfClean = 2.2, PointsPerVertexUnderNoise = 3.3;
 constexpr double PointsPerVertexAtLeast = 10.;
@@ -39,17 +41,16 @@ constexpr double CoarsenessLeft = 0.04;
 // A tolerance.
 constexpr std::uint64_t PointsPerVertexOfGuess = 256;
 constexpr std::size_t MostTrials = 5;
-constexpr double LeastGrowthOfTrials = 2.5;
 /// A trial that is to miss the tolerance has so many times fewer vertices than are expected to meet it.
 constexpr double TimesBelow = 1.25;
-/// So much finer than the last trial a mesh may be that is told by it.
-constexpr double MostBeyondTrial = 2.3;
+/// So much finer than the last trial a mesh may be that is told by it; else one more is made, that is so much coarser.
+constexpr double MostBeyondTrial = 2.1, UsualBeyondTrial = 1.7;
 /// Errors vary from run to run: so many times the vertices that are just enough are made.
 constexpr double Margin = 1.06;
 constexpr std::size_t MostCorrections = 2;
 constexpr double LeastExponent = 0.15, UsualExponent = 0.85, MostExponent = 2.5;
 /// Errors fall by a power that becomes less: beyond two trials at most 1 counts, and so much of it.
-constexpr double PartOfExponent = 0.85;
+constexpr double PartOfExponent = 0.95;
 
 /// Whether what neighbours do not have in common is noise: more than the shape would make of it. The sparser the points
 /// are at the vertices, the more that is.
@@ -134,7 +135,7 @@ private:
         break;
       }
       vertices = std::uint64_t(isBracketed
-          ? std::max(wanted / MostBeyondTrial, LeastGrowthOfTrials * largest)
+          ? wanted / UsualBeyondTrial
           : std::max(wanted / TimesBelow, double(FewestToAsk)));
     }
     for (std::size_t correction = 0;; ++correction)
@@ -288,7 +289,8 @@ private:
     const std::uint64_t vertices = mesh.vertexCount();
     const HeldOutError error = heldOutError(request_.cloud, mesh, request_.executor);
     if (measured_.empty() ||
-      (vertices > measured_.back().vertices && vertices <= points_ / FewestPointsThatTellNoise))
+      (vertices > measured_.back().vertices && vertices <= points_ / FewestPointsThatTellNoise &&
+        measured_.size() < MostThatTellNoise))
     {
       const double difference =
         differenceOfNeighbours(request_.cloud, mesh, error, request_.executor);
