@@ -215,8 +215,8 @@ int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructO
   const neuralmesh::RunEstimate estimate = EstimateRun(filter, points);
   RequireResult(filter, *errors, options);
   std::printf("points     %lld\n", static_cast<long long>(points->GetNumberOfPoints()));
-  std::printf(
-    "vertices   %lld\n", static_cast<long long>(options.Size.GetMostVertices(points->GetNumberOfPoints())));
+  std::printf("vertices   %lld\n",
+    static_cast<long long>(options.Size.GetMostVertices(points->GetNumberOfPoints())));
   std::printf("samples    about %.3g million\n", 1e-6 * estimate.samples);
   std::printf("memory     about %.0f MB\n", 1e-6 * estimate.bytes);
   std::printf(
@@ -309,8 +309,9 @@ void RequireSoundSize(vtkNeuralMesh* filter, const ReconstructOptions& options)
       .automatic = options.Automatic });
   if (options.DryRun && options.Size.IsToBeFound())
   {
-    throw UsageError("--dry-run: how long a run takes is told for a number of vertices, not for one "
-                     "that is to be found");
+    throw UsageError(
+      "--dry-run: how long a run takes is told for a number of vertices, not for one "
+      "that is to be found");
   }
 }
 
@@ -377,8 +378,8 @@ int Reconstruct(const ReconstructOptions& options)
   {
     filter->SetFirstMeshData(ReadMesh(options.Initial));
   }
-  RequireWritableDigits(points, options.Size.GetMostVertices(points->GetNumberOfPoints()), shift,
-    options.Output);
+  RequireWritableDigits(
+    points, options.Size.GetMostVertices(points->GetNumberOfPoints()), shift, options.Output);
   RunSeconds seconds;
   seconds.Reading = stopwatch.Lap();
   if (options.DryRun)

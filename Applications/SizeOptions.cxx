@@ -39,13 +39,12 @@ void SizeOptions::AddTo(CLI::App* command)
     const std::string problem = NumberWithin(vertices.Minimum, vertices.Maximum)(text);
     return problem.empty() ? problem : problem + ", nor " + Automatic;
   };
-  CLI::Option* const number =
-    command
-      ->add_option("--vertices", this->Vertices,
-        "Vertices of the mesh, " + Described(vertices) + "; " + Automatic +
-          ": as many as INPUT has something to tell for")
-      ->transform(CLI::Validator(toNumber, ""))
-      ->type_name("N|" + Automatic);
+  CLI::Option* const number = command
+                                ->add_option("--vertices", this->Vertices,
+                                  "Vertices of the mesh, " + Described(vertices) + "; " +
+                                    Automatic + ": as many as INPUT has something to tell for")
+                                ->transform(CLI::Validator(toNumber, ""))
+                                ->type_name("N|" + Automatic);
   AddLevelsOption(command, this->Levels, vertices.Minimum, vertices.Maximum);
   const auto toLength = [this](const std::string& text)
   {

@@ -133,9 +133,9 @@ void vtkNeuralMeshReport::RemoveFrom(vtkPolyData* output)
   for (const char* name : { "Residual", "Noise", "SharedNoise", "OutlierShare", "RegularRatio",
          "TriangleQuality", "Components", "Genus", "BoundaryLoops", "FoldedEdges",
          "IntersectingTriangles", "NarrowHandles", "FitRoundsTakenBack", "ChosenParameters",
-         "ReasonsOfChoice", "Choice",
-         "PredictedError", "ReachedError", "NoiseTakenOff", "ErrorWithHalf", "ErrorWithTwice", "OutlierPoints", "SmallPiecePoints", "UnreachablePoints",
-         "UnexplainedPoints", "UnexplainedShare", "Warnings" })
+         "ReasonsOfChoice", "Choice", "PredictedError", "ReachedError", "NoiseTakenOff",
+         "ErrorWithHalf", "ErrorWithTwice", "OutlierPoints", "SmallPiecePoints",
+         "UnreachablePoints", "UnexplainedPoints", "UnexplainedShare", "Warnings" })
   {
     output->GetFieldData()->RemoveArray(name);
   }

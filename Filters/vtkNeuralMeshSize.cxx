@@ -26,8 +26,7 @@ vtkIdType vtkNeuralMesh::GetVerticesOfLargest() const
 vtkIdType vtkNeuralMesh::GetMostVertices(const neuralmesh::PointCloud& cloud) const
 {
   const auto most = static_cast<vtkIdType>(cloud.points().size() / 2);
-  return this->IsSizeToBeFound() ? std::max<vtkIdType>(4, most)
-                                 : this->GetVerticesOfLargest();
+  return this->IsSizeToBeFound() ? std::max<vtkIdType>(4, most) : this->GetVerticesOfLargest();
 }
 
 bool vtkNeuralMesh::IsSizeToBeFound() const

@@ -173,8 +173,8 @@ void Run::learn(Plan plan, Call& call)
     }
     else if (isSizeToBeFound)
     {
-      result_ = reconstructSized({ *cloud_, parameters, first, executor_, hints_, plan.explainsAll },
-        plan.size, progress);
+      result_ = reconstructSized(
+        { *cloud_, parameters, first, executor_, hints_, plan.explainsAll }, plan.size, progress);
     }
     else
     {

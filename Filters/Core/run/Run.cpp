@@ -94,8 +94,7 @@ LearntRun Run::learn(std::uint64_t vertices, Beginning beginning, ProgressPart p
   return { std::move(result), std::move(learnt), rules, vertices, gaps, isLearnt };
 }
 
-void Run::fit(
-  LearntRun& run, std::uint64_t asked, const Progress& progress, bool tellsUncertainty)
+void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress, bool tellsUncertainty)
 {
   Reconstruction& result = run.result;
   LearntMesh& learnt = run.learnt;
@@ -138,8 +137,7 @@ void Run::fit(
   }
 }
 
-void Run::makeMesh(
-  LearntRun& run, std::uint64_t asked, ProgressPart part, bool tellsUncertainty)
+void Run::makeMesh(LearntRun& run, std::uint64_t asked, ProgressPart part, bool tellsUncertainty)
 {
   Reconstruction& result = run.result;
   const bool isSimplified = !request_.first && run.learnt.mesh.vertexCount() > asked;

@@ -72,7 +72,8 @@ std::string whyNoSize(const Parameters& parameters, const BesideSize& beside)
   {
     if (isThere)
     {
-      return std::string("A number of vertices that is to be found, by itself or by a tolerance, and ") +
+      return std::string(
+               "A number of vertices that is to be found, by itself or by a tolerance, and ") +
         name + " exclude each other.";
     }
   }
@@ -84,8 +85,9 @@ std::string whyNoSizeFor(const PointCloud& cloud, const SizeGoal& goal)
   const std::size_t points = cloud.differentCount();
   if (points < FewestToChooseBy)
   {
-    return "There are " + std::to_string(points) + " points, and a number of vertices is found by " +
-      std::to_string(FewestToChooseBy) + " or more: give the number.";
+    return "There are " + std::to_string(points) +
+      " points, and a number of vertices is found by " + std::to_string(FewestToChooseBy) +
+      " or more: give the number.";
   }
   const double diagonal = cloud.diagonal() * cloud.unit();
   if (goal.lengthFor(cloud) >= diagonal)
@@ -159,14 +161,15 @@ std::vector<std::string> SizeChoice::reasons() const
   }
   const bool isTold = reached > least;
   lines.push_back("predicted " + lengthText(predicted) + ", reached " +
-    (isTold ? lengthText(reached)
-            : "less than " + lengthText(least) + ", as little as the points tell under their noise"));
+    (isTold
+        ? lengthText(reached)
+        : "less than " + lengthText(least) + ", as little as the points tell under their noise"));
   const auto half = expectedWith(std::max<std::uint64_t>(1, vertices / 2));
   const auto twice = expectedWith(2 * vertices);
   if (half && twice)
   {
-    lines.push_back("half as many would give about " + lengthText(*half) + ", twice as many about " +
-      lengthText(*twice));
+    lines.push_back("half as many would give about " + lengthText(*half) +
+      ", twice as many about " + lengthText(*twice));
   }
   return lines;
 }
@@ -178,10 +181,9 @@ std::string SizeChoice::warning() const
     return {};
   }
   const std::string end = "; see the reasons of the choice.";
-  return reached <= least
-    ? "The tolerance of " + lengthText(length) +
-        " is less than can be told under the noise of the points, " + lengthText(least) + end
-    : "The tolerance of " + lengthText(length) + " is not met: the mesh of " +
-        std::to_string(vertices) + " vertices reaches " + lengthText(reached) + end;
+  return reached <= least ? "The tolerance of " + lengthText(length) +
+      " is less than can be told under the noise of the points, " + lengthText(least) + end
+                          : "The tolerance of " + lengthText(length) + " is not met: the mesh of " +
+      std::to_string(vertices) + " vertices reaches " + lengthText(reached) + end;
 }
 }

@@ -26,7 +26,8 @@ struct SizeGoal
 };
 
 /// The goal of a run, if it has no number of vertices; nothing if it has.
-std::optional<SizeGoal> sizeGoalOf(std::uint64_t vertices, double tolerance, bool isPercent, ToleranceMeasure measure);
+std::optional<SizeGoal> sizeGoalOf(
+  std::uint64_t vertices, double tolerance, bool isPercent, ToleranceMeasure measure);
 
 /// What else a run may be asked for that the choice of a number excludes.
 struct BesideSize
@@ -73,12 +74,12 @@ struct SizeChoice
   std::string warning() const;
 
   SizeGoal goal;
-  double length = 0.;            ///< the tolerance in units of the input
-  double noise = 0.;             ///< that was taken off, of one point; 0 if none is told
+  double length = 0.;                     ///< the tolerance in units of the input
+  double noise = 0.;                      ///< that was taken off, of one point; 0 if none is told
   std::optional<ErrorUnderNoise> byNoise; ///< if the number was chosen by it
-  std::vector<SizeTrial> trials; ///< of rising numbers; without the mesh itself
-  std::uint64_t vertices = 0;    ///< that the mesh has
-  double predicted = 0.;         ///< before it was made
+  std::vector<SizeTrial> trials;          ///< of rising numbers; without the mesh itself
+  std::uint64_t vertices = 0;             ///< that the mesh has
+  double predicted = 0.;                  ///< before it was made
   double reached = 0.;
   double least = 0.; ///< no smaller error is told apart from none under the noise
 };

@@ -44,7 +44,7 @@ constexpr std::size_t MostTrials = 5;
 /// A trial that is to miss the tolerance has so many times fewer vertices than are expected to meet it.
 constexpr double TimesBelow = 1.25;
 /// So much finer than the last trial a mesh may be that is told by it; else one more is made, that is so much coarser.
-constexpr double MostBeyondTrial = 2.1, UsualBeyondTrial = 1.7;
+constexpr double MostBeyondTrial = 2.5, UsualBeyondTrial = 1.7;
 /// Errors vary from run to run: so many times the vertices that are just enough are made.
 constexpr double Margin = 1.06;
 constexpr std::size_t MostCorrections = 2;
@@ -83,10 +83,7 @@ public:
     choice_.length = goal.lengthFor(request.cloud);
   }
 
-  Reconstruction run()
-  {
-    return choice_.goal.isAutomatic() ? runByCloud() : runByTolerance();
-  }
+  Reconstruction run() { return choice_.goal.isAutomatic() ? runByCloud() : runByTolerance(); }
 
 private:
   struct Measured
@@ -118,8 +115,8 @@ private:
   {
     // Smaller ones are simplified from as many as are learnt at least.
     const Parameters fewest = parametersWith(FewestToAsk);
-    std::uint64_t vertices =
-      std::max({ FewestTried, points_ / PointsPerVertexOfGuess, verticesToLearn(requestWith(fewest)) });
+    std::uint64_t vertices = std::max(
+      { FewestTried, points_ / PointsPerVertexOfGuess, verticesToLearn(requestWith(fewest)) });
     double wanted = 4. * double(vertices);
     for (std::size_t trial = 0; trial < MostTrials; ++trial)
     {
@@ -134,9 +131,8 @@ private:
       {
         break;
       }
-      vertices = std::uint64_t(isBracketed
-          ? wanted / UsualBeyondTrial
-          : std::max(wanted / TimesBelow, double(FewestToAsk)));
+      vertices = std::uint64_t(isBracketed ? wanted / UsualBeyondTrial
+                                           : std::max(wanted / TimesBelow, double(FewestToAsk)));
     }
     for (std::size_t correction = 0;; ++correction)
     {
@@ -168,8 +164,8 @@ private:
   /// That of the smallest trial which meets the tolerance, if one does.
   std::uint64_t soundSize() const
   {
-    const auto sound = std::ranges::find_if(measured_,
-      [&](const Measured& one) { return errorOf(one.error) <= choice_.length; });
+    const auto sound = std::ranges::find_if(
+      measured_, [&](const Measured& one) { return errorOf(one.error) <= choice_.length; });
     return sound != measured_.end() ? sound->vertices : sizeByTrials();
   }
 
@@ -187,7 +183,8 @@ private:
   Slope slope() const
   {
     const auto meets = [&](const Measured& one) { return errorOf(one.error) <= choice_.length; };
-    const auto first = std::find_if(measured_.rbegin(), measured_.rend(), std::not_fn(meets)).base();
+    const auto first =
+      std::find_if(measured_.rbegin(), measured_.rend(), std::not_fn(meets)).base();
     // Of [0, below) the last does not meet it.
     const auto below = std::size_t(first - measured_.begin());
     const std::size_t from = below > 0 ? below - 1 : 0;
@@ -208,8 +205,8 @@ private:
     Slope result{ double(measured_[from].vertices), errorOf(measured_[from].error), UsualExponent };
     if (isApart)
     {
-      result.exponent = std::max(
-        LeastExponent, PartOfExponent * std::min(1., slopeBetween(other, from).exponent));
+      result.exponent =
+        std::max(LeastExponent, PartOfExponent * std::min(1., slopeBetween(other, from).exponent));
     }
     return result;
   }
@@ -271,8 +268,8 @@ private:
     {
       // Where coarseness and noise have equal parts, and farther on until little is left of the first.
       const double factor = coarseness();
-      const double balance = std::pow(
-        factor * double(points_) / (noise_ * noise_), 1. / (PowerOfCoarseness + 1.));
+      const double balance =
+        std::pow(factor * double(points_) / (noise_ * noise_), 1. / (PowerOfCoarseness + 1.));
       most = double(points_) / PointsPerVertexUnderNoise;
       size = balance * std::pow(CoarsenessLeft, -1. / PowerOfCoarseness);
       const double unit = request_.cloud.unit();
@@ -334,7 +331,8 @@ private:
     {
       largest = std::max(vertices, largest / 2);
     }
-    const bool isFine = grown_ && double(firstVertices(largest)) <= TimesFiner * double(firstVertices(startedFor_));
+    const bool isFine =
+      grown_ && double(firstVertices(largest)) <= TimesFiner * double(firstVertices(startedFor_));
     if (isFine && grown_->mesh && grown_->mesh->vertexCount() <= vertices)
     {
       isGrown_ = true;

@@ -24,8 +24,8 @@ PointCloud torusToSize(double noise, std::size_t count = 20000)
   return PointCloud(generateCloud(makeTorus(), options));
 }
 
-Reconstruction sized(const PointCloud& cloud, const SizeGoal& goal,
-  const Executor& executor = Executor::sequential(),
+Reconstruction sized(
+  const PointCloud& cloud, const SizeGoal& goal, const Executor& executor = Executor::sequential(),
   const Progress& progress = [](double) { return true; })
 {
   const Parameters parameters;
@@ -57,8 +57,7 @@ TEST(SizedReconstruction, TellsNoise)
     const PointCloud cloud = torusToSize(noise);
     const Reconstruction mesh = withVertices(cloud, 1000);
     const HeldOutError error = heldOutError(cloud, mesh.surface);
-    const double told =
-      differenceOfNeighbours(cloud, mesh.surface, error) / cloud.diagonal();
+    const double told = differenceOfNeighbours(cloud, mesh.surface, error) / cloud.diagonal();
     EXPECT_NEAR(told, noise, 0.0003);
     EXPECT_LE(error.rootMeanSquare, error.ninetyNine);
     EXPECT_LE(error.ninetyNine, error.largest);
