@@ -15,7 +15,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace
@@ -46,15 +45,17 @@ void SizeOptions::AddTo(CLI::App* command)
                                 ->transform(CLI::Validator(toNumber, ""))
                                 ->type_name("N|" + Automatic);
   AddLevelsOption(command, this->Levels, vertices.Minimum, vertices.Maximum);
-  const auto toLength = [this](const std::string& text)
+  const double largest = defaults->GetToleranceMaxValue();
+  const auto toLength = [this, largest](const std::string& text)
   {
     this->IsPercent = text.ends_with('%');
     const std::string digits = this->IsPercent ? text.substr(0, text.size() - 1) : text;
-    if (!CLI::detail::lexical_cast(digits, this->Tolerance) || !std::isfinite(this->Tolerance) ||
-      this->Tolerance <= 0.0)
+    const bool isNumber = CLI::detail::lexical_cast(digits, this->Tolerance);
+    if (!isNumber || !(this->Tolerance > 0.0 && this->Tolerance <= largest))
     {
-      throw CLI::ValidationError(
-        "--tolerance", text + " is no length above 0, with % behind it or without");
+      throw CLI::ValidationError("--tolerance",
+        text + " is no length above 0, to " + PlainNumber(largest) +
+          ", with % behind it or without");
     }
   };
   CLI::Option* const tolerance =

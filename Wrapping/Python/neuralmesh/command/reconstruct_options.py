@@ -70,9 +70,10 @@ def _tolerance_of(text: str) -> tuple[float, bool]:
         length = float(text.removesuffix("%"))
     except ValueError:
         length = math.nan
-    if not (0 < length < math.inf):
+    largest = property_of("Tolerance").high
+    if not (0 < length <= largest):
         raise argparse.ArgumentTypeError(
-            f"{text} is no length above 0, with % behind it or without"
+            f"{text} is no length above 0, to {plain(largest)}, with % behind it or without"
         )
     return length, is_percent
 
