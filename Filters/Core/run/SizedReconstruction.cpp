@@ -46,7 +46,7 @@ constexpr double TimesBelow = 1.25;
 /// So much finer than the last trial a mesh may be that is told by it; else one more is made, that is so much coarser.
 constexpr double MostBeyondTrial = 2.5, UsualBeyondTrial = 1.7;
 /// Errors vary from run to run: so many times the vertices that are just enough are made.
-constexpr double Margin = 1.06;
+constexpr double TimesEnough = 1.06;
 constexpr std::size_t MostCorrections = 2;
 constexpr double LeastExponent = 0.15, UsualExponent = 0.85, MostExponent = 2.5;
 /// Errors fall by a power that becomes less: beyond two trials at most 1 counts, and so much of it.
@@ -158,7 +158,7 @@ private:
   std::uint64_t sizeByTrials() const
   {
     return std::uint64_t(
-      std::clamp(std::ceil(Margin * enough()), double(FewestToAsk), double(mostVertices())));
+      std::clamp(std::ceil(TimesEnough * enough()), double(FewestToAsk), double(mostVertices())));
   }
 
   /// That of the smallest trial which meets the tolerance, if one does.
