@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Prints numbers of vertices that are found beside those of a search, as tables in Markdown.
 
-    how_many.py [--seed N] [--tolerances PERCENT,...] [--measure rms|99|largest] [--no-ladder]
+    how_many.py [--seed N] [--tolerances PERCENT,...] [--measure rms|99|largest] [--no-ladder] [--no-search]
                 CLOUD[,REFERENCE]...
 
 The first table is of numbers that the cloud tells: a ladder of runs with 1000, 2000, ... vertices, up to
@@ -133,17 +133,18 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--tolerances", default="0.1,0.03")
     parser.add_argument("--measure", choices=list(MEASURES), default="rms")
-    parser.add_argument("--no-ladder", action="store_true", help="without a search, for which it takes long")
+    parser.add_argument("--no-ladder", action="store_true", help="without that of the first table, which takes long")
+    parser.add_argument("--no-search", action="store_true", help="without the bisection of the second table")
     parser.add_argument("clouds", nargs="+")
     arguments = parser.parse_args()
-    has_search = not arguments.no_ladder
+    has_ladder = not arguments.no_ladder
     clouds = [Cloud(text, arguments.seed) for text in arguments.clouds]
-    more = ["error / best of the ladder, %", "smallest within 1.05"] if has_search else []
+    more = ["error / best of the ladder, %", "smallest within 1.05"] if has_ladder else []
     print_head(["cloud", "vertices", "predicted, %", "reached, %", "noise, %", *more, "CPU s"])
     for cloud in clouds:
-        print("| " + " | ".join(row_by_cloud(cloud, has_search)) + " |", flush=True)
+        print("| " + " | ".join(row_by_cloud(cloud, has_ladder)) + " |", flush=True)
     print()
-    has_search = has_search and arguments.measure == "rms"
+    has_search = not arguments.no_search and arguments.measure == "rms"
     more = ["fewest by bisection"] if has_search else []
     print_head(["cloud", "tolerance, %", "vertices", "predicted, %", "reached, %", *more, "CPU s"])
     for cloud in clouds:

@@ -2,7 +2,8 @@
 # Prints how numbers of vertices that are found compare with what a search finds: the tables of
 # Documentation/HowMany.md.
 #
-#   how_many.sh [--seed N] [--tolerances PERCENT,...] [--measure rms|99|largest] [--no-ladder] CLOUD[,REFERENCE]...
+#   how_many.sh [--seed N] [--tolerances PERCENT,...] [--measure rms|99|largest] [--no-ladder] [--no-search]
+#               CLOUD[,REFERENCE]...
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source Utilities/build.sh

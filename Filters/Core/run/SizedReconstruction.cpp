@@ -236,9 +236,12 @@ private:
     return by.error * std::pow(by.vertices / double(vertices), by.exponent);
   }
 
+  /// What is learnt at most; under noise more would not come closer.
   std::uint64_t mostVertices() const
   {
-    return std::max<std::uint64_t>(FewestTried, std::uint64_t(double(points_) / 2.));
+    constexpr double PointsPerVertexLearnt = 2.;
+    const double part = noise_ > 0. ? PointsPerVertexUnderNoise : PointsPerVertexLearnt;
+    return std::max(FewestTried, std::uint64_t(double(points_) / part));
   }
 
   /// In units of the input, noise taken off.
