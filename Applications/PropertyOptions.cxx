@@ -56,7 +56,7 @@ std::string Described(const std::vector<PropertyWord>& words, int defaultValue)
   return text;
 }
 
-void AddChoice(CLI::App* command, const std::string& name, int& value,
+CLI::Option* AddChoice(CLI::App* command, const std::string& name, int& value,
   const std::vector<PropertyWord>& words, const std::string& description)
 {
   const auto toNumber = [words](std::string& word) -> std::string
@@ -69,7 +69,7 @@ void AddChoice(CLI::App* command, const std::string& name, int& value,
     word = std::to_string(found->Value);
     return {};
   };
-  command->add_option(name, value, description)
+  return command->add_option(name, value, description)
     ->transform(CLI::Validator(toNumber, ""))
     ->type_name(Joined(words));
 }

@@ -117,7 +117,7 @@ const std::string& WordOf(const std::vector<PropertyWord>& words, int value);
 std::string Described(const std::vector<PropertyWord>& words, int defaultValue);
 
 /** An option that takes words for the values of a property. */
-void AddChoice(CLI::App* command, const std::string& name, int& value,
+CLI::Option* AddChoice(CLI::App* command, const std::string& name, int& value,
   const std::vector<PropertyWord>& words, const std::string& description);
 
 #endif

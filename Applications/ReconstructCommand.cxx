@@ -20,6 +20,7 @@
 #include "PropertyOptions.h"
 #include "RunEstimate.h"
 #include "RunReport.h"
+#include "SizeOptions.h"
 #include "TableWriter.h"
 
 #include "vtkNeuralMesh.h"
@@ -60,8 +61,7 @@ struct ReconstructOptions
   bool InPlace = false;
   int Raw = vtkNeuralMeshFileSampler::BY_EXTENSION;
   long long Skip = 0;
-  vtkIdType Vertices = 0;
-  std::vector<vtkIdType> Levels;
+  SizeOptions Size;
   int Seed = 0;
   int Variant = 0;
   int Order = 0;
@@ -149,11 +149,7 @@ vtkSmartPointer<vtkNeuralMesh> MakeFilter(const ReconstructOptions& options)
 
 void PrepareFilter(vtkNeuralMesh* filter, const ReconstructOptions& options)
 {
-  filter->SetNumberOfVertices(options.Vertices);
-  for (const vtkIdType level : options.Levels)
-  {
-    filter->AddLevel(level);
-  }
+  options.Size.Apply(filter);
   filter->SetSeed(options.Seed);
   filter->SetVariant(options.Variant);
   filter->SetOrder(options.Order);
@@ -219,7 +215,8 @@ int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructO
   const neuralmesh::RunEstimate estimate = EstimateRun(filter, points);
   RequireResult(filter, *errors, options);
   std::printf("points     %lld\n", static_cast<long long>(points->GetNumberOfPoints()));
-  std::printf("vertices   %lld\n", static_cast<long long>(options.Vertices));
+  std::printf("vertices   %lld\n",
+    static_cast<long long>(options.Size.GetMostVertices(points->GetNumberOfPoints())));
   std::printf("samples    about %.3g million\n", 1e-6 * estimate.samples);
   std::printf("memory     about %.0f MB\n", 1e-6 * estimate.bytes);
   std::printf(
@@ -237,7 +234,7 @@ bool Learn(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions&
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_WARNING);
   if (!options.Quiet)
   {
-    bar->SetNumberOfVertices(options.Vertices);
+    bar->SetNumberOfVertices(options.Size.GetMostVertices(points->GetNumberOfPoints()));
     filter->AddObserver(vtkCommand::ProgressEvent, bar);
   }
   filter->SetInputData(points);
@@ -297,6 +294,27 @@ void RequireSoundNames(const ReconstructOptions& options)
   }
 }
 
+/** Throws UsageError where the number of vertices, or what takes its place, excludes something else. */
+void RequireSoundSize(vtkNeuralMesh* filter, const ReconstructOptions& options)
+{
+  neuralmesh::Parameters parameters;
+  parameters.timeLimit = filter->GetTimeLimit();
+  parameters.maximumIterations = static_cast<std::uint64_t>(filter->GetMaximumIterations());
+  parameters.targetSampleDistance = filter->GetTargetSampleDistance();
+  parameters.targetCloudDistance = filter->GetTargetCloudDistance();
+  parameters.targetNormalChange = filter->GetTargetNormalChange();
+  options.Size.RequireSound(parameters,
+    { .firstMesh = !options.Initial.empty() || options.Members > 0,
+      .checkpoint = !options.Checkpoint.empty(),
+      .automatic = options.Automatic });
+  if (options.DryRun && options.Size.IsToBeFound())
+  {
+    throw UsageError(
+      "--dry-run: how long a run takes is told for a number of vertices, not for one "
+      "that is to be found");
+  }
+}
+
 int Reconstruct(const ReconstructOptions& options)
 {
   RequireSoundNames(options);
@@ -312,14 +330,11 @@ int Reconstruct(const ReconstructOptions& options)
     { { "OUTPUT", options.Output, true }, { "--statistics", options.Statistics, true },
       { "--explain", options.Explanation, true }, { "--feature-lines", options.FeatureLines, true },
       { "--checkpoint", options.Checkpoint, true } });
-  for (const std::string& path : SmallerLevelPaths(options.Output, options.Levels))
+  for (const std::string& path : SmallerLevelPaths(options.Output, options.Size.GetLevels()))
   {
     files.push_back({ "--levels", path, true });
   }
-  RequireSoundLevels(options.Levels, options.TimeLimit,
-    { .firstMesh = !options.Initial.empty() || options.Members > 0,
-      .checkpoint = !options.Checkpoint.empty(),
-      .automatic = options.Automatic });
+  RequireSoundSize(filter, options);
   RequireDistinctFiles(files);
   RequireWritableExtension(options.Output);
   const MeshShift shift = ParseShift(options.Shift);
@@ -363,7 +378,8 @@ int Reconstruct(const ReconstructOptions& options)
   {
     filter->SetFirstMeshData(ReadMesh(options.Initial));
   }
-  RequireWritableDigits(points, options.Vertices, shift, options.Output);
+  RequireWritableDigits(
+    points, options.Size.GetMostVertices(points->GetNumberOfPoints()), shift, options.Output);
   RunSeconds seconds;
   seconds.Reading = stopwatch.Lap();
   if (options.DryRun)
@@ -431,7 +447,6 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   options->Automatic = defaults->GetAutomatic();
   options->Features = defaults->GetComputeFeatureStrength();
   options->Uncertainty = defaults->GetComputeUncertainty();
-  const auto vertices = NEURAL_MESH_NUMBERS(defaults, NumberOfVertices);
   const auto seed = NEURAL_MESH_NUMBERS(defaults, Seed);
   const auto members = NEURAL_MESH_NUMBERS(ensemble, NumberOfMembers);
   const auto seconds = NEURAL_MESH_NUMBERS(defaults, TimeLimit);
@@ -461,9 +476,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     application.add_subcommand("reconstruct", "Make a triangle mesh from a point cloud");
   AddPointsAndOutput(command, options->Inputs, options->Output,
     "Mesh: .vtp .ply .obj .stl .glb .off .vtk; another file than all others");
-  AddNumber(command, "--vertices", options->Vertices, vertices,
-    "Vertices of the mesh, " + Described(vertices), "N");
-  AddLevelsOption(command, options->Levels, vertices.Minimum, vertices.Maximum);
+  options->Size.AddTo(command);
   AddNumber(command, "--seed", options->Seed, seed,
     "Seed of the random numbers, " + Described(seed) + ": the same seed, the same mesh", "N");
   CLI::Option* const initial =
@@ -582,12 +595,5 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     "Ctrl-C ends the learning, and the mesh learnt so far is written.\n"
     "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 3 done with a "
     "warning\nand --strict, 130 after Ctrl-C.");
-  return [options]
-  {
-    if (!options->Levels.empty())
-    {
-      options->Vertices = options->Levels.back();
-    }
-    return Reconstruct(*options);
-  };
+  return [options] { return Reconstruct(*options); };
 }

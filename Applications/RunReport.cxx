@@ -4,6 +4,7 @@
 #include "ExplainedPoints.h"
 #include "FieldNumber.h"
 #include "OrientationOptions.h"
+#include "SizeOptions.h"
 
 #include "vtkNeuralMesh.h"
 #include "vtkNeuralMeshFileSampler.h"
@@ -56,7 +57,7 @@ void PrintPhases(vtkNeuralMesh* filter, vtkNeuralMeshFileSampler* sampler)
   {
     std::printf("drawing %.2f, ", drawing);
   }
-  if (filter->GetAutomatic())
+  if (choice > 0.0)
   {
     std::printf("choice %.2f, ", choice);
   }
@@ -169,4 +170,5 @@ void PrintRun(vtkNeuralMesh* filter, vtkPointSet* points, vtkNeuralMeshFileSampl
   PrintSides(mesh);
   PrintReport(mesh);
   PrintChoices(mesh);
+  PrintSizeChoice(mesh);
 }

@@ -125,13 +125,6 @@ void vtkNeuralMesh::SetPointFileName(const char* name)
   }
 }
 
-vtkIdType vtkNeuralMesh::GetUsedMaximumPoints() const
-{
-  return this->MaximumPoints > 0 ? this->MaximumPoints
-                                 : static_cast<vtkIdType>(neuralmesh::usualPoints(
-                                     static_cast<std::uint64_t>(this->GetVerticesOfLargest())));
-}
-
 vtkInformation* vtkNeuralMesh::GetWeightArrayInformation()
 {
   vtkInformationVector* arrays = this->GetInformation()->Get(INPUT_ARRAYS_TO_PROCESS());
@@ -366,7 +359,7 @@ int vtkNeuralMesh::RequestData(
   std::vector<double>().swap(weights);
 
   const bool needsDoubles = !neuralmesh::rangeOf(cloud).fitsFloats(
-    static_cast<std::size_t>(this->GetVerticesOfLargest()), Eigen::Vector3d::Zero());
+    static_cast<std::size_t>(this->GetMostVertices(cloud)), Eigen::Vector3d::Zero());
   vtkNeuralMeshRun run{ cloud, {},
     this->GetUsedPrecision(collector.HasDoublePoints() || needsDoubles),
     vtkNeuralMeshProgress(this), {}, executor, {},
@@ -488,7 +481,7 @@ bool vtkNeuralMesh::BeginRun(
     vtkNeuralMeshConvert<decltype(run.Parameters.parameter)>(this->property);
   NEURAL_MESH_FOR_EACH_PARAMETER(SET_PARAMETER)
 #undef SET_PARAMETER
-  run.Parameters.numberOfVertices = static_cast<std::uint64_t>(this->GetVerticesOfLargest());
+  run.Parameters.numberOfVertices = static_cast<std::uint64_t>(this->GetMostVertices(run.Cloud));
   if (!this->IsHelper())
   {
     run.Warnings = run.Parameters.warnings(run.Cloud.points().size());
@@ -502,7 +495,7 @@ bool vtkNeuralMesh::BeginRun(
     vtkErrorMacro(<< "Learning cannot start from the first mesh: " << error.what() << ".");
     return false;
   }
-  if (!this->CheckLevels(run))
+  if (!this->CheckLevels(run) || !this->PrepareSize(run))
   {
     return false;
   }
@@ -541,6 +534,10 @@ bool vtkNeuralMesh::Learn(
     else if (!this->Levels.empty())
     {
       result = this->LearnLevels(run, takeLevel, progress);
+    }
+    else if (run.SizeGoal)
+    {
+      result = this->LearnSized(run, progress);
     }
     else
     {

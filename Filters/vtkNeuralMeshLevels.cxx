@@ -49,11 +49,6 @@ vtkMultiBlockDataSet* vtkNeuralMesh::GetLevels()
     : nullptr;
 }
 
-vtkIdType vtkNeuralMesh::GetVerticesOfLargest() const
-{
-  return this->Levels.empty() ? this->NumberOfVertices : this->Levels.back();
-}
-
 /// False if there is no run with these levels.
 bool vtkNeuralMesh::CheckLevels(const vtkNeuralMeshRun& run)
 {

@@ -40,6 +40,10 @@ void vtkNeuralMesh::FillOutput(
   {
     vtkNeuralMeshReport::AddTuning(*run.Tuning, output);
   }
+  if (result.size)
+  {
+    vtkNeuralMeshReport::AddSize(*result.size, output);
+  }
   vtkNeuralMeshOrientation::AddReport(result.orientation, output);
   if (result.quality)
   {

@@ -133,8 +133,9 @@ void vtkNeuralMeshReport::RemoveFrom(vtkPolyData* output)
   for (const char* name : { "Residual", "Noise", "SharedNoise", "OutlierShare", "RegularRatio",
          "TriangleQuality", "Components", "Genus", "BoundaryLoops", "FoldedEdges",
          "IntersectingTriangles", "NarrowHandles", "FitRoundsTakenBack", "ChosenParameters",
-         "ReasonsOfChoice", "OutlierPoints", "SmallPiecePoints", "UnreachablePoints",
-         "UnexplainedPoints", "UnexplainedShare", "Warnings" })
+         "ReasonsOfChoice", "Choice", "PredictedError", "ReachedError", "NoiseTakenOff",
+         "ErrorWithHalf", "ErrorWithTwice", "OutlierPoints", "SmallPiecePoints",
+         "UnreachablePoints", "UnexplainedPoints", "UnexplainedShare", "Warnings" })
   {
     output->GetFieldData()->RemoveArray(name);
   }
@@ -175,6 +176,19 @@ void vtkNeuralMeshReport::AddTuning(const neuralmesh::Tuning& tuning, vtkPolyDat
   }
   output->GetFieldData()->AddArray(chosen);
   output->GetFieldData()->AddArray(MakeStrings("ReasonsOfChoice", tuning.reasons()));
+}
+
+void vtkNeuralMeshReport::AddSize(const neuralmesh::SizeChoice& choice, vtkPolyData* output)
+{
+  const auto addNumber = [output](const char* name, double value)
+  { vtkMeshArrays::AddFieldValue<vtkDoubleArray>(output, name, value); };
+  constexpr double NotTold = std::numeric_limits<double>::quiet_NaN();
+  addNumber("PredictedError", choice.predicted);
+  addNumber("ReachedError", choice.reached);
+  addNumber("NoiseTakenOff", choice.noise);
+  addNumber("ErrorWithHalf", choice.expectedWith(choice.vertices / 2).value_or(NotTold));
+  addNumber("ErrorWithTwice", choice.expectedWith(2 * choice.vertices).value_or(NotTold));
+  output->GetFieldData()->AddArray(MakeStrings("Choice", choice.reasons()));
 }
 
 void vtkNeuralMeshReport::Log(const neuralmesh::Tuning& tuning, vtkObject* filter)

@@ -23,6 +23,7 @@ namespace neuralmesh
 {
 class PointCloud;
 struct Reconstruction;
+struct SizeChoice;
 struct Tuning;
 }
 
@@ -40,6 +41,8 @@ public:
     const neuralmesh::Reconstruction& result, double unit, vtkPolyData* output);
   /** Which parameters were chosen, and why. */
   static void AddTuning(const neuralmesh::Tuning& tuning, vtkPolyData* output);
+  /** How many vertices the mesh was to have, if that was found, and why. */
+  static void AddSize(const neuralmesh::SizeChoice& choice, vtkPolyData* output);
   /** What was warned of, a sentence each; an empty array if there was nothing. */
   static void AddWarnings(const std::vector<std::string>& warnings, vtkPolyData* output);
   /** Removes all that these add: the input may bring the report on an earlier mesh along. */

@@ -16,6 +16,7 @@
 #include "cloud/PointCloud.h"
 #include "learn/Parameters.h"
 #include "mesh/Mesh.h"
+#include "run/SizeChoice.h"
 #include "run/Tuning.h"
 
 #include <chrono>
@@ -72,6 +73,8 @@ struct vtkNeuralMeshRun
   neuralmesh::OrientationHints Hints;
   std::vector<std::string> Warnings{}; ///< that the filter has given
   bool IsStartWhole = true;            ///< not if making the first mesh was cut short
+  /// If the number of vertices is to be found.
+  std::optional<neuralmesh::SizeGoal> SizeGoal{};
 };
 
 #endif

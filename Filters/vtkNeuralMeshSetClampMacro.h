@@ -31,4 +31,27 @@
   virtual type Get##name##MinValue() { return min; }                                               \
   virtual type Get##name##MaxValue() { return max; }
 
+/**
+ * The same where 0 is a value, too, and stands for something else than what is in the range; tells so by
+ * Get##name##TakesZero().
+ */
+#define vtkNeuralMeshSetClampOrZeroMacro(name, type, min, max)                                     \
+  virtual void Set##name(type value)                                                               \
+  {                                                                                                \
+    const type clamped = value == 0 ? 0 : std::clamp<type>(value, min, max);                       \
+    if (clamped != value)                                                                          \
+    {                                                                                              \
+      vtkWarningMacro(<< #name " must be from " << (min) << " to " << (max) << ", or 0: not "      \
+                      << value << " but " << clamped << " is used.");                              \
+    }                                                                                              \
+    if (this->name != clamped)                                                                     \
+    {                                                                                              \
+      this->name = clamped;                                                                        \
+      this->Modified();                                                                            \
+    }                                                                                              \
+  }                                                                                                \
+  virtual type Get##name##MinValue() { return min; }                                               \
+  virtual type Get##name##MaxValue() { return max; }                                               \
+  virtual bool Get##name##TakesZero() { return true; }
+
 #endif

@@ -38,13 +38,13 @@ bool vtkNeuralMeshStream::Prepare()
   }
   neuralmesh::Parameters parameters;
   this->FillParameters(parameters);
+  parameters.numberOfVertices = static_cast<std::uint64_t>(this->NumberOfVertices);
   const std::string error = neuralmesh::StreamingReconstruction::errorOf(parameters);
   if (!error.empty())
   {
     vtkErrorMacro(<< error);
     return false;
   }
-  parameters.numberOfVertices = static_cast<std::uint64_t>(this->NumberOfVertices);
   parameters.seed = static_cast<std::uint64_t>(this->Seed);
   this->Stream = std::make_unique<neuralmesh::StreamingReconstruction>(
     parameters, static_cast<std::size_t>(this->ReservoirSize));

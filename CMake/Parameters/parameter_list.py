@@ -25,6 +25,7 @@ A parameter has, with what holds without a key in brackets,
   thesis      what the preset of the thesis sets (the default)
   thesis_text what to say of that in its place
   range       both ends; null where the type ends; not for bool and choices
+  zero        whether 0 is a value, too, and below the range (false); not for bool and choices
   class       of VTK, which has the property (vtkNeuralMeshAlgorithm)
   engine      false if the core does not know it; or its type there
   preset      false if presets leave it alone (true in vtkNeuralMeshAlgorithm, else false)
@@ -56,7 +57,8 @@ VALUE_KEYS = {"name": str, "text": str}
 GROUP_KEYS = {"key": str, "title": str, "panel": (str, type(None)), "parameters": list}
 PARAMETER_KEYS = {
     "name": str, "type": str, "default": (bool, int, float, str), "thesis": (bool, int, float, str),
-    "thesis_text": str, "range": list, "class": str, "engine": (bool, str), "preset": bool,
+    "thesis_text": str, "range": list, "zero": bool,
+    "class": str, "engine": (bool, str), "preset": bool,
     "result": bool, "command": str, "fuzz": list, "panel": str, "symbol": str, "unit": str,
     "variants": list, "when": list, "short": str, "text": str, "details": (str, list), "why": str,
 }
@@ -371,10 +373,13 @@ class Reader:
         if choice or entry["type"] == "bool":
             for key in ("range", "fuzz"):
                 self.check(key not in entry, place, f"a {entry['type']} has no {key}")
+            self.check("zero" not in entry, place, f"a {entry['type']} has no zero")
             ends = (0, len(choice.values) - 1) if choice else (0, 1)
         elif self.check("range" in entry, place, "range is missing"):
             ends = self.ends(entry, "range", place)
             fuzz = self.ends(entry, "fuzz", place) if "fuzz" in entry else None
+            is_above = not (ends and entry.get("zero")) or ends[0] > 0
+            self.check(is_above, place, "0 is not below the range")
             is_within = not (ends and fuzz) or (ends[0] <= fuzz[0] and fuzz[1] <= ends[1])
             self.check(is_within, place, f"fuzz {entry.get('fuzz')} is outside the range")
         is_number = not choice and entry["type"] != "bool"

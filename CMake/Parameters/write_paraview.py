@@ -43,7 +43,8 @@ def domain(parameter):
         return ['<EnumerationDomain name="enum">', *entries, "</EnumerationDomain>"]
     kind = "Double" if parameter.type == "double" else "Int"
     high = f' max="{number(parameter.high)}"' if parameter.high <= LARGEST_SLIDER else ""
-    return [f'<{kind}RangeDomain name="range" min="{number(parameter.low)}"{high} />']
+    low = number(0 if parameter.zero else parameter.low)
+    return [f'<{kind}RangeDomain name="range" min="{low}"{high} />']
 
 
 def decorator(name, value, is_not):

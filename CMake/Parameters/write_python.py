@@ -14,6 +14,7 @@ def entry(found, group, parameter):
         "default": parameter.number(parameter.default),
         "low": end(parameter, parameter.low),
         "high": end(parameter, parameter.high),
+        "takes_zero": bool(parameter.zero),
         "owner": parameter.owner,
         "engine": parameter.in_engine,
         "in_preset": parameter.in_preset,

@@ -86,7 +86,8 @@ def one_property(found, parameter):
         lines += [*enumeration(found, parameter.type), ""]
     lines += ["///@{", *documentation(found, parameter)]
     low, high = (vtk_number(parameter, end) for end in (parameter.low, parameter.high))
-    lines += wrapped(f"vtkNeuralMeshSetClampMacro({name}, {kind}, {low}, {high});", "  ", "")
+    macro_name = "SetClampOrZero" if parameter.zero else "SetClamp"
+    lines += wrapped(f"vtkNeuralMesh{macro_name}Macro({name}, {kind}, {low}, {high});", "  ", "")
     lines.append(f"vtkGetMacro({name}, {kind});")
     if parameter.type == "bool":
         lines.append(f"vtkBooleanMacro({name}, {kind});")
@@ -167,8 +168,9 @@ def conversions(found):
     """Constants of VTK beside the values of the core."""
     lines = []
     for choice in choices_of(found):
+        owner = next((p.owner for p in found.parameters if p.type == choice.name), CLASSES[0])
         values = [
-            f"{{ vtkNeuralMeshAlgorithm::{v.constant}, neuralmesh::{choice.name}::{v.name} }}"
+            f"{{ {owner}::{v.constant}, neuralmesh::{choice.name}::{v.name} }}"
             for v in choice.values
         ]
         lines += ["", "template <>", f"struct vtkNeuralMeshChoice<neuralmesh::{choice.name}>", "{",

@@ -20,7 +20,7 @@ function (neuralmesh_write_properties file)
     set(parent_of_${class} ${CMAKE_MATCH_2})
     list(APPEND classes ${class})
     string(FIND "${text}" "vtkAbstractTypeMacro" abstract_of_${class})
-    neuralmesh_names(clamped_of_${class} "${text}" "SetClampMacro\\([ \n]*")
+    neuralmesh_names(clamped_of_${class} "${text}" "SetClamp(OrZero)?Macro\\([ \n]*")
     neuralmesh_names(switches_of_${class} "${text}" "vtkBooleanMacro\\([ \n]*")
     neuralmesh_names(printed_of_${class} "${text}"
       "(Set|Get)[A-Za-z0-9]*Macro\\([ \n]*|const[ \n]*{[ \n]*return this->")

@@ -50,7 +50,7 @@ FIRST = {
     "NeuralMeshFileSampler": "NumberOfPoints",
     "NeuralMeshScan": "NumberOfPoints",
 }
-GROUPS = ["Learning", "Growth", "Topology", "Noise", "Finish", "Outer Side", "Output"]
+GROUPS = ["Tolerance", "Learning", "Growth", "Topology", "Noise", "Finish", "Outer Side", "Output"]
 
 
 def setUpModule():
@@ -205,6 +205,7 @@ class Properties(unittest.TestCase):
                     self.assertEqual((low, high), (False, True))
                 else:
                     shown = high if high <= LARGEST_SLIDER else None
+                    low = 0 if hasattr(vtk_object, f"Get{key}TakesZero") else low
                     self.assertEqual(range_of(sm_property), (low, shown))
             checked += 1
         self.assertGreater(checked, 100)
@@ -327,7 +328,7 @@ class Panel(unittest.TestCase):
 
     # Promise: few properties are shown at first, and those are the ones that most people need.
     def test_advanced(self):
-        most = {"NumberOfVertices", "Variant", "Seed", "TimeLimit", "Boundaries", "Fidelity",
+        most = {"NumberOfVertices", "Tolerance", "ToleranceIsPercent", "ToleranceMeasure", "Variant", "Seed", "TimeLimit", "Boundaries", "Fidelity",
                 "TopologyLearning", "CarryPointData", "GrowthAsTime", "Automatic", "ComputeUncertainty"}
         for name, wanted in (
             ("NeuralMesh", most),

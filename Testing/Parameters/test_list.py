@@ -195,7 +195,7 @@ class BadLists(ListTest):
     # of the panel.
     def test_templates(self):
         content = copy.deepcopy(GOOD)
-        del content["groups"][3]
+        content["groups"] = [group for group in content["groups"] if group["key"] != "moves"]
         self.check_refused(content, "there is no group 'moves', which a template names")
         content = copy.deepcopy(GOOD)
         entry_of(content, "NumberOfVertices")["name"] = "VertexCount"
@@ -213,6 +213,18 @@ class BadLists(ListTest):
         content = copy.deepcopy(GOOD)
         content["groups"][0]["panel"] = "Outcome"
         self.check_refused(content, "outcome: no template has the group in a group of the panel")
+
+    # Promise: 0 is a value beside a range only of numbers, and only below the range.
+    def test_zero(self):
+        for name, low, message in (
+            ("NumberOfVertices", 0, "NumberOfVertices: 0 is not below the range"),
+            ("Automatic", None, "Automatic: a bool has no zero"),
+        ):
+            content = copy.deepcopy(GOOD)
+            entry_of(content, name)["zero"] = True
+            if low is not None:
+                entry_of(content, name)["range"][0] = low
+            self.check_refused(content, message)
 
     # Promise: the script ends with the line, whoever finds what is wrong, and writes nothing.
     def test_script(self):

@@ -93,7 +93,7 @@ class Alone(CommandTest):
             (["reconstruct"], 2, "INPUT is required"),
             (["reconstruct", "ball.xyz"], 2, "OUTPUT is required"),
             (["reconstruct", "ball.xyz", "b.ply", "--vertices", "3"], 2, "no integer from 4 to"),
-            (["reconstruct", "ball.xyz", "b.ply", "--vertices"], 2, "--vertices: 1 required N missing"),
+            (["reconstruct", "ball.xyz", "b.ply", "--vertices"], 2, "--vertices: 1 required N|auto missing"),
             (["reconstruct", "ball.xyz", "b.ply", "--vertex", "3"], 2, "not expected: --vertex"),
             (["reconstruct", "ball.xyz", "b.ply", "--vertexes=3"], 2, "--vertexes: did you mean --vertices"),
             (["reconstruct", "ball.xyz", "b.ply", "--set", "WinerRate=1"], 2, "did you mean WinnerRate"),

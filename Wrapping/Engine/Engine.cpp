@@ -49,11 +49,13 @@ TriangleMesh namedMeshOf(
 
 void learn(Run& run, const nb::dict& parameters, std::optional<nb::dict> ensemble,
   const std::optional<ArrayOf<double>>& firstPoints,
-  const std::optional<ArrayOf<std::int64_t>>& firstTriangles, bool automatic, bool explain,
-  double endOfMesh, std::string checkpoint, double checkpointInterval, std::size_t snapshots,
-  std::vector<std::uint64_t> levels, nb::object takeSnapshot, nb::object tell, nb::object progress)
+  const std::optional<ArrayOf<std::int64_t>>& firstTriangles, double tolerance, bool isPercent,
+  int measure, bool automatic, bool explain, double endOfMesh, std::string checkpoint,
+  double checkpointInterval, std::size_t snapshots, std::vector<std::uint64_t> levels,
+  nb::object takeSnapshot, nb::object tell, nb::object progress)
 {
-  Run::Plan plan{ parameters, std::move(ensemble), {}, automatic, explain, endOfMesh,
+  Run::Plan plan{ parameters, std::move(ensemble), {},
+    { tolerance, isPercent, ToleranceMeasure(measure) }, automatic, explain, endOfMesh,
     std::move(checkpoint), checkpointInterval, snapshots, std::move(levels),
     std::move(takeSnapshot), std::move(tell) };
   if (firstPoints && firstTriangles)
@@ -68,6 +70,14 @@ void learn(Run& run, const nb::dict& parameters, std::optional<nb::dict> ensembl
 
 void bindRun(nb::module_& module)
 {
+  module.def(
+    "why_no_size",
+    [](const nb::dict& parameters, bool first, bool checkpoint, bool automatic)
+    {
+      return whyNoSize(parametersOf(parameters),
+        { .firstMesh = first, .checkpoint = checkpoint, .automatic = automatic });
+    },
+    "parameters"_a, "first_mesh"_a, "checkpoint"_a, "automatic"_a);
   nb::class_<Run>(module, "Run")
     .def(
       "__init__",
@@ -84,9 +94,9 @@ void bindRun(nb::module_& module)
       "up"_a.none(), "keeps_origins"_a, "threads"_a)
     .def("needs_doubles", &Run::needsDoubles, "vertices"_a)
     .def("learn", &learn, "parameters"_a, "ensemble"_a.none(), "first_points"_a.none(),
-      "first_triangles"_a.none(), "automatic"_a, "explain"_a, "end_of_mesh"_a, "checkpoint"_a,
-      "checkpoint_interval"_a, "snapshots"_a, "levels"_a, "take_snapshot"_a.none(), "tell"_a.none(),
-      "progress"_a.none())
+      "first_triangles"_a.none(), "tolerance"_a, "tolerance_is_percent"_a, "tolerance_measure"_a,
+      "automatic"_a, "explain"_a, "end_of_mesh"_a, "checkpoint"_a, "checkpoint_interval"_a,
+      "snapshots"_a, "levels"_a, "take_snapshot"_a.none(), "tell"_a.none(), "progress"_a.none())
     .def_prop_ro("smaller_levels", &Run::smallerLevels)
     .def("show", &Run::show, "level"_a)
     .def("mesh", &Run::mesh, "double"_a)

@@ -122,6 +122,17 @@ void addTuning(const Tuning& tuning, nb::dict& fields)
   fields["ReasonsOfChoice"] = tuning.reasons();
 }
 
+void addSize(const SizeChoice& choice, nb::dict& fields)
+{
+  constexpr double NotTold = std::numeric_limits<double>::quiet_NaN();
+  fields["PredictedError"] = choice.predicted;
+  fields["ReachedError"] = choice.reached;
+  fields["NoiseTakenOff"] = choice.noise;
+  fields["ErrorWithHalf"] = choice.expectedWith(choice.vertices / 2).value_or(NotTold);
+  fields["ErrorWithTwice"] = choice.expectedWith(2 * choice.vertices).value_or(NotTold);
+  fields["Choice"] = choice.reasons();
+}
+
 std::vector<std::string> textsOf(const Tuning& tuning)
 {
   std::vector<std::string> texts;

@@ -25,6 +25,7 @@ void addSides(const OrientationReport& report, nanobind::dict& fields);
 void addQuality(const Reconstruction& result, double unit, nanobind::dict& fields);
 void addCounts(const Explanation& explanation, nanobind::dict& fields);
 void addTuning(const Tuning& tuning, nanobind::dict& fields);
+void addSize(const SizeChoice& choice, nanobind::dict& fields);
 /// What is chosen, and why, a text each.
 std::vector<std::string> textsOf(const Tuning& tuning);
 

@@ -11,6 +11,7 @@
 #include "run/AutomaticReconstruction.h"
 #include "run/EnsembleRun.h"
 #include "run/Levels.h"
+#include "run/SizedReconstruction.h"
 #include "run/Warnings.h"
 
 #include <nanobind/stl/string.h>
@@ -98,6 +99,21 @@ void Run::learn(Plan plan, Call& call)
       throw std::invalid_argument(problem);
     }
   }
+  const bool isSizeToBeFound = plan.size.tolerance > 0. || parameters.numberOfVertices == 0;
+  if (isSizeToBeFound)
+  {
+    std::string problem = whyNoSize(parameters,
+      { .firstMesh = first || ensemble,
+        .checkpoint = !plan.checkpoint.empty(),
+        .automatic = plan.isAutomatic,
+        .levels = !plan.levels.empty() });
+    problem = problem.empty() ? whyNoSizeFor(*cloud_, plan.size) : problem;
+    if (!problem.empty())
+    {
+      throw std::invalid_argument(problem);
+    }
+    parameters.numberOfVertices = std::max<std::uint64_t>(4, cloud_->points().size() / 2);
+  }
   warn(parameters.warnings(cloud_->points().size()), tell);
   CheckpointPlan checkpoint{ .path = plan.checkpoint,
     .interval = plan.checkpointInterval,
@@ -154,6 +170,11 @@ void Run::learn(Plan plan, Call& call)
         },
         progress);
       shown_ = smaller_.size();
+    }
+    else if (isSizeToBeFound)
+    {
+      result_ = reconstructSized(
+        { *cloud_, parameters, first, executor_, hints_, plan.explainsAll }, plan.size, progress);
     }
     else
     {
@@ -264,6 +285,10 @@ nb::dict Run::mesh(bool isDouble) const
   if (tuning_)
   {
     addTuning(*tuning_, fields);
+  }
+  if (result.size)
+  {
+    addSize(*result.size, fields);
   }
   addSides(result.orientation, fields);
   if (result.quality)

@@ -10,6 +10,7 @@
 #include "cloud/PointCloud.h"
 #include "run/EnsembleParameters.h"
 #include "run/Reconstruction.h"
+#include "run/SizeChoice.h"
 #include "run/Tuning.h"
 #include "start/VoxelMajority.h"
 
@@ -31,6 +32,7 @@ public:
     nanobind::dict parameters;
     std::optional<nanobind::dict> ensemble; ///< of vtkNeuralMeshEnsemble
     std::optional<TriangleMesh> firstMesh;
+    SizeGoal size; ///< if the parameters have no number of vertices, or it has a tolerance
     bool isAutomatic = false;
     bool explainsAll = false;
     double endOfMesh = 1.; ///< fraction of progress; what is left is for the data of points

@@ -14,6 +14,7 @@
 #include "mesh/TriangleMesh.h"
 #include "run/Checkpoint.h"
 #include "run/Explanation.h"
+#include "run/SizeChoice.h"
 #include "run/SpannedGaps.h"
 
 #include <optional>
@@ -54,6 +55,7 @@ struct Reconstruction
   std::optional<Explanation> explanation;
   std::vector<SpannedGap> gaps;      ///< that the mesh spans; empty if the run was cancelled
   std::vector<std::string> warnings; ///< see Warnings.h
+  std::optional<SizeChoice> size;    ///< if nobody said how many vertices there are to be
   PhaseTimes times;                  ///< of start, learning and finish
 };
 

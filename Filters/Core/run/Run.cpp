@@ -94,7 +94,7 @@ LearntRun Run::learn(std::uint64_t vertices, Beginning beginning, ProgressPart p
   return { std::move(result), std::move(learnt), rules, vertices, gaps, isLearnt };
 }
 
-void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress)
+void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress, bool tellsUncertainty)
 {
   Reconstruction& result = run.result;
   LearntMesh& learnt = run.learnt;
@@ -113,7 +113,7 @@ void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress)
     const bool isTimeOver = parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
     return progress(fraction) && !isTimeOver;
   };
-  const bool isTold = parameters.computeUncertainty;
+  const bool isTold = parameters.computeUncertainty && tellsUncertainty;
   const double endOfFit = isTold ? PartBeforeUncertainty : 1.;
   const double endOfFirst = isRefined ? PartBeforeRefinement * endOfFit : endOfFit;
   result.finish = neuralmesh::finish(learnt, cloud(), parameters, run.gaps, finished,
@@ -137,14 +137,13 @@ void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress)
   }
 }
 
-Reconstruction Run::finish(LearntRun run, std::uint64_t asked, ProgressPart part)
+void Run::makeMesh(LearntRun& run, std::uint64_t asked, ProgressPart part, bool tellsUncertainty)
 {
   Reconstruction& result = run.result;
   const bool isSimplified = !request_.first && run.learnt.mesh.vertexCount() > asked;
-  result.times.enter(Phase::Finish);
   if (request_.parameters.fitRounds > 0 && result.isComplete() && run.isLearnt)
   {
-    fit(run, asked, partOf(progress_, part.begin, part.end));
+    fit(run, asked, partOf(progress_, part.begin, part.end), tellsUncertainty);
   }
   if (isSimplified)
   {
@@ -152,6 +151,19 @@ Reconstruction Run::finish(LearntRun run, std::uint64_t asked, ProgressPart part
     simplifyByQuadrics(run.learnt.mesh, std::size_t(std::min(run.vertices, asked)));
     result.curve.endWith(run.learnt.mesh);
   }
+}
+
+std::optional<Mesh> Run::meshOf(LearntRun run, std::uint64_t asked, ProgressPart part)
+{
+  makeMesh(run, asked, part, false);
+  return run.result.isComplete() ? std::optional(std::move(run.learnt.mesh)) : std::nullopt;
+}
+
+Reconstruction Run::finish(LearntRun run, std::uint64_t asked, ProgressPart part)
+{
+  Reconstruction& result = run.result;
+  result.times.enter(Phase::Finish);
+  makeMesh(run, asked, part, true);
   const bool isWhole = result.stopReason != StopReason::Cancelled;
   describe(std::move(run.learnt), cloud(), isWhole ? &request_.cloud : nullptr, request_.hints,
     result, request_.executor);

@@ -65,10 +65,15 @@ public:
   /// describes it.
   Reconstruction finish(LearntRun run, std::uint64_t asked, ProgressPart part);
 
+  /// The mesh that finish() would make, to be measured; nothing if that was ended before.
+  std::optional<Mesh> meshOf(LearntRun run, std::uint64_t asked, ProgressPart part);
+
 private:
   const PointCloud& cloud() const { return cleaned_ ? *cleaned_ : request_.cloud; }
   /// Leaves no report of the finish if it was ended before.
-  void fit(LearntRun& run, std::uint64_t asked, const Progress& progress);
+  void fit(LearntRun& run, std::uint64_t asked, const Progress& progress, bool tellsUncertainty);
+  /// Fits what is to be fitted, and simplifies what has more vertices than are asked for.
+  void makeMesh(LearntRun& run, std::uint64_t asked, ProgressPart part, bool tellsUncertainty);
 
   RunRequest request_;
   Progress progress_;

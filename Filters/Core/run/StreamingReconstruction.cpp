@@ -72,6 +72,10 @@ double uncoveredPart(const PointCloud& cloud, const Mesh& mesh, const PointCloud
 
 std::string StreamingReconstruction::errorOf(const Parameters& parameters)
 {
+  if (parameters.numberOfVertices == 0)
+  {
+    return "A stream needs a number of vertices: it is not found while points come.";
+  }
   const bool isRight = parameters.variant == Variant::NoiseFiltering &&
     parameters.order == Order::Exact && !parameters.topologyLearning &&
     !parameters.computeFeatureStrength;

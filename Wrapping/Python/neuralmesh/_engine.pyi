@@ -93,6 +93,10 @@ def tune(
     points: Sequence[_Array], parameters: _Dict, threads: int, progress: _Progress
 ) -> _Dict | None: ...
 
+def why_no_size(
+    parameters: _Dict, first_mesh: bool, checkpoint: bool, automatic: bool
+) -> str: ...
+
 class Run:
     def __init__(
         self,
@@ -112,6 +116,9 @@ class Run:
         ensemble: _Dict | None,
         first_points: _Array | None,
         first_triangles: _Array | None,
+        tolerance: float,
+        tolerance_is_percent: bool,
+        tolerance_measure: int,
         automatic: bool,
         explain: bool,
         end_of_mesh: float,

@@ -50,6 +50,7 @@ class Number:
     default: float
     minimum: float
     maximum: float
+    takes_zero: bool = False  # 0 is a value, too, and below the range
 
     @property
     def integral(self) -> bool:
@@ -59,7 +60,9 @@ class Number:
         is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
         return (
             is_number
-            and bool(self.minimum <= value <= self.maximum)
+            and bool(
+                self.minimum <= value <= self.maximum or (self.takes_zero and value == 0)
+            )
             and (not self.integral or value == int(value))
         )
 
@@ -68,7 +71,8 @@ class Number:
 
     def __str__(self) -> str:
         kind = "an integer" if self.integral else "a number"
-        return f"{kind} from {_plain(self.minimum)} to {_plain(self.maximum)}"
+        zero = ", or 0" if self.takes_zero else ""
+        return f"{kind} from {_plain(self.minimum)} to {_plain(self.maximum)}{zero}"
 
 
 @dataclass(frozen=True)
@@ -205,7 +209,8 @@ def _parameter(vtk_class: type, name: str) -> Parameter | None:
         minimum = getattr(prototype, f"Get{name}MinValue")()
         maximum = getattr(prototype, f"Get{name}MaxValue")()
         default = getattr(prototype, "Get" + name)()
-        return Number("Set" + name, default, minimum, maximum)
+        takes_zero = hasattr(vtk_class, f"Get{name}TakesZero")
+        return Number("Set" + name, default, minimum, maximum, takes_zero)
     return None
 
 

@@ -18,6 +18,7 @@ class Property:
     default: int | float
     low: int | float
     high: int | float
+    takes_zero: bool = False  # 0 is a value, too, and below the range
     owner: str = ""  # the class that has it
     engine: bool = True  # whether the engine knows it
     in_preset: bool = False
@@ -37,6 +38,8 @@ class Property:
                 return self.low if before is None else before
             return min(max(number, self.low), self.high)
         number = int(value)
+        if number == 0 and self.takes_zero:
+            return 0
         return min(max(number, int(self.low)), int(self.high))
 
     def warning(self, value: Any, used: int | float) -> str:
@@ -45,7 +48,8 @@ class Property:
             return ""
         shown = "%g" if self.kind == "double" else "%d"
         low, high, given, clamped = (shown % one for one in (self.low, self.high, value, used))
-        return f"{self.name} must be from {low} to {high}: not {given} but {clamped} is used."
+        zero = ", or 0" if self.takes_zero else ""
+        return f"{self.name} must be from {low} to {high}{zero}: not {given} but {clamped} is used."
 
     def documentation(self) -> str:
         """What it does, its default and its range."""
@@ -78,6 +82,8 @@ class Property:
         # The ends of choices and switches are not asked for: they have methods of their own.
         made[f"Get{name}MinValue"] = lambda this: self.low
         made[f"Get{name}MaxValue"] = lambda this: self.high
+        if self.takes_zero:
+            made[f"Get{name}TakesZero"] = lambda this: True
         if self.kind == "bool":
             made[f"{name}On"] = lambda this: set_value(this, 1)
             made[f"{name}Off"] = lambda this: set_value(this, 0)

@@ -39,7 +39,7 @@ ENSEMBLE_PARAMETERS = {
 
 def reconstruct(
     points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | str | os.PathLike,
-    vertices: int = 20000,
+    vertices: int | str = 20000,
     seed: int = 1,
     *,
     variant: str = "noise",
@@ -68,7 +68,9 @@ def reconstruct(
                 normals are needed. Points with NaN or infinity are dropped. Or the path of a binary .ply,
                 or of a .vtp appended raw, from which maximum_points are drawn where they lie: it may be
                 larger than the memory.
-            vertices: The number of vertices of the mesh, from 4 to 1000000000.
+            vertices: The number of vertices of the mesh, from 4 to 1000000000; or "auto", which is 0: as
+                many as the points have something to tell for. With a tolerance it does not count. Field
+                data `Choice` of the mesh says in words why it has as many as it has.
             seed: Seed of the random numbers, from 0 to 2147483647. The same points and seed give the
                 same bytes; another seed gives another mesh of the same quality.
             variant: "noise_filtering", by which points far from the mesh pull less; "basic"; or
@@ -189,7 +191,7 @@ if reconstruct.__doc__:
 
 
 def make_filter(
-    vertices: int = 20000,
+    vertices: int | str = 20000,
     seed: int = 1,
     *,
     variant: str = "noise",
@@ -206,7 +208,9 @@ def make_filter(
     mesh = _world.NeuralMesh() if ensemble is None else _world.NeuralMeshEnsemble()
     if ensemble is not None:
         assign(mesh, "number_of_members", ensemble, shown_name="ensemble")
-    assign(mesh, "number_of_vertices", vertices, shown_name="vertices")
+    assign(
+        mesh, "number_of_vertices", 0 if vertices == "auto" else vertices, shown_name="vertices"
+    )
     assign(mesh, "seed", seed)
     # A preset sets parameters, and to what depends on variant and order.
     assign(mesh, "variant", variant)

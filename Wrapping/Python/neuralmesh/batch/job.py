@@ -44,6 +44,10 @@ def main() -> None:
         sys.exit(text if text.startswith(str(job.scan)) else f"{job.scan}: {text}")
 
 
+def _is_size_to_be_found(mesh_filter: Any) -> bool:
+    return bool(mesh_filter.GetTolerance() > 0 or mesh_filter.GetNumberOfVertices() == 0)
+
+
 def run(job: Job, folder: Path, mesh_format: str) -> None:
     # Before the scan is read: if it changes meanwhile, the job is not done.
     identity = identity_of(job, mesh_format)
@@ -57,12 +61,16 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
         first_mesh = read_mesh(job.first_mesh) if job.first_mesh else None
         times.append(time.perf_counter())
         mesh_filter = make_filter(**parameters)
-        # If it is there, the job was killed: it goes on from there.
-        mesh_filter.SetCheckpointFileName(str(checkpoint_path(folder, job.name, identity)))
+        # If it is there, the job was killed: it goes on from there. A number of vertices is found anew.
+        if not _is_size_to_be_found(mesh_filter):
+            mesh_filter.SetCheckpointFileName(str(checkpoint_path(folder, job.name, identity)))
         mesh_filter.KeepCheckpointOn()
         cloud = take_input(mesh_filter, points, weights)
         path = result_path(folder, job.name, mesh_format)
-        require_digits(points, mesh_filter.GetNumberOfVertices(), path, job.shift)
+        most = mesh_filter.GetNumberOfVertices()
+        if _is_size_to_be_found(mesh_filter):
+            most = max(4, counts_of(points)[0] // 2)
+        require_digits(points, most, path, job.shift)
         mesh, *_ = _world.learn(mesh_filter, cloud, first_mesh, _end_with(os.getppid()), points)
         require_points(mesh)
     times.append(time.perf_counter())

@@ -40,6 +40,7 @@ def run(arguments: Sequence[str]) -> int:
     options = parser().parse(arguments)
     options.inputs, options.output = _names(options)
     mesh = _filter_of(options)
+    _require_sound_size(options, mesh)
     shift = _shift_of(options.shift)
     _require_sound_files(options, mesh)
 
@@ -47,7 +48,9 @@ def run(arguments: Sequence[str]) -> int:
     drawn = _draw(options, mesh) if options.in_place or options.raw is not None else None
     points = drawn.points if drawn else _read(options, mesh)
     first = read_mesh(options.initial) if options.initial else None
-    files.require_digits(points.points, options.vertices, options.output, shift)
+    files.require_digits(
+        points.points, mesh.most_vertices(len(points.points)), options.output, shift
+    )
     watch.append(time.monotonic())
     if options.dry_run:
         print_estimate(mesh, points, first, _names_in_errors(options))
@@ -88,6 +91,22 @@ def run(arguments: Sequence[str]) -> int:
     return _WARNED if options.strict and outcome.warnings else 0
 
 
+def _require_sound_size(options: argparse.Namespace, mesh: Any) -> None:
+    """UsageError where a number of vertices that is to be found excludes something else."""
+    if not mesh.is_size_to_be_found():
+        return
+    problem = mesh.why_no_size(
+        bool(options.initial or options.ensemble), bool(options.checkpoint)
+    )
+    if problem:
+        raise UsageError(f"{'--tolerance' if options.tolerance else '--vertices auto'}: {problem}")
+    if options.dry_run:
+        raise UsageError(
+            "--dry-run: how long a run takes is told for a number of vertices, not for one that is to be "
+            "found"
+        )
+
+
 def _names(options: argparse.Namespace) -> tuple[list[str], str]:
     """The last of all names is OUTPUT."""
     *inputs, output = options.files
@@ -123,6 +142,11 @@ def _filter_of(options: argparse.Namespace) -> Any:
     mesh.SetNumberOfVertices(options.vertices)
     for level in options.levels or []:
         mesh.AddLevel(level)
+    if options.tolerance is not None:
+        length, is_percent = options.tolerance
+        mesh.SetTolerance(length)
+        mesh.SetToleranceIsPercent(is_percent)
+        mesh.SetToleranceMeasure(options.tolerance_of)
     mesh.SetSeed(options.seed)
     mesh.SetVariant(options.method)
     mesh.SetOrder(options.order)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from typing import Sequence
 
 from . import settings
@@ -28,6 +29,12 @@ _FIDELITIES = {
     "default": "creases, tips and noise, too",
     "high": "until hardly anything is gained",
 }
+_AUTO = "auto"
+_MEASURES = {
+    "rms": "the root of the mean square",
+    "99": "the one that 99 %% do not exceed",
+    "largest": "",
+}
 _TOPOLOGIES = {
     "off": "the surface keeps the topology of its start",
     "on": "learn handles and openings",
@@ -46,6 +53,31 @@ def _levels_of(text: str) -> list[int]:
     return [convert(number) for number in text.split(",")]
 
 
+def _vertices_of(text: str) -> int:
+    if text == _AUTO:
+        return 0
+    allowed = property_of("NumberOfVertices")
+    try:
+        return int(number_from(allowed.low, allowed.high, True)(text))
+    except argparse.ArgumentTypeError as error:
+        raise argparse.ArgumentTypeError(f"{error}, nor {_AUTO}") from None
+
+
+def _tolerance_of(text: str) -> tuple[float, bool]:
+    """A length, and whether it is in percent."""
+    is_percent = text.endswith("%")
+    try:
+        length = float(text.removesuffix("%"))
+    except ValueError:
+        length = math.nan
+    largest = property_of("Tolerance").high
+    if not (0 < length <= largest):
+        raise argparse.ArgumentTypeError(
+            f"{text} is no length above 0, to {plain(largest)}, with % behind it or without"
+        )
+    return length, is_percent
+
+
 class _ReconstructParser(Parser):
     def parse(self, arguments: Sequence[str]) -> argparse.Namespace:
         options = super().parse(arguments)
@@ -60,9 +92,17 @@ class _ReconstructParser(Parser):
         if options.levels is not None:
             if options.vertices is not None:
                 self.error("--levels excludes --vertices")
+            if options.tolerance is not None:
+                self.error("--levels excludes --tolerance")
             options.vertices = options.levels[-1]
         elif options.vertices is None:
             options.vertices = property_of("NumberOfVertices").default
+        elif options.tolerance is not None:
+            self.error("--vertices excludes --tolerance")
+        if options.tolerance_of is None:
+            options.tolerance_of = int(property_of("ToleranceMeasure").default)
+        elif options.tolerance is None:
+            self.error("--tolerance-of requires --tolerance")
         if options.checkpoint_interval is None:
             options.checkpoint_interval = property_of("CheckpointInterval").default
         elif not options.checkpoint:
@@ -86,12 +126,12 @@ def parser() -> Parser:
         help=f"{POINTS}; several files are one cloud. The last name is the mesh: {' '.join(OUTPUTS)} "
         "(.vtp .vtk by VTK); another file than all others",
     )
-    vertices = property_of("NumberOfVertices")
     result.add_argument(
         "--vertices",
-        type=number_from(vertices.low, vertices.high, True),
-        metavar="N",
-        help=f"Vertices of the mesh, {described('NumberOfVertices')}",
+        type=_vertices_of,
+        metavar=f"N|{_AUTO}",
+        help=f"Vertices of the mesh, {described('NumberOfVertices')}; {_AUTO}: as many as INPUT has "
+        "something to tell for",
     )
     result.add_argument(
         "--levels",
@@ -100,6 +140,17 @@ def parser() -> Parser:
         help="Levels of detail: meshes of N1, N2, ... vertices in one run, in place of --vertices; the "
         "largest is OUTPUT, the others lie beside it, such as OUTPUT_1000.vtp",
     )
+    result.add_argument(
+        "--tolerance",
+        type=_tolerance_of,
+        metavar="LENGTH[%]",
+        help="As few vertices as bring held-out points so close to the mesh, noise taken off: in units of "
+        "INPUT, or with %% behind it in percent of the diagonal of its bounding box",
+    )
+    result.add_choice(
+        "--tolerance-of", list(_MEASURES), None,
+        f"Which distance --tolerance limits; {described_words(_MEASURES, 'rms')}",
+    )  # fmt: skip
     result.add_number(
         "--seed", "Seed",
         f"Seed of the random numbers, {described('Seed')}: the same seed, the same mesh", "N",

@@ -46,6 +46,8 @@ def print_run(run: Any, mesh: Mesh, points: Mesh, drawn: Drawn | None, seconds: 
     _print_sides(fields)
     _print_quality(fields)
     _print_choices(fields)
+    for number, reason in enumerate(fields.get("Choice", ())):
+        print(f"{'' if number else 'how many':10} {reason}")
 
 
 def print_reasons(fields: dict[str, Any]) -> None:
@@ -99,7 +101,7 @@ def _print_phases(run: Any, drawn: Drawn | None) -> None:
     choice, drawing = run.GetChoiceTime(), drawn.seconds if drawn else 0.0
     whole = drawing + choice + sum(phases.values())
     parts = [f"drawing {drawing:.2f}"] if drawn else []
-    parts += [f"choice {choice:.2f}"] if run.GetAutomatic() else []
+    parts += [f"choice {choice:.2f}"] if choice > 0 else []
     parts += [f"{name} {value:.2f}" for name, value in phases.items()]
     print(f"phases     {whole:.2f} CPU s ({', '.join(parts)})")
 

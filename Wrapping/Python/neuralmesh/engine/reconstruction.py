@@ -94,6 +94,20 @@ class NeuralMesh(NeuralMeshAlgorithm):
     def _vertices_of_largest(self) -> int:
         return self._levels[-1] if self._levels else int(self._values["NumberOfVertices"])
 
+    def is_size_to_be_found(self) -> bool:
+        """Whether there is no number of vertices, or a tolerance takes its place."""
+        return self._values["Tolerance"] > 0 or self._vertices_of_largest() == 0
+
+    def why_no_size(self, has_first_mesh: bool, has_checkpoint: bool) -> str:
+        """What a number of vertices that is to be found excludes, as a sentence; empty if nothing."""
+        return _engine.why_no_size(
+            self._engine_values(), has_first_mesh, has_checkpoint, bool(self._values["Automatic"])
+        )
+
+    def most_vertices(self, points: int) -> int:
+        """Of the largest mesh that there may be of so many points."""
+        return max(4, points // 2) if self.is_size_to_be_found() else self._vertices_of_largest()
+
     def SetWeightArrayName(self, name: str | None) -> None:
         """The point array of weights."""
         if self._weight_array_name != (name or ""):
@@ -187,6 +201,11 @@ class NeuralMesh(NeuralMeshAlgorithm):
             )
         if self._levels and self._values["GrowthAsTime"]:
             raise ValueError("Levels and growth as time exclude each other.")
+        if self.is_size_to_be_found() and self._values["GrowthAsTime"]:
+            raise ValueError(
+                "A number of vertices that is to be found, by itself or by a tolerance, and growth as "
+                "time exclude each other."
+            )
         warnings: list[str] = []
 
         def warn(*texts: str) -> None:
@@ -215,7 +234,7 @@ class NeuralMesh(NeuralMeshAlgorithm):
         precision = self._values["OutputPointsPrecision"]
         is_double = precision == _DOUBLE or (
             precision != _SINGLE
-            and (cloud.has_doubles or run.needs_doubles(self._vertices_of_largest()))
+            and (cloud.has_doubles or run.needs_doubles(self.most_vertices(len(cloud))))
         )
         finds_lines = bool(self._values["ComputeFeatureLines"])
         end_of_mesh = _BEGIN_OF_CARRYING if carried else 1.0
@@ -234,6 +253,9 @@ class NeuralMesh(NeuralMeshAlgorithm):
                 if first_mesh is None
                 else np.ascontiguousarray(first_mesh.triangles, dtype=np.int64)
             ),
+            float(self._values["Tolerance"]),
+            bool(self._values["ToleranceIsPercent"]),
+            int(self._values["ToleranceMeasure"]),
             bool(self._values["Automatic"]),
             explains,
             end_of_mesh,

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/SizeChoice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace neuralmesh
+{
+namespace
+{
+/// With fewer there is no surface to try sizes on.
+constexpr std::size_t FewestToChooseBy = 500;
+
+std::string lengthText(double length)
+{
+  std::ostringstream stream;
+  stream.precision(3);
+  stream << length;
+  return stream.str();
+}
+
+std::string_view measureText(ToleranceMeasure measure)
+{
+  switch (measure)
+  {
+    case ToleranceMeasure::NinetyNinePercent:
+      return "99 % of the distances";
+    case ToleranceMeasure::Largest:
+      return "the largest distance";
+    case ToleranceMeasure::RootMeanSquare:
+      break;
+  }
+  return "root mean square distance";
+}
+
+/// By which power of the number of vertices the error falls from one trial to the other; 0 if it does not.
+double exponentOf(const SizeTrial& fewer, const SizeTrial& more)
+{
+  const double gain = std::log(fewer.error / more.error);
+  return std::isfinite(gain) && more.vertices > fewer.vertices
+    ? std::max(0., gain / std::log(double(more.vertices) / double(fewer.vertices)))
+    : 0.;
+}
+}
+
+double SizeGoal::lengthFor(const PointCloud& cloud) const
+{
+  return isPercent ? tolerance / 100. * cloud.diagonal() * cloud.unit() : tolerance;
+}
+
+std::optional<SizeGoal> sizeGoalOf(
+  std::uint64_t vertices, double tolerance, bool isPercent, ToleranceMeasure measure)
+{
+  return vertices == 0 || tolerance > 0. ? std::optional(SizeGoal{ tolerance, isPercent, measure })
+                                         : std::nullopt;
+}
+
+std::string whyNoSize(const Parameters& parameters, const BesideSize& beside)
+{
+  const bool hasRules = parameters.timeLimit > 0. || parameters.maximumIterations > 0 ||
+    parameters.targetSampleDistance > 0. || parameters.targetCloudDistance > 0. ||
+    parameters.targetNormalChange > 0.;
+  for (const auto& [isThere, name] :
+    { std::pair(beside.firstMesh, "a first mesh or an ensemble"),
+      std::pair(beside.checkpoint, "a checkpoint"), std::pair(beside.snapshots, "growth as time"),
+      std::pair(beside.automatic, "the automatic choice of parameters"),
+      std::pair(beside.levels, "levels"),
+      std::pair(hasRules, "a stopping rule other than the number of vertices") })
+  {
+    if (isThere)
+    {
+      return std::string(
+               "A number of vertices that is to be found, by itself or by a tolerance, and ") +
+        name + " exclude each other.";
+    }
+  }
+  return {};
+}
+
+std::string whyNoSizeFor(const PointCloud& cloud, const SizeGoal& goal)
+{
+  const std::size_t points = cloud.differentCount();
+  if (points < FewestToChooseBy)
+  {
+    return "There are " + std::to_string(points) +
+      " points, and a number of vertices is found by " + std::to_string(FewestToChooseBy) +
+      " or more: give the number.";
+  }
+  const double diagonal = cloud.diagonal() * cloud.unit();
+  if (goal.lengthFor(cloud) >= diagonal)
+  {
+    return "The tolerance is " + lengthText(goal.lengthFor(cloud)) +
+      ", and the points lie in a box whose diagonal is " + lengthText(diagonal) +
+      ": any mesh would do.";
+  }
+  return {};
+}
+
+double ErrorUnderNoise::errorWith(std::uint64_t vertices) const
+{
+  return std::hypot(coarseness * std::pow(double(vertices), -exponent), floor);
+}
+
+std::optional<double> SizeChoice::expectedWith(std::uint64_t wanted) const
+{
+  if (byNoise)
+  {
+    return byNoise->errorWith(wanted);
+  }
+  // What is too near in size tells no power of it.
+  constexpr double TimesApart = 1.5;
+  std::vector<SizeTrial> known;
+  for (const SizeTrial& trial : trials)
+  {
+    if (double(trial.vertices) * TimesApart <= double(vertices))
+    {
+      known.push_back(trial);
+    }
+  }
+  if (known.empty() || !(reached > least))
+  {
+    return {};
+  }
+  double exponent = exponentOf(known.back(), { vertices, reached });
+  if (wanted > vertices && known.size() > 1)
+  {
+    // It falls: what noise and edges leave cannot be had by vertices.
+    const double before = exponentOf(known[known.size() - 2], known.back());
+    exponent *= before > 0. ? std::min(1., exponent / before) : 1.;
+  }
+  return reached * std::pow(double(vertices) / double(wanted), exponent);
+}
+
+std::vector<std::string> SizeChoice::reasons() const
+{
+  std::vector<std::string> lines;
+  const std::string of(measureText(goal.measure));
+  if (goal.isAutomatic())
+  {
+    lines.push_back(noise > 0.
+        ? "as many as the noise of " + lengthText(noise) + " leaves something to tell for"
+        : "no noise is told, so that more would follow single points");
+  }
+  else
+  {
+    lines.push_back("as few as meet the tolerance of " + lengthText(length) + " (" + of + ")" +
+      (noise > 0. ? ", noise of " + lengthText(noise) + " taken off" : ""));
+  }
+  std::string tried;
+  for (const SizeTrial& trial : trials)
+  {
+    tried += (tried.empty() ? "tried: " : ", ") + std::to_string(trial.vertices) + " vertices " +
+      lengthText(trial.error);
+  }
+  if (!tried.empty())
+  {
+    lines.push_back(tried);
+  }
+  const bool isTold = reached > least;
+  lines.push_back("predicted " + lengthText(predicted) + ", reached " +
+    (isTold
+        ? lengthText(reached)
+        : "less than " + lengthText(least) + ", as little as the points tell under their noise"));
+  const auto half = expectedWith(std::max<std::uint64_t>(1, vertices / 2));
+  const auto twice = expectedWith(2 * vertices);
+  if (half && twice)
+  {
+    lines.push_back("half as many would give about " + lengthText(*half) +
+      ", twice as many about " + lengthText(*twice));
+  }
+  return lines;
+}
+
+std::string SizeChoice::warning() const
+{
+  if (goal.isAutomatic() || std::max(reached, least) <= length)
+  {
+    return {};
+  }
+  const std::string end = "; see the reasons of the choice.";
+  return reached <= least ? "The tolerance of " + lengthText(length) +
+      " is less than can be told under the noise of the points, " + lengthText(least) + end
+                          : "The tolerance of " + lengthText(length) + " is not met: the mesh of " +
+      std::to_string(vertices) + " vertices reaches " + lengthText(reached) + end;
+}
+}

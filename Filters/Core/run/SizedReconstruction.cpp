@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/SizedReconstruction.h"
+
+#include "run/HeldOutError.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Of the progress that is left, what a trial and the result take.
+constexpr double PartOfTrial = 0.2, PartOfResult = 0.9;
+/// ... and of a trial its growth.
+constexpr double PartOfGrowthOfTrial = 0.4;
+constexpr std::uint64_t FewestTried = 25;
+
+// All that the cloud tells: trials of few vertices, of which the second tells the noise.
+constexpr std::uint64_t PointsPerVertexAtFirst = 128;
+constexpr std::uint64_t PointsPerVertexAtSecond = 32;
+/// With fewer points a vertex neighbours are too far apart to tell noise.
+constexpr std::uint64_t FewestPointsThatTellNoise = 8;
+/// It takes time: the first trials tell it.
+constexpr std::size_t MostThatTellNoise = 2;
+/// More vertices than that bring hardly anything: without noise, and with some.
+constexpr double PointsPerVertexIfClean = 2.2, PointsPerVertexUnderNoise = 3.3;
+constexpr double PointsPerVertexAtLeast = 10.;
+/// Without noise errors fall by a power of the number of vertices that becomes less: so many times that of the trials.
+constexpr double ExponentAfterTrials = 0.62;
+/// What the mesh is too coarse for falls by this power of the number of vertices, as a mean square.
+constexpr double PowerOfCoarseness = 1.7;
+/// What may be left of it, of what noise makes of a mesh that has a vertex for so many points.
+constexpr double CoarsenessLeft = 0.04;
+
+// A tolerance.
+constexpr std::uint64_t PointsPerVertexOfGuess = 256;
+constexpr std::size_t MostTrials = 5;
+/// A trial that is to miss the tolerance has so many times fewer vertices than are expected to meet it.
+constexpr double TimesBelow = 1.25;
+/// So much finer than the last trial a mesh may be that is told by it; else one more is made, that is so much coarser.
+constexpr double MostBeyondTrial = 2.5, UsualBeyondTrial = 1.7;
+/// Errors vary from run to run: so many times the vertices that are just enough are made.
+constexpr double TimesEnough = 1.06;
+constexpr std::size_t MostCorrections = 2;
+constexpr double LeastExponent = 0.15, UsualExponent = 0.85, MostExponent = 2.5;
+/// Errors fall by a power that becomes less: beyond two trials at most 1 counts, and so much of it.
+constexpr double PartOfExponent = 0.95;
+
+/// Whether what neighbours do not have in common is noise: more than the shape would make of it. The sparser the points
+/// are at the vertices, the more that is.
+bool isNoiseBy(double difference, double error, std::uint64_t vertices, std::uint64_t points)
+{
+  constexpr double Part = 0.6;
+  const double part =
+    Part * std::cbrt(double(PointsPerVertexAtSecond) * double(vertices) / double(points));
+  return difference > std::min(part, 0.95) * error;
+}
+
+/// The least error that is told apart from none: by the standard error of a mean square under noise.
+double leastTold(const HeldOutError& error, double noise)
+{
+  return noise * std::pow(8. / std::max(1., double(error.count)), 0.25);
+}
+
+/// A run that grows one mesh, and finishes copies of it.
+class SizedRun
+{
+public:
+  SizedRun(const RunRequest& request, const SizeGoal& goal, const Progress& progress)
+    : request_(request)
+    , progress_(progress)
+    , run_(request, progress_)
+    , points_(request.cloud.differentCount())
+    , none_({}, request.cloud, request.parameters)
+  {
+    choice_.goal = goal;
+    choice_.length = goal.lengthFor(request.cloud);
+  }
+
+  Reconstruction run() { return choice_.goal.isAutomatic() ? runByCloud() : runByTolerance(); }
+
+private:
+  struct Measured
+  {
+    std::uint64_t vertices = 0;
+    HeldOutError error;
+  };
+
+  Reconstruction runByCloud()
+  {
+    const std::uint64_t first = std::max(FewestTried, points_ / PointsPerVertexAtFirst);
+    const std::uint64_t second = std::max(4 * first, points_ / PointsPerVertexAtSecond);
+    if (!tryWith(first, second) || !tryWith(second, second))
+    {
+      return *std::move(ended_);
+    }
+    const std::uint64_t vertices = sizeByCloud();
+    const Measured& last = measured_.back();
+    const double exponent =
+      ExponentAfterTrials * slopeBetween(measured_.size() - 2, measured_.size() - 1).exponent;
+    choice_.predicted = choice_.byNoise
+      ? choice_.byNoise->errorWith(vertices)
+      : errorOf(last.error) * std::pow(double(last.vertices) / double(vertices), exponent);
+    return conclude(ownRun(vertices));
+  }
+
+  /// Trials that grow, until they tell how many vertices are enough; then these, and others if they are too few.
+  Reconstruction runByTolerance()
+  {
+    // Smaller ones are simplified from as many as are learnt at least.
+    const Parameters fewest = parametersWith(FewestToAsk);
+    std::uint64_t vertices = std::max(
+      { FewestTried, points_ / PointsPerVertexOfGuess, verticesToLearn(requestWith(fewest)) });
+    double wanted = 4. * double(vertices);
+    for (std::size_t trial = 0; trial < MostTrials; ++trial)
+    {
+      if (!tryWith(vertices, std::uint64_t(wanted)))
+      {
+        return *std::move(ended_);
+      }
+      wanted = enough();
+      const bool isBracketed = errorOf(measured_.front().error) > choice_.length;
+      const auto largest = double(measured_.back().vertices);
+      if (isBracketed && wanted <= MostBeyondTrial * largest)
+      {
+        break;
+      }
+      vertices = std::uint64_t(isBracketed ? wanted / UsualBeyondTrial
+                                           : std::max(wanted / TimesBelow, double(FewestToAsk)));
+    }
+    for (std::size_t correction = 0;; ++correction)
+    {
+      const bool isLast = correction == MostCorrections;
+      const std::uint64_t size = isLast ? soundSize() : sizeByTrials();
+      choice_.predicted = std::min(expected(size), choice_.length);
+      Reconstruction result = grownRun(size);
+      if (!result.isComplete() || isLast || size == mostVertices())
+      {
+        return conclude(std::move(result));
+      }
+      const HeldOutError error = heldOutError(request_.cloud, result.surface, request_.executor);
+      if (errorOf(error) <= choice_.length)
+      {
+        return conclude(std::move(result));
+      }
+      times_.add(std::exchange(result.times, {}));
+      note(result.surface);
+    }
+  }
+
+  /// A little more than are just enough.
+  std::uint64_t sizeByTrials() const
+  {
+    return std::uint64_t(
+      std::clamp(std::ceil(TimesEnough * enough()), double(FewestToAsk), double(mostVertices())));
+  }
+
+  /// That of the smallest trial which meets the tolerance, if one does.
+  std::uint64_t soundSize() const
+  {
+    const auto sound = std::ranges::find_if(
+      measured_, [&](const Measured& one) { return errorOf(one.error) <= choice_.length; });
+    return sound != measured_.end() ? sound->vertices : sizeByTrials();
+  }
+
+  static constexpr std::uint64_t FewestToAsk = 4;
+
+  /// Two trials, between or beyond which errors follow a power of the number of vertices.
+  struct Slope
+  {
+    double vertices; ///< of the one from which it is counted
+    double error;
+    double exponent;
+  };
+
+  /// Between the largest that does not meet the tolerance and the next one; else beyond the last, or before the first.
+  Slope slope() const
+  {
+    const auto meets = [&](const Measured& one) { return errorOf(one.error) <= choice_.length; };
+    const auto first =
+      std::find_if(measured_.rbegin(), measured_.rend(), std::not_fn(meets)).base();
+    // Of [0, below) the last does not meet it.
+    const auto below = std::size_t(first - measured_.begin());
+    const std::size_t from = below > 0 ? below - 1 : 0;
+    if (below > 0 && below < measured_.size())
+    {
+      return slopeBetween(from, below);
+    }
+    // Errors vary: what lies close together tells no power.
+    constexpr double TimesApart = 1.5;
+    std::size_t other = from;
+    while (other > 0 &&
+      double(measured_[other].vertices) * TimesApart > double(measured_[from].vertices))
+    {
+      --other;
+    }
+    const bool isApart =
+      double(measured_[other].vertices) * TimesApart <= double(measured_[from].vertices);
+    Slope result{ double(measured_[from].vertices), errorOf(measured_[from].error), UsualExponent };
+    if (isApart)
+    {
+      result.exponent =
+        std::max(LeastExponent, PartOfExponent * std::min(1., slopeBetween(other, from).exponent));
+    }
+    return result;
+  }
+
+  Slope slopeBetween(std::size_t fewer, std::size_t more) const
+  {
+    const Measured& a = measured_[fewer];
+    const Measured& b = measured_[more];
+    const double exponent = std::log(errorOf(a.error) / errorOf(b.error)) /
+      std::log(double(b.vertices) / double(a.vertices));
+    return { double(a.vertices), errorOf(a.error),
+      std::isfinite(exponent) ? std::clamp(exponent, LeastExponent, MostExponent) : UsualExponent };
+  }
+
+  /// Vertices that just meet the tolerance, by the trials.
+  double enough() const
+  {
+    const Slope by = slope();
+    const double error = std::max(by.error, 1e-6 * choice_.length);
+    const double times = std::pow(error / choice_.length, 1. / by.exponent);
+    return std::clamp(times * by.vertices, double(FewestToAsk), double(mostVertices()));
+  }
+
+  double expected(std::uint64_t vertices) const
+  {
+    const Slope by = slope();
+    return by.error * std::pow(by.vertices / double(vertices), by.exponent);
+  }
+
+  /// What is learnt at most; under noise more would not come closer.
+  std::uint64_t mostVertices() const
+  {
+    constexpr double PointsPerVertexLearnt = 2.;
+    const double part = noise_ > 0. ? PointsPerVertexUnderNoise : PointsPerVertexLearnt;
+    return std::max(FewestTried, std::uint64_t(double(points_) / part));
+  }
+
+  /// In units of the input, noise taken off.
+  double errorOf(const HeldOutError& error) const
+  {
+    return request_.cloud.unit() * error.withoutNoise(choice_.goal.measure, noise_);
+  }
+
+  /// Of the mean square that the mesh is too coarse for, the factor of its power of the number of vertices: by how much
+  /// less it is with more of them. Noise is in both.
+  double coarseness() const
+  {
+    const Measured& fewer = measured_.front();
+    const Measured& more = measured_.back();
+    const auto power = [](const Measured& one)
+    { return std::pow(double(one.vertices), -PowerOfCoarseness); };
+    const auto square = [](const Measured& one)
+    { return one.error.rootMeanSquare * one.error.rootMeanSquare; };
+    return std::max(0., square(fewer) - square(more)) / (power(fewer) - power(more));
+  }
+
+  std::uint64_t sizeByCloud()
+  {
+    double most = double(points_) / PointsPerVertexIfClean;
+    double size = most;
+    if (noise_ > 0.)
+    {
+      // Where coarseness and noise have equal parts, and farther on until little is left of the first.
+      const double factor = coarseness();
+      const double balance =
+        std::pow(factor * double(points_) / (noise_ * noise_), 1. / (PowerOfCoarseness + 1.));
+      most = double(points_) / PointsPerVertexUnderNoise;
+      size = balance * std::pow(CoarsenessLeft, -1. / PowerOfCoarseness);
+      const double unit = request_.cloud.unit();
+      choice_.byNoise = ErrorUnderNoise{ unit * std::sqrt(factor), PowerOfCoarseness / 2.,
+        unit * noise_ * std::sqrt(balance / double(points_)) };
+    }
+    return std::uint64_t(std::clamp(size, double(points_) / PointsPerVertexAtLeast, most));
+  }
+
+  /// Keeps what is known of a mesh. The more vertices it has, the less of the shape is left in what neighbours do not
+  /// have in common.
+  void note(const Mesh& mesh)
+  {
+    const std::uint64_t vertices = mesh.vertexCount();
+    const HeldOutError error = heldOutError(request_.cloud, mesh, request_.executor);
+    if (measured_.empty() ||
+      (vertices > measured_.back().vertices && vertices <= points_ / FewestPointsThatTellNoise &&
+        measured_.size() < MostThatTellNoise))
+    {
+      const double difference =
+        differenceOfNeighbours(request_.cloud, mesh, error, request_.executor);
+      const bool isNoise = isNoiseBy(difference, error.rootMeanSquare, vertices, points_);
+      noise_ = isNoise ? difference : std::min(noise_, difference);
+      choice_.noise = noise_ * request_.cloud.unit();
+    }
+    measured_.push_back({ vertices, error });
+    std::ranges::sort(measured_, {}, &Measured::vertices);
+  }
+
+  Parameters parametersWith(std::uint64_t vertices) const
+  {
+    Parameters parameters = request_.parameters;
+    parameters.numberOfVertices = vertices;
+    return parameters;
+  }
+
+  RunRequest requestWith(const Parameters& parameters) const
+  {
+    return { request_.cloud, parameters, request_.first, request_.executor, request_.hints,
+      request_.explainsAll };
+  }
+
+  /// Where what comes next ends, of the whole progress.
+  ProgressPart next(double part)
+  {
+    const double begin = done_;
+    done_ += part * (1. - done_);
+    return { begin, done_ };
+  }
+
+  /// What a mesh of so many vertices grows from: the last one, if its first surface is fine enough for the `largest`
+  /// that is expected, or a new first surface.
+  Beginning beginningFor(std::uint64_t vertices, std::uint64_t largest, ProgressPart part)
+  {
+    constexpr double TimesFiner = 1.5;
+    // A mesh grows from a first surface of fewer vertices.
+    constexpr double MostOfMesh = 0.6;
+    while (largest > vertices && double(firstVertices(largest)) > MostOfMesh * double(vertices))
+    {
+      largest = std::max(vertices, largest / 2);
+    }
+    const bool isFine =
+      grown_ && double(firstVertices(largest)) <= TimesFiner * double(firstVertices(startedFor_));
+    if (isFine && grown_->mesh && grown_->mesh->vertexCount() <= vertices)
+    {
+      isGrown_ = true;
+      return *grown_;
+    }
+    PhaseTimes times;
+    times.enter(Phase::Start);
+    startedFor_ = std::max(vertices, largest);
+    start_ = run_.begin(startedFor_, part);
+    times.leave();
+    times_.add(times);
+    isGrown_ = false;
+    return start_;
+  }
+
+  LearntRun learn(std::uint64_t vertices, std::uint64_t largest, ProgressPart part)
+  {
+    const double middle = part.begin + 0.2 * (part.end - part.begin);
+    const Parameters parameters = parametersWith(vertices);
+    const std::uint64_t learnt = verticesToLearn(requestWith(parameters));
+    Beginning beginning = beginningFor(learnt, largest, { part.begin, middle });
+    LearntRun run = run_.learn(learnt, std::move(beginning), { middle, part.end }, none_);
+    run.isLearnt = run.isLearnt || isGrown_;
+    grown_ = Beginning{ run.learnt.mesh, start_.gaps, start_.weights };
+    return run;
+  }
+
+  /// Makes and measures a mesh. False if that was ended: then there is what the run ends with.
+  bool tryWith(std::uint64_t vertices, std::uint64_t largest)
+  {
+    const ProgressPart part = next(PartOfTrial);
+    const double middle = part.begin + PartOfGrowthOfTrial * (part.end - part.begin);
+    LearntRun learnt = learn(vertices, largest, { part.begin, middle });
+    times_.add(std::exchange(learnt.result.times, {}));
+    PhaseTimes times;
+    times.enter(Phase::Choice);
+    std::optional<Mesh> mesh;
+    if (learnt.result.isComplete())
+    {
+      mesh = run_.meshOf(learnt, vertices, { middle, part.end });
+    }
+    if (!mesh)
+    {
+      ended_ = run_.finish(std::move(learnt), vertices, { part.end, part.end });
+      ended_->times.add(times_);
+      return false;
+    }
+    note(*mesh);
+    times.leave();
+    times_.add(times);
+    return true;
+  }
+
+  /// A mesh that goes on from the last trial.
+  Reconstruction grownRun(std::uint64_t vertices)
+  {
+    const ProgressPart part = next(PartOfResult);
+    const double middle = part.begin + PartOfGrowthOfTrial * (part.end - part.begin);
+    const Parameters parameters = parametersWith(vertices);
+    LearntRun learnt = learn(vertices, vertices, { part.begin, middle });
+    return betterRun(run_.finish(std::move(learnt), vertices, { middle, part.end }),
+      requestWith(parameters), partOf(progress_, part.end, part.end));
+  }
+
+  Reconstruction ownRun(std::uint64_t vertices)
+  {
+    return reconstruct(request_.cloud, parametersWith(vertices), partOf(progress_, done_, 1.),
+      request_.first, {}, {}, request_.executor, request_.hints, request_.explainsAll);
+  }
+
+  /// Measures what the run ends with, and tells how it came to be.
+  Reconstruction conclude(Reconstruction result)
+  {
+    result.times.add(times_);
+    if (!result.isComplete())
+    {
+      return result;
+    }
+    for (const Measured& one : measured_)
+    {
+      choice_.trials.push_back({ one.vertices, errorOf(one.error) });
+    }
+    const HeldOutError error = heldOutError(request_.cloud, result.surface, request_.executor);
+    choice_.vertices = result.surface.vertexCount();
+    choice_.reached = errorOf(error);
+    choice_.least = leastTold(error, noise_) * request_.cloud.unit();
+    if (const std::string warning = choice_.warning(); !warning.empty())
+    {
+      result.warnings.push_back(warning);
+    }
+    result.size = std::move(choice_);
+    progress_(1.);
+    return result;
+  }
+
+  RunRequest request_;
+  const Progress& progress_;
+  Run run_;
+  std::uint64_t points_;
+  Checkpoint none_;
+  SizeChoice choice_;
+  std::vector<Measured> measured_;
+  double noise_ = 0.; ///< in units of the cloud
+  Beginning start_;
+  std::uint64_t startedFor_ = 0;
+  std::optional<Beginning> grown_; ///< what was learnt last, before its fit
+  bool isGrown_ = false;           ///< whether the mesh that learns comes from another one
+  double done_ = 0.;
+  PhaseTimes times_;
+  std::optional<Reconstruction> ended_;
+};
+}
+
+Reconstruction reconstructSized(
+  const RunRequest& request, const SizeGoal& goal, const Progress& progress)
+{
+  return SizedRun(request, goal, progress).run();
+}
+}
