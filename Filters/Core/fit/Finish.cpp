@@ -125,6 +125,10 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   const auto beginAnew = [&]
   {
     surfaceFit.emplace(cloud_, mesh_, samples, executor_, normalOf_, viewOf_);
+    if (plan_.keepsBoundaries)
+    {
+      surfaceFit->keepBoundaries();
+    }
     if (report_.smoothnessOfVertices)
     {
       surfaceFit->tellSmoothness(*report_.smoothnessOfVertices);
