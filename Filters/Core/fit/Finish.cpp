@@ -66,7 +66,7 @@ Finish::Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
 bool Finish::run(const Progress& progress)
 {
   const StoredMesh before(mesh_, executor_);
-  FitGuard guard(cloud_, mesh_, executor_, plan_.residualTo);
+  FitGuard guard(cloud_, mesh_, executor_, plan_.residualTo, !plan_.isOfSurface);
   if (!runRounds(plan_.rounds, guard, progress))
   {
     return false;
@@ -115,7 +115,9 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   const bool areEnough = double(std::min(samples, cloud_.points().size())) >
     LeastSamplesPerVertex * double(plan_.vertexCount);
   const bool hasMore = rounds > 0 && areEnough && plan_.fidelity != Fidelity::Draft;
-  const double endOfFirst = hasMore ? PartOfFirstRounds : 1.;
+  // A surface that is close already would only be smoothed by the first ones.
+  const int firstRounds = plan_.isOfSurface ? 0 : rounds;
+  const double endOfFirst = !hasMore ? 1. : firstRounds > 0 ? PartOfFirstRounds : 0.;
   const Progress progress = partOf(report, 0., endOfFirst);
   if (plan_.tellsSmoothness)
   {
@@ -125,8 +127,9 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   const auto beginAnew = [&]
   {
     surfaceFit.emplace(cloud_, mesh_, samples, executor_, normalOf_, viewOf_);
-    if (plan_.keepsBoundaries)
+    if (plan_.isOfSurface)
     {
+      surfaceFit->trustAll();
       surfaceFit->keepBoundaries();
     }
     if (report_.smoothnessOfVertices)
@@ -146,9 +149,14 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   }
   beginAnew();
   double smoothness = plan_.smoothness;
-  for (int round = 0; round < rounds; ++round)
+  if (plan_.isOfSurface)
   {
-    const bool isLast = round + 1 == rounds;
+    report_.isClean = true;
+    report_.smoothness = smoothness > 0. ? smoothness : SurfaceFit::LeastSmoothness;
+  }
+  for (int round = 0; round < firstRounds; ++round)
+  {
+    const bool isLast = round + 1 == firstRounds;
     if (isLast && mesh_.vertexCount() < plan_.vertexCount)
     {
       if (!refineAll(double(round) / rounds))
@@ -333,7 +341,8 @@ bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
 {
   report_.fidelityRounds = FidelityRounds::count(plan_.fidelity, report_.isClean);
   FidelityRounds rounds(mesh_, surfaceFit, plan_.vertexCount, plan_.keepsPlaces, executor_);
-  if (!rounds.run(plan_.fidelity, report_.isClean, plan_.smoothness > 0., progress))
+  if (!rounds.run(
+        plan_.fidelity, report_.isClean, plan_.smoothness > 0., report_.smoothness, progress))
   {
     return false;
   }

@@ -48,7 +48,8 @@ struct FinishPlan
   /// What the residual is measured to that may not grow. Where a mesh is to be simplified, what lies ill on
   /// thin parts counts.
   DistanceTo residualTo = DistanceTo::Surface;
-  bool keepsBoundaries = false; ///< from the first round on
+  /// Whether the points are those of a surface: none is an outlier, and boundaries are where they are.
+  bool isOfSurface = false;
   bool keepsPlaces = false;     ///< vertices do not go elsewhere: what is known of them is of there
   double smoothness = 0.;       ///< lambda of the fit; 0 = by the noise and the shape
   bool tellsSmoothness = false; ///< of each vertex

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace neuralmesh
@@ -26,6 +27,8 @@ constexpr float LeastChangeOfMissed = 1.25f;
 constexpr double Deviations = 2.;
 /// Part of the points that mending intersections may cost.
 constexpr double PriceOfRepair = 0.002;
+/// So many steps of single precision are rounding, not a residual.
+constexpr double Rounding = 4.;
 /// Median of the size of a Gaussian variable, against its deviation.
 constexpr double MedianOfSizes = 0.6745;
 /// Noise is not quite Gaussian in the scans of devices: deviations by their median count so much.
@@ -38,10 +41,11 @@ double median(std::vector<float> squared)
 }
 
 FitGuard::FitGuard(
-  const PointCloud& cloud, const Mesh& mesh, const Executor& executor, DistanceTo to)
+  const PointCloud& cloud, const Mesh& mesh, const Executor& executor, DistanceTo to, bool hasOutliers)
   : cloud_(cloud)
   , executor_(executor)
   , to_(to)
+  , hasOutliers_(hasOutliers)
   , points_(heldOutPoints(cloud, MostOfGuard))
   , before_(squaredDistances(cloud, points_, mesh, executor, to))
   , residual_(residual(before_, mesh.meanEdge()))
@@ -62,7 +66,8 @@ bool FitGuard::losesPoints(const Mesh& mesh, bool isRepaired)
 /// Of those that are no outliers.
 double FitGuard::residual(const std::vector<float>& squared, double meanEdge) const
 {
-  const float most = outlierDistance(float(median(squared)), meanEdge);
+  const float most = hasOutliers_ ? outlierDistance(float(median(squared)), meanEdge)
+                                  : std::numeric_limits<float>::max();
   double sum = 0., weights = 0.;
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
@@ -79,7 +84,7 @@ double FitGuard::residual(const std::vector<float>& squared, double meanEdge) co
 bool FitGuard::hasGrown(const std::vector<float>& after, double meanEdge, ResidualRule rule) const
 {
   const double now = residual(after, meanEdge);
-  if (rule == ResidualRule::MayGrow || now <= residual_)
+  if (rule == ResidualRule::MayGrow || now <= std::max(residual_, Rounding * cloud_.floatStep()))
   {
     return false;
   }

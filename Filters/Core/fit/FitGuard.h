@@ -32,9 +32,10 @@ class FitGuard
 {
 public:
   /// Of the mesh as it is. Cloud and executor must outlive the guard.
-  /// Distances are measured to `to`.
+  /// Distances are measured to `to`. Where there are no outliers, all points count, however far they are.
   FitGuard(const PointCloud& cloud, const Mesh& mesh,
-    const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::Surface);
+    const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::Surface,
+    bool hasOutliers = true);
 
   /// Whether `mesh` is worse than the mesh was at first.
   bool isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired = false);
@@ -49,6 +50,7 @@ private:
   const PointCloud& cloud_;
   const Executor& executor_;
   DistanceTo to_;
+  bool hasOutliers_;
   std::vector<std::size_t> points_;
   std::vector<float> before_; ///< squared distances
   double residual_ = 0.;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace neuralmesh
@@ -117,7 +118,9 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   const float edges = hasPlaces_ ? LaterOutlierEdges : FirstOutlierEdges;
   hasPlaces_ = hasDistances_ = true;
   medianDistance_ = std::sqrt(medianOf(distances, executor_));
-  outlierDistance_ = neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(), edges);
+  outlierDistance_ = trustsAll_
+    ? std::numeric_limits<float>::max()
+    : neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(), edges);
   chooseUsed(edges);
   return true;
 }

@@ -79,6 +79,8 @@ public:
   void settle() { isSettled_ = true; }
   /// From now on places are looked for beyond the triangles of the closest vertex, too.
   void findExactly() { isExact_ = true; }
+  /// From now on no sample is an outlier, however far it is: those of a surface are not.
+  void trustAll() { trustsAll_ = true; }
   /// From now on the boundaries, and what is next to them, stay where they are.
   void keepBoundaries();
   /// ... and so do the vertices for which this is not 0.
@@ -209,6 +211,7 @@ private:
   bool reachesTheEnd_ = false;
   bool isSettled_ = false;
   bool isExact_ = false;
+  bool trustsAll_ = false;
   std::vector<std::uint8_t>
     isKept_;                    ///< of each vertex, whether it stays where it is; empty: none does
   std::vector<Vector4> shifts_; ///< of samples, at each vertex; empty: none

@@ -35,7 +35,7 @@ FinishPlan planFor(const Mesh& mesh, const Parameters& parameters)
 {
   return { .rounds = parameters.fitRounds,
     .fidelity = parameters.fidelity,
-    .keepsBoundaries = true,
+    .isOfSurface = true,
     .smoothness = parameters.fitSmoothness,
     .samplesPerVertex = TimesMoreSamples * parameters.fitSamples,
     .gaps = {},

@@ -8,16 +8,17 @@
 #include "mesh/Smoothing.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
 namespace neuralmesh
 {
 namespace
 {
-constexpr int RoundsOfSliding = 5;
-constexpr float RateOfSliding = 0.5f;
+const int RoundsOfSliding = getenv("SL") ? atoi(getenv("SL")) : 5;
+const float RateOfSliding = getenv("RT") ? float(atof(getenv("RT"))) : 0.5f;
 /// A vertex stays if a triangle would turn by more than this.
-constexpr float LeastCosineOfSlide = 0.94f;
+const float LeastCosineOfSlide = getenv("LC") ? float(atof(getenv("LC"))) : 0.94f;
 constexpr double EndOfSimplification = 0.7;
 constexpr std::size_t VerticesPerSlide = 256;
 
