@@ -27,6 +27,8 @@ constexpr double PartOfFirstRounds = 0.4;
 constexpr double PartOfPlaces = 0.5;
 /// For them.
 constexpr double LeastSamplesPerVertex = 1.5;
+/// Of the residual of a surface: what its slivers may cost.
+constexpr double MostGrownBySlivers = 0.02;
 /// A piece with less than this part of the area has shrunk to a point.
 constexpr double ShrunkPart = 1e-14;
 
@@ -66,7 +68,7 @@ Finish::Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
 bool Finish::run(const Progress& progress)
 {
   const StoredMesh before(mesh_, executor_);
-  FitGuard guard(cloud_, mesh_, executor_, plan_.residualTo, !plan_.isOfSurface);
+  FitGuard guard(cloud_, mesh_, executor_, plan_.residualTo, plan_.surface == nullptr);
   if (!runRounds(plan_.rounds, guard, progress))
   {
     return false;
@@ -116,7 +118,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     LeastSamplesPerVertex * double(plan_.vertexCount);
   const bool hasMore = rounds > 0 && areEnough && plan_.fidelity != Fidelity::Draft;
   // A surface that is close already would only be smoothed by the first ones.
-  const int firstRounds = plan_.isOfSurface ? 0 : rounds;
+  const int firstRounds = plan_.surface ? 0 : rounds;
   const double endOfFirst = !hasMore ? 1. : firstRounds > 0 ? PartOfFirstRounds : 0.;
   const Progress progress = partOf(report, 0., endOfFirst);
   if (plan_.tellsSmoothness)
@@ -127,9 +129,9 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   const auto beginAnew = [&]
   {
     surfaceFit.emplace(cloud_, mesh_, samples, executor_, normalOf_, viewOf_);
-    if (plan_.isOfSurface)
+    if (plan_.surface)
     {
-      surfaceFit->trustAll();
+      surfaceFit->keepTo(*plan_.surface);
       surfaceFit->keepBoundaries();
     }
     if (report_.smoothnessOfVertices)
@@ -149,7 +151,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   }
   beginAnew();
   double smoothness = plan_.smoothness;
-  if (plan_.isOfSurface)
+  if (plan_.surface)
   {
     report_.isClean = true;
     report_.smoothness = smoothness > 0. ? smoothness : SurfaceFit::LeastSmoothness;
@@ -217,7 +219,16 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   }
   surfaceFit.reset();
   dropShrunkPieces();
+  const StoredMesh withSlivers(mesh_, executor_);
   repairSlivers(mesh_, guard, executor_);
+  if (plan_.surface)
+  {
+    Mesh before = withSlivers.mesh(executor_);
+    if (guard.hasGrown(before, mesh_, MostGrownBySlivers))
+    {
+      mesh_ = std::move(before);
+    }
+  }
   return true;
 }
 

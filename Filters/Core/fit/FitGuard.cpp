@@ -40,8 +40,8 @@ double median(std::vector<float> squared)
 }
 }
 
-FitGuard::FitGuard(
-  const PointCloud& cloud, const Mesh& mesh, const Executor& executor, DistanceTo to, bool hasOutliers)
+FitGuard::FitGuard(const PointCloud& cloud, const Mesh& mesh, const Executor& executor,
+  DistanceTo to, bool hasOutliers)
   : cloud_(cloud)
   , executor_(executor)
   , to_(to)
@@ -56,6 +56,14 @@ bool FitGuard::isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired)
 {
   const std::vector<float> after = squaredDistances(cloud_, points_, mesh, executor_, to_);
   return hasGrown(after, mesh.meanEdge(), rule) || losesPoints(after, isRepaired);
+}
+
+bool FitGuard::hasGrown(const Mesh& before, const Mesh& mesh, double part) const
+{
+  const auto residualOf = [this](const Mesh& one)
+  { return residual(squaredDistances(cloud_, points_, one, executor_, to_), one.meanEdge()); };
+  return residualOf(mesh) >
+    std::max((1. + part) * residualOf(before), Rounding * cloud_.floatStep());
 }
 
 bool FitGuard::losesPoints(const Mesh& mesh, bool isRepaired)

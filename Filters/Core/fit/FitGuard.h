@@ -39,6 +39,8 @@ public:
 
   /// Whether `mesh` is worse than the mesh was at first.
   bool isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired = false);
+  /// Whether its residual is larger than that of `before` by more than this part.
+  bool hasGrown(const Mesh& before, const Mesh& mesh, double part) const;
   /// Whether it misses more points than the mesh did at first.
   bool losesPoints(const Mesh& mesh, bool isRepaired);
 

@@ -34,8 +34,9 @@ public:
   /// The mesh is copied. Takes O(n log n) for n triangles, of which there may be 4294967295 at most.
   explicit NearestTriangle(const TriangleMesh& mesh);
 
-  /// Finds nothing if there are no triangles, or if the point is not finite.
-  Found find(const Eigen::Vector3d& point) const;
+  /// Finds nothing if there are no triangles, if the point is not finite, or if none is nearer than that.
+  Found find(const Eigen::Vector3d& point,
+    double squaredDistance = std::numeric_limits<double>::infinity()) const;
 
 private:
   struct Triangle

@@ -16,8 +16,6 @@ namespace neuralmesh
 {
 namespace
 {
-/// Of the squared edge, against the squared distance: on a plane short edges go first.
-constexpr double WeightOfLength = 1e-3;
 /// Of the angle by which a triangle may turn.
 constexpr float LeastCosineOfCollapse = 0.2f;
 /// Of what draws a vertex to the middle of its edge, against the planes.
@@ -74,8 +72,9 @@ private:
 class QuadricSimplifier
 {
 public:
-  explicit QuadricSimplifier(Mesh& mesh)
+  QuadricSimplifier(Mesh& mesh, double evenness)
     : mesh_(mesh)
+    , evenness_(evenness)
     , quadrics_(mesh.indexEnd())
   {
     mesh.forEachTriangle(
@@ -156,7 +155,7 @@ private:
       return Never;
     }
     const double squared = double(squaredNorm(mesh_.position(removed) - mesh_.position(kept)));
-    return quadricOf(removed, kept).at(place) + WeightOfLength * squared;
+    return quadricOf(removed, kept).at(place) + evenness_ * squared;
   }
 
   /// Whether a triangle of `v` does that is not at the edge.
@@ -219,16 +218,17 @@ private:
   }
 
   Mesh& mesh_;
+  double evenness_;
   std::vector<Quadric> quadrics_;
   EdgeQueue<double> edges_; ///< that vanish with their first vertex
 };
 }
 
-void simplifyByQuadrics(Mesh& mesh, std::size_t count)
+void simplifyByQuadrics(Mesh& mesh, std::size_t count, double evenness)
 {
   if (mesh.vertexCount() > count)
   {
-    QuadricSimplifier(mesh).simplify(count);
+    QuadricSimplifier(mesh, evenness).simplify(count);
     mesh.dropErased();
   }
 }

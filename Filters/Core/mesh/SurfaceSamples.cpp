@@ -32,6 +32,13 @@ std::array<double, 3> cornerWeights(
   const double c = std::clamp(ab.cross(toPoint).dot(normal) / squared, 0., 1. - b);
   return { 1. - b - c, b, c };
 }
+
+Eigen::Vector3f normalOf(const TriangleMesh& mesh, std::size_t triangle)
+{
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const Eigen::Vector3d& corner = mesh.points[a];
+  return (mesh.points[b] - corner).cross(mesh.points[c] - corner).stableNormalized().cast<float>();
+}
 }
 
 SurfaceSamples sampleSurface(
@@ -49,6 +56,7 @@ SurfaceSamples sampleSurface(
   Random random(seed, StreamOfSurface);
   SurfaceSamples result;
   result.points.reserve(count);
+  result.normals.reserve(count);
   result.triangles.reserve(count);
   result.weights.reserve(count);
   for (const SurfaceSampler::Sample& sample : sampler.drawFromShares(count, random))
@@ -56,6 +64,7 @@ SurfaceSamples sampleSurface(
     const std::uint32_t triangle = surface.origins[sample.triangle];
     const auto& [a, b, c] = input.triangles[triangle];
     result.points.push_back(sample.point);
+    result.normals.push_back(normalOf(surface.mesh, sample.triangle));
     result.triangles.push_back(triangle);
     result.weights.push_back(
       cornerWeights(sample.point, { input.points[a], input.points[b], input.points[c] }));

@@ -15,6 +15,7 @@ namespace neuralmesh
 struct SurfaceSamples
 {
   std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3f> normals;       ///< of the surface, of length 1
   std::vector<std::uint32_t> triangles;       ///< of the input, on which they lie
   std::vector<std::array<double, 3>> weights; ///< of the three corners, which add up to 1
 };

@@ -31,11 +31,27 @@ OrientationReport sidesOf(Mesh& mesh)
   return turn(mesh, pieces, sides);
 }
 
-FinishPlan planFor(const Mesh& mesh, const Parameters& parameters)
+/// In the coordinates of the mesh.
+TriangleMesh trianglesIn(const Mesh& mesh)
+{
+  TriangleMesh result;
+  result.points.reserve(mesh.indexEnd());
+  for (const Vector4 position : mesh.positions())
+  {
+    result.points.push_back(position.toDouble());
+  }
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+      result.triangles.push_back({ a, b, c });
+    });
+  return result;
+}
+
+FinishPlan planFor(const Mesh& mesh, const NearestTriangle& surface, const Parameters& parameters)
 {
   return { .rounds = parameters.fitRounds,
     .fidelity = parameters.fidelity,
-    .isOfSurface = true,
+    .surface = &surface,
     .smoothness = parameters.fitSmoothness,
     .samplesPerVertex = TimesMoreSamples * parameters.fitSamples,
     .gaps = {},
@@ -80,17 +96,18 @@ std::size_t samplesOfSurface(const Parameters& parameters)
 }
 
 Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, Mesh surface,
-  const Progress& progress, const Executor& executor)
+  const PointNormals& normalOf, const Progress& progress, const Executor& executor)
 {
   Reconstruction result;
   result.times.enter(Phase::Start);
+  const NearestTriangle nearest(trianglesIn(surface));
   bool isCancelled = !startFromSurface(
-    surface, std::size_t(parameters.numberOfVertices), partOf(progress, 0., PartOfStart), executor);
+    surface, std::size_t(parameters.numberOfVertices), partOf(progress, 0., PartOfStart));
   result.times.leave();
   result.times.enter(Phase::Finish);
   if (!isCancelled && parameters.fitRounds > 0)
   {
-    Finish finish(samples, surface, planFor(surface, parameters), executor);
+    Finish finish(samples, surface, planFor(surface, nearest, parameters), executor, normalOf);
     isCancelled = !finish.run(partOf(progress, PartOfStart, 1.));
     if (!isCancelled)
     {

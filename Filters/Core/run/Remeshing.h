@@ -5,6 +5,7 @@
 #include "base/Executor.h"
 #include "base/Progress.h"
 #include "cloud/PointCloud.h"
+#include "fit/GivenNormals.h"
 #include "learn/Parameters.h"
 #include "mesh/Mesh.h"
 #include "run/Reconstruction.h"
@@ -34,9 +35,10 @@ std::string whyNoRemeshing(const Parameters& parameters, const BesideSurface& be
 /// How many samples of a surface a mesh with these parameters is fitted to.
 std::size_t samplesOfSurface(const Parameters& parameters);
 
-/// Remeshes `surface`, of which `samples` are points: simplifies or refines it to as many vertices as the
+/// Remeshes `surface`, of which `samples` are points with normals, by their index in the cloud: simplifies or refines it to as many vertices as the
 /// parameters have, evens them, and fits them to the samples. Nothing is learnt, boundaries and sides stay what they
 /// are. Where the topology needs more vertices, there are more.
 Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, Mesh surface,
-  const Progress& progress, const Executor& executor = Executor::sequential());
+  const PointNormals& normalOf, const Progress& progress,
+  const Executor& executor = Executor::sequential());
 }

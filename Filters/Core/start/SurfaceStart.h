@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/Executor.h"
 #include "base/Progress.h"
 #include "mesh/Mesh.h"
 
@@ -9,10 +8,8 @@
 
 namespace neuralmesh
 {
-/// Makes a mesh of `count` vertices of a surface: simplifies it by quadrics, or halves its longest edges, and then
-/// slides vertices along the surface, away from its boundaries and creases, so that triangles become even. It has more
-/// vertices where its topology needs them. No vertex may be erased, and none is in the end. Returns false if it
-/// was ended before its end; then the mesh is valid all the same.
-bool startFromSurface(Mesh& mesh, std::size_t count, const Progress& progress,
-  const Executor& executor = Executor::sequential());
+/// Makes a mesh of `count` vertices of a surface: simplifies it by quadrics, or halves its longest edges, and flips
+/// edges where the surface is flat. It has more vertices where its topology needs them. No vertex may be erased, and
+/// none is in the end. Returns false if it was ended before its end; then the mesh is valid all the same.
+bool startFromSurface(Mesh& mesh, std::size_t count, const Progress& progress);
 }
