@@ -20,6 +20,7 @@
 #include "PropertyOptions.h"
 #include "RunEstimate.h"
 #include "RunReport.h"
+#include "SurfaceInputs.h"
 #include "TableWriter.h"
 
 #include "vtkNeuralMesh.h"
@@ -78,6 +79,7 @@ struct ReconstructOptions
   bool Features = false;
   bool Uncertainty = false;
   bool Automatic = false;
+  bool Remesh = false;
   int Preset = 0;
   std::vector<std::string> Assignments;
   double TimeLimit = 0.0;
@@ -287,19 +289,9 @@ vtkSmartPointer<vtkPointSet> DrawPoints(vtkNeuralMeshFileSampler* sampler)
   return sampler->GetOutput();
 }
 
-/** Throws UsageError if the last of several names is no mesh: it was meant for something else. */
-void RequireSoundNames(const ReconstructOptions& options)
-{
-  if (options.Inputs.size() > 1 && !IsWritable(options.Output))
-  {
-    throw UsageError(options.Output +
-      ": this is the last of several files, so it is OUTPUT; but it has no extension of a mesh");
-  }
-}
-
 int Reconstruct(const ReconstructOptions& options)
 {
-  RequireSoundNames(options);
+  RequireSoundNames(options.Inputs, options.Output);
   const vtkSmartPointer<vtkNeuralMesh> filter = MakeFilter(options);
   PrepareFilter(filter, options);
   std::vector<NamedFile> files{ { "--initial", options.Initial },
@@ -320,6 +312,20 @@ int Reconstruct(const ReconstructOptions& options)
     { .firstMesh = !options.Initial.empty() || options.Members > 0,
       .checkpoint = !options.Checkpoint.empty(),
       .automatic = options.Automatic });
+  if (options.Remesh)
+  {
+    PrepareRemeshing(filter,
+      { .points = options.InPlace || options.Raw != vtkNeuralMeshFileSampler::BY_EXTENSION,
+        .firstMesh = !options.Initial.empty() || options.Members > 0,
+        .weights = !options.Weights.empty(),
+        .sides = options.Orientation.AreGiven(),
+        .levels = !options.Levels.empty(),
+        .checkpoint = !options.Checkpoint.empty(),
+        .automatic = options.Automatic,
+        .explanation = !options.Explanation.empty(),
+        .estimate = options.DryRun },
+      options.Inputs);
+  }
   RequireDistinctFiles(files);
   RequireWritableExtension(options.Output);
   const MeshShift shift = ParseShift(options.Shift);
@@ -355,10 +361,10 @@ int Reconstruct(const ReconstructOptions& options)
 
   Stopwatch stopwatch;
   const auto sampler = MakeSampler(options, filter);
-  const auto points = sampler
-    ? DrawPoints(sampler)
-    : ReadInputs(
-        options.Inputs, { filter->GetNumberOfViewpoints(), options.Orientation.GetViewArray() });
+  const GivenViews views{ filter->GetNumberOfViewpoints(), options.Orientation.GetViewArray() };
+  const auto points = sampler ? DrawPoints(sampler)
+    : options.Remesh          ? ReadSurface(options.Inputs)
+                              : ReadInputs(options.Inputs, views);
   if (!options.Initial.empty())
   {
     filter->SetFirstMeshData(ReadMesh(options.Initial));
@@ -464,6 +470,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   AddNumber(command, "--vertices", options->Vertices, vertices,
     "Vertices of the mesh, " + Described(vertices), "N");
   AddLevelsOption(command, options->Levels, vertices.Minimum, vertices.Maximum);
+  AddRemeshOption(command, options->Remesh);
   AddNumber(command, "--seed", options->Seed, seed,
     "Seed of the random numbers, " + Described(seed) + ": the same seed, the same mesh", "N");
   CLI::Option* const initial =

@@ -21,7 +21,10 @@ import write_vtk
 
 LIST = "Filters/Parameters.json"
 # Where options of the command stand. It says nothing else of parameters, so that nothing follows from it.
-COMMAND = ("Applications/ReconstructCommand.cxx", "Applications/OrientationOptions.cxx")
+COMMAND = (
+    "Applications/ReconstructCommand.cxx", "Applications/OrientationOptions.cxx",
+    "Applications/SurfaceInputs.cxx",
+)
 PLUGIN = "Wrapping/ParaView/NeuralMesh"
 CORE = {"choices": write_core.choices, "fields": write_core.fields, "table": write_core.table}
 VTK = {

@@ -65,10 +65,13 @@ public:
   {
     surface_.mesh.points = triangles.points;
     takeTriangles(triangles);
-    linkSides();
-    orient();
-    partFans();
-    openEdges();
+    if (!mesh().triangles.empty())
+    {
+      linkSides();
+      orient();
+      partFans();
+      openEdges();
+    }
     dropUnusedPoints();
   }
 
@@ -104,7 +107,7 @@ private:
     std::sort(sorted.begin(), sorted.end());
     const auto end = std::unique(sorted.begin(), sorted.end(),
       [](const auto& a, const auto& b) { return a.first == b.first; });
-    surface_.repeated = std::size_t(sorted.end() - end);
+    surface_.leftOut += std::size_t(sorted.end() - end);
     sorted.erase(end, sorted.end());
     std::sort(sorted.begin(), sorted.end(),
       [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -149,6 +152,7 @@ private:
     forEachEdge(sortedSides(),
       [this](auto first, auto last)
       {
+        surface_.cutEdges += last - first > 2 ? 1 : 0;
         if (last - first == 2)
         {
           opposite_[first->corner] = (first + 1)->corner;
@@ -183,7 +187,8 @@ private:
       {
         continue;
       }
-      piece.assign(1, start);
+      piece.clear();
+      piece.push_back(start);
       isSeen[start] = 1;
       double turnedArea = 0., area = 0.;
       for (std::size_t i = 0; i < piece.size(); ++i)
@@ -217,6 +222,7 @@ private:
       {
         opposite_[opposite_[corner]] = NoSide;
         opposite_[corner] = NoSide;
+        ++surface_.cutEdges;
       }
     }
     for (std::size_t triangle = 0; triangle < count; ++triangle)
@@ -361,5 +367,26 @@ private:
 ManifoldSurface manifoldOf(const TriangleMesh& triangles)
 {
   return SurfaceCutter(triangles).surface();
+}
+
+std::string warningOfSurface(const ManifoldSurface& surface)
+{
+  std::string text;
+  if (surface.leftOut > 0)
+  {
+    text = "Triangles of the input that use a point twice, use one that is not finite, or are "
+           "there already, were left "
+           "out: " +
+      std::to_string(surface.leftOut) + ".";
+  }
+  if (surface.cutEdges > 0)
+  {
+    text += (text.empty() ? "" : " ") +
+      std::string("The input is no oriented manifold: it was cut along edges at which more than "
+                  "two triangles meet, or "
+                  "sides do not agree: ") +
+      std::to_string(surface.cutEdges) + ".";
+  }
+  return text;
 }
 }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace neuralmesh
@@ -16,7 +17,7 @@ struct ManifoldSurface
   std::vector<std::uint32_t> origins; ///< of each triangle, the one of the input on which it lies
   std::size_t leftOut =
     0; ///< triangles of the input that use a point twice, or one that is not finite
-  std::size_t repeated = 0; ///< ... and those that are there already
+  std::size_t cutEdges = 0; ///< of the input, where it is none
 };
 
 /// Makes an oriented 2-manifold, with or without boundary, of any triangles. Nothing moves: points at the
@@ -26,4 +27,7 @@ struct ManifoldSurface
 ///
 /// Takes O(n log n) for n triangles.
 ManifoldSurface manifoldOf(const TriangleMesh& triangles);
+
+/// What was left out and cut, as a sentence; empty if nothing was.
+std::string warningOfSurface(const ManifoldSurface& surface);
 }

@@ -21,12 +21,13 @@ struct BesideSurface
   bool points = false; ///< in a file, in place of an input
   bool firstMesh = false;
   bool weights = false;
-  bool viewpoints = false; ///< or views, normals that are named, an up direction
+  bool sides = false; ///< viewpoints, views, normals that are named, or an up direction
   bool levels = false;
   bool checkpoint = false;
   bool snapshots = false;
   bool automatic = false;
   bool explanation = false;
+  bool estimate = false; ///< of what a run takes, without it
 };
 
 /// Why a surface is not remeshed with this, as a sentence; empty if it is.
