@@ -11,6 +11,7 @@
 #include "run/AutomaticReconstruction.h"
 #include "run/EnsembleRun.h"
 #include "run/Levels.h"
+#include "run/Remeshing.h"
 #include "run/Warnings.h"
 
 #include <nanobind/stl/string.h>
@@ -98,7 +99,15 @@ void Run::learn(Plan plan, Call& call)
       throw std::invalid_argument(problem);
     }
   }
-  warn(parameters.warnings(cloud_->points().size()), tell);
+  const bool remeshes = plan.warningOfSurface.has_value();
+  if (remeshes && !plan.warningOfSurface->empty())
+  {
+    warn({ *plan.warningOfSurface }, tell);
+  }
+  if (!remeshes)
+  {
+    warn(parameters.warnings(cloud_->points().size()), tell);
+  }
   CheckpointPlan checkpoint{ .path = plan.checkpoint,
     .interval = plan.checkpointInterval,
     .warn = [&](const std::string& text)
@@ -111,7 +120,7 @@ void Run::learn(Plan plan, Call& call)
   {
     begin = startFrom(*ensemble, parameters, checkpoint, first, tell, call);
   }
-  if (first)
+  if (first && !remeshes)
   {
     if (const std::string warning = warningOfFirst(*first, parameters); !warning.empty())
     {
@@ -154,6 +163,13 @@ void Run::learn(Plan plan, Call& call)
         },
         progress);
       shown_ = smaller_.size();
+    }
+    else if (remeshes && first)
+    {
+      result_ = remesh(
+        *cloud_, parameters, std::move(*first),
+        [this](std::size_t point) { return Vector4(hints_.normalOf(cloud_->origins()[point])); },
+        progress, executor_);
     }
     else
     {

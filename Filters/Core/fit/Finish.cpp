@@ -28,7 +28,7 @@ constexpr double PartOfPlaces = 0.5;
 /// For them.
 constexpr double LeastSamplesPerVertex = 1.5;
 /// Of the residual of a surface: what its slivers may cost.
-constexpr double MostGrownBySlivers = 0.02;
+constexpr double MostGrownBySlivers = 0.1;
 /// A piece with less than this part of the area has shrunk to a point.
 constexpr double ShrunkPart = 1e-14;
 

@@ -11,6 +11,8 @@ namespace
 {
 /// Creases and tips count for more than on a mesh that is learnt afterwards.
 constexpr double Evenness = 1e-4;
+/// Of the radius ratio: with less, normals tell little.
+constexpr float LeastShape = 0.25f;
 }
 
 bool startFromSurface(Mesh& mesh, std::size_t count, const Progress& progress)
@@ -19,7 +21,7 @@ bool startFromSurface(Mesh& mesh, std::size_t count, const Progress& progress)
   {
     return false;
   }
-  simplifyByQuadrics(mesh, count, Evenness);
+  simplifyByQuadrics(mesh, count, Evenness, LeastShape);
   flipEdges(mesh, EdgesToFlip::Flat);
   return progress(1.);
 }

@@ -41,6 +41,8 @@ def run(arguments: Sequence[str]) -> int:
     options.inputs, options.output = _names(options)
     mesh = _filter_of(options)
     shift = _shift_of(options.shift)
+    if options.remesh:
+        _prepare_remeshing(options, mesh)
     _require_sound_files(options, mesh)
 
     watch = [time.monotonic()]
@@ -152,6 +154,24 @@ def _filter_of(options: argparse.Namespace) -> Any:
     return mesh
 
 
+def _prepare_remeshing(options: argparse.Namespace, mesh: Any) -> None:
+    """UsageError if that does not go with what else is asked for."""
+    problem = mesh.remeshing_error(
+        {
+            "points": options.in_place or options.raw is not None,
+            "first_mesh": bool(options.initial),
+            "sides": bool(options.views),
+            "checkpoint": bool(options.checkpoint),
+            "estimate": options.dry_run,
+        }
+    )
+    if problem:
+        raise UsageError(f"--remesh: {problem}")
+    if len(options.inputs) > 1:
+        raise UsageError("--remesh: this goes with one INPUT only")
+    mesh.SetInputIsToSurface()
+
+
 def _tell_sides(mesh: Any, options: argparse.Namespace) -> None:
     for text in options.viewpoint:
         mesh.AddViewpoint(_place("--viewpoint", text))
@@ -241,6 +261,8 @@ def _require_sound_files(options: argparse.Namespace, mesh: Any) -> None:
 
 
 def _read(options: argparse.Namespace, mesh: Any) -> Mesh:
+    if options.remesh:
+        return read_mesh(options.inputs[0])
     return read_inputs(options.inputs, mesh.GetNumberOfViewpoints(), options.view_array)
 
 

@@ -100,6 +100,11 @@ def parser() -> Parser:
         help="Levels of detail: meshes of N1, N2, ... vertices in one run, in place of --vertices; the "
         "largest is OUTPUT, the others lie beside it, such as OUTPUT_1000.vtp",
     )
+    result.add_flag(
+        "--remesh",
+        "INPUT is a surface, of triangles or other polygons: make other, more even triangles of it, as many as "
+        f"--vertices tell; {MESHES}",
+    )
     result.add_number(
         "--seed", "Seed",
         f"Seed of the random numbers, {described('Seed')}: the same seed, the same mesh", "N",
