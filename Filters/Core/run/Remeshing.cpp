@@ -5,6 +5,7 @@
 #include "fit/Finish.h"
 #include "fit/MeshQuality.h"
 #include "mesh/Pieces.h"
+#include "mesh/StoredMesh.h"
 #include "run/Warnings.h"
 #include "start/SurfaceStart.h"
 
@@ -110,9 +111,15 @@ Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, M
   result.times.enter(Phase::Finish);
   if (!isCancelled && parameters.fitRounds > 0)
   {
+    const StoredMesh before(surface, executor);
     Finish finish(samples, surface, planFor(surface, nearest, parameters), executor, normalOf);
     isCancelled = !finish.run(partOf(progress, PartOfStart, 1.));
-    if (!isCancelled)
+    // Where a piece is small, the fit may lose it.
+    if (pieceCount(surface) < pieceCount(before.mesh(executor)))
+    {
+      surface = before.mesh(executor);
+    }
+    else if (!isCancelled)
     {
       result.finish = finish.report();
     }
