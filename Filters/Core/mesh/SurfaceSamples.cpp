@@ -44,7 +44,7 @@ Eigen::Vector3f normalOf(const TriangleMesh& mesh, std::size_t triangle)
 SurfaceSamples sampleSurface(
   const TriangleMesh& input, const ManifoldSurface& surface, std::size_t count, std::uint64_t seed)
 {
-  if (surface.mesh.triangles.empty())
+  if (input.triangles.empty())
   {
     throw std::runtime_error("The input is no surface: it has no triangles.");
   }
