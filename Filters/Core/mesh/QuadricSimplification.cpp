@@ -17,8 +17,13 @@ namespace neuralmesh
 {
 namespace
 {
-/// ... where a triangle gets nearly a line.
+/// Of the squared edge, where a triangle gets nearly a line.
 constexpr double WeightOfShape = 0.05;
+/// Of the squared edge, against the squared distance: on a plane short edges go first.
+constexpr double UsualEvenness = 1e-3;
+constexpr double EvennessOfSurface = 1e-4;
+/// Of the radius ratio, of a surface: with less, normals tell little.
+constexpr float LeastShape = 0.25f;
 /// Of the angle by which a triangle may turn.
 constexpr float LeastCosineOfCollapse = 0.2f;
 /// Of what draws a vertex to the middle of its edge, against the planes.
@@ -250,14 +255,24 @@ private:
   std::vector<Quadric> quadrics_;
   EdgeQueue<double> edges_; ///< that vanish with their first vertex
 };
-}
 
-void simplifyByQuadrics(Mesh& mesh, std::size_t count, double evenness, float leastShape)
+void simplifyBy(Mesh& mesh, std::size_t count, double evenness, float leastShape)
 {
   if (mesh.vertexCount() > count)
   {
     QuadricSimplifier(mesh, evenness, leastShape).simplify(count);
     mesh.dropErased();
   }
+}
+}
+
+void simplifyByQuadrics(Mesh& mesh, std::size_t count)
+{
+  simplifyBy(mesh, count, UsualEvenness, 0.f);
+}
+
+void simplifySurface(Mesh& mesh, std::size_t count)
+{
+  simplifyBy(mesh, count, EvennessOfSurface, LeastShape);
 }
 }

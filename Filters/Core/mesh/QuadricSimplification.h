@@ -11,8 +11,10 @@ namespace neuralmesh
 /// are left, or no collapse is legal any more: so what is thin stays longer than by simplify(). The
 /// vertex goes where it is nearest to the planes of the triangles that are gone (M. Garland and
 /// P. Heckbert, *Surface simplification using quadric error metrics*, 1997). Handles, boundaries and pieces
-/// stay. The squared edge counts `evenness` against the squared distance: on a plane short edges go first. Where a triangle
-/// would get a radius ratio below `leastShape`, an edge goes late. In the end, no vertex is erased.
-void simplifyByQuadrics(
-  Mesh& mesh, std::size_t count, double evenness = 1e-3, float leastShape = 0.f);
+/// stay. In the end, no vertex is erased.
+void simplifyByQuadrics(Mesh& mesh, std::size_t count);
+
+/// The same of a surface that is not learnt afterwards: creases and tips count for more, against short edges, and where
+/// a triangle would be nearly a line, an edge goes late.
+void simplifySurface(Mesh& mesh, std::size_t count);
 }

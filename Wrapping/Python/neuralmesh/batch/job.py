@@ -57,9 +57,10 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
         first_mesh = read_mesh(job.first_mesh) if job.first_mesh else None
         times.append(time.perf_counter())
         mesh_filter = make_filter(**parameters)
-        # If it is there, the job was killed: it goes on from there.
-        mesh_filter.SetCheckpointFileName(str(checkpoint_path(folder, job.name, identity)))
-        mesh_filter.KeepCheckpointOn()
+        # If it is there, the job was killed: it goes on from there. A surface is not learnt, and has none.
+        if not mesh_filter.GetInputIs():
+            mesh_filter.SetCheckpointFileName(str(checkpoint_path(folder, job.name, identity)))
+            mesh_filter.KeepCheckpointOn()
         cloud = take_input(mesh_filter, points, weights)
         path = result_path(folder, job.name, mesh_format)
         require_digits(points, mesh_filter.GetNumberOfVertices(), path, job.shift)
