@@ -97,8 +97,8 @@ int vtkNeuralMesh::ExecuteOnSurface(
         this->GetNumberOfInputPorts() < 2 || inputVector[1]->GetNumberOfInformationObjects() > 0,
       .weights = *this->GetWeightArrayName() != '\0',
       .sides = this->GetNumberOfViewpoints() > 0 || *this->GetViewArrayName() != '\0' ||
-        *this->GetNormalArrayName() != '\0' || !this->GetUseNormals() || up[0] != 0.0 || up[1] != 0.0 ||
-        up[2] != 0.0,
+        *this->GetNormalArrayName() != '\0' || !this->GetUseNormals() || up[0] != 0.0 ||
+        up[1] != 0.0 || up[2] != 0.0,
       .levels = !this->Levels.empty(),
       .checkpoint = !this->CheckpointFileName.empty(),
       .snapshots = this->GrowthAsTime != 0,

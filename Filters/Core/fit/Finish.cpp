@@ -68,7 +68,7 @@ Finish::Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
 bool Finish::run(const Progress& progress)
 {
   const StoredMesh before(mesh_, executor_);
-  FitGuard guard(cloud_, mesh_, executor_, plan_.residualTo, plan_.surface == nullptr);
+  FitGuard guard(cloud_, mesh_, executor_, plan_.residualTo);
   if (!runRounds(plan_.rounds, guard, progress))
   {
     return false;
@@ -99,7 +99,9 @@ bool Finish::isWorseThan(const StoredMesh& before, FitGuard& guard) const
   const ResidualRule rule = plan_.smoothness > 0. ? ResidualRule::MayGrow
     : report_.isClean                             ? ResidualRule::MayNotGrow
                                                   : ResidualRule::MayBeNoise;
-  if (guard.isWorse(mesh_, rule, report_.repaired.total() > 0))
+  // Of a surface no point is lost: all count in the residual.
+  if (plan_.surface ? guard.hasGrown(before.mesh(executor_), mesh_, 0.)
+                    : guard.isWorse(mesh_, rule, report_.repaired.total() > 0))
   {
     return true;
   }

@@ -40,12 +40,11 @@ double median(std::vector<float> squared)
 }
 }
 
-FitGuard::FitGuard(const PointCloud& cloud, const Mesh& mesh, const Executor& executor,
-  DistanceTo to, bool hasOutliers)
+FitGuard::FitGuard(
+  const PointCloud& cloud, const Mesh& mesh, const Executor& executor, DistanceTo to)
   : cloud_(cloud)
   , executor_(executor)
   , to_(to)
-  , hasOutliers_(hasOutliers)
   , points_(heldOutPoints(cloud, MostOfGuard))
   , before_(squaredDistances(cloud, points_, mesh, executor, to))
   , residual_(residual(before_, mesh.meanEdge()))
@@ -74,8 +73,9 @@ bool FitGuard::losesPoints(const Mesh& mesh, bool isRepaired)
 /// Of those that are no outliers.
 double FitGuard::residual(const std::vector<float>& squared, double meanEdge) const
 {
-  const float most = hasOutliers_ ? outlierDistance(float(median(squared)), meanEdge)
-                                  : std::numeric_limits<float>::max();
+  const float most = to_ == DistanceTo::NearestTriangle
+    ? std::numeric_limits<float>::max()
+    : outlierDistance(float(median(squared)), meanEdge);
   double sum = 0., weights = 0.;
   for (std::size_t i = 0; i < points_.size(); ++i)
   {

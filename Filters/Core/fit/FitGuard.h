@@ -32,10 +32,9 @@ class FitGuard
 {
 public:
   /// Of the mesh as it is. Cloud and executor must outlive the guard.
-  /// Distances are measured to `to`. Where there are no outliers, all points count, however far they are.
+  /// Distances are measured to `to`; to the nearest triangle, of a surface, no point is an outlier.
   FitGuard(const PointCloud& cloud, const Mesh& mesh,
-    const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::Surface,
-    bool hasOutliers = true);
+    const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::Surface);
 
   /// Whether `mesh` is worse than the mesh was at first.
   bool isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired = false);
@@ -52,7 +51,6 @@ private:
   const PointCloud& cloud_;
   const Executor& executor_;
   DistanceTo to_;
-  bool hasOutliers_;
   std::vector<std::size_t> points_;
   std::vector<float> before_; ///< squared distances
   double residual_ = 0.;

@@ -3,11 +3,11 @@
 
 #include "base/Median.h"
 #include "cloud/PlaceOnMesh.h"
-#include "fit/HeldOutPoints.h"
 #include "mesh/TurnedParts.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace neuralmesh
@@ -17,11 +17,15 @@ namespace
 constexpr std::size_t MostPoints = 20000;
 }
 
-MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles)
+MeshQuality measureQuality(
+  const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles, DistanceTo to)
 {
   const std::vector<std::size_t> points = heldOutPoints(cloud, MostPoints);
-  const std::vector<float> squared = squaredDistances(cloud, points, mesh);
-  const float farthest = outlierDistance(std::sqrt(medianOf(squared)), mesh.meanEdge());
+  const std::vector<float> squared =
+    squaredDistances(cloud, points, mesh, Executor::sequential(), to);
+  const float farthest = to == DistanceTo::NearestTriangle
+    ? std::numeric_limits<float>::max()
+    : outlierDistance(std::sqrt(medianOf(squared)), mesh.meanEdge());
 
   double sum = 0., weights = 0.;
   std::size_t outliers = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cloud/PointCloud.h"
+#include "fit/HeldOutPoints.h"
 #include "mesh/Mesh.h"
 #include "mesh/NarrowHandles.h"
 #include "mesh/SurfaceReport.h"
@@ -21,7 +22,8 @@ struct MeshQuality
   NarrowHandles narrowHandles;
 };
 
-/// `triangles` are those of the mesh. Of very many points only some are measured.
-MeshQuality measureQuality(
-  const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles);
+/// `triangles` are those of the mesh. Of very many points only some are measured; to the nearest triangle, of a surface,
+/// none is an outlier.
+MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles,
+  DistanceTo to = DistanceTo::Surface);
 }

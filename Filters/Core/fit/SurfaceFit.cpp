@@ -161,16 +161,7 @@ void SurfaceFit::findPlace(std::size_t sample, const VertexGrid& grid)
 /// count.
 void SurfaceFit::findNearerPlaces()
 {
-  TriangleMesh triangles;
-  triangles.points.reserve(mesh_.indexEnd());
-  for (const Vector4 position : mesh_.positions())
-  {
-    triangles.points.push_back(position.toDouble());
-  }
-  mesh_.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
-      triangles.triangles.push_back({ a, b, c });
-    });
+  const TriangleMesh triangles = trianglesIn(mesh_);
   const NearestTriangle nearest(triangles);
   executor_.forEachRange(samples_.size(), SamplesPerRange,
     [&](std::size_t begin, std::size_t end)

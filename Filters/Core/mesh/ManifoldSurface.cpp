@@ -281,7 +281,7 @@ private:
     }
   }
 
-  std::uint32_t addPoint(Eigen::Vector3d point)
+  std::uint32_t addPoint(const Eigen::Vector3d& point)
   {
     mesh().points.push_back(point);
     return std::uint32_t(mesh().points.size() - 1);

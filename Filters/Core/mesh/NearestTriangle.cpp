@@ -207,4 +207,19 @@ NearestTriangle::Found NearestTriangle::find(
   }
   return nearest.found();
 }
+
+TriangleMesh trianglesIn(const Mesh& mesh)
+{
+  TriangleMesh result;
+  result.points.reserve(mesh.indexEnd());
+  for (const Vector4 position : mesh.positions())
+  {
+    result.points.push_back(position.toDouble());
+  }
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+      result.triangles.push_back({ a, b, c });
+    });
+  return result;
+}
 }

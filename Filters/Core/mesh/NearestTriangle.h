@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "mesh/Mesh.h"
 #include "mesh/TriangleMesh.h"
 
 #include <Eigen/Geometry>
@@ -62,4 +63,7 @@ private:
   std::vector<Triangle> triangles_; ///< those of a leaf beside each other
   std::vector<Node> nodes_;
 };
+
+/// The triangles of a mesh, in its coordinates, with the indices of its vertices, to be searched.
+TriangleMesh trianglesIn(const Mesh& mesh);
 }

@@ -32,26 +32,11 @@ OrientationReport sidesOf(Mesh& mesh)
   return turn(mesh, pieces, sides);
 }
 
-/// In the coordinates of the mesh.
-TriangleMesh trianglesIn(const Mesh& mesh)
-{
-  TriangleMesh result;
-  result.points.reserve(mesh.indexEnd());
-  for (const Vector4 position : mesh.positions())
-  {
-    result.points.push_back(position.toDouble());
-  }
-  mesh.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
-      result.triangles.push_back({ a, b, c });
-    });
-  return result;
-}
-
 FinishPlan planFor(const Mesh& mesh, const NearestTriangle& surface, const Parameters& parameters)
 {
   return { .rounds = parameters.fitRounds,
     .fidelity = parameters.fidelity,
+    .residualTo = DistanceTo::NearestTriangle,
     .surface = &surface,
     .smoothness = parameters.fitSmoothness,
     .samplesPerVertex = TimesMoreSamples * parameters.fitSamples,
@@ -131,7 +116,7 @@ Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, M
   result.activities.assign(surface.vertexCount(), 0.);
   if (!isCancelled)
   {
-    result.quality = measureQuality(samples, surface, result.mesh);
+    result.quality = measureQuality(samples, surface, result.mesh, DistanceTo::NearestTriangle);
   }
   result.surface = std::move(surface);
   result.warnings = warningsOfSurface(result, parameters);
