@@ -27,8 +27,8 @@ constexpr double PartOfFirstRounds = 0.4;
 constexpr double PartOfPlaces = 0.5;
 /// For them.
 constexpr double LeastSamplesPerVertex = 1.5;
-/// Of the residual of a surface: what its slivers may cost.
-constexpr double MostGrownBySlivers = 0.1;
+/// Of the residual of a surface: what it may cost to mend intersections, and slivers.
+constexpr double MostGrownByRepair = 0.1;
 /// A piece with less than this part of the area has shrunk to a point.
 constexpr double ShrunkPart = 1e-14;
 
@@ -226,7 +226,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   if (plan_.surface)
   {
     Mesh before = withSlivers.mesh(executor_);
-    if (guard.hasGrown(before, mesh_, MostGrownBySlivers))
+    if (guard.hasGrown(before, mesh_, MostGrownByRepair))
     {
       mesh_ = std::move(before);
     }
@@ -259,6 +259,17 @@ bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& pro
   const IntersectionRepair repair = repairIntersections(mesh_, progress, executor_);
   report_.repaired = repair.before;
   report_.left = repair.after;
+  if (plan_.surface)
+  {
+    // One that cuts itself may have to stay so.
+    Mesh cut = before.mesh(executor_);
+    if (repair.before.total() > 0 && guard.hasGrown(cut, mesh_, MostGrownByRepair))
+    {
+      mesh_ = std::move(cut);
+      report_.left = repair.before;
+    }
+    return true;
+  }
   if (repair.before.total() > 0 && guard.losesPoints(mesh_, true))
   {
     Mesh broken = before.mesh(executor_);

@@ -6,6 +6,7 @@
 #include "fit/MeshQuality.h"
 #include "mesh/Pieces.h"
 #include "mesh/StoredMesh.h"
+#include "mesh/Subdivision.h"
 #include "run/Warnings.h"
 #include "start/SurfaceStart.h"
 
@@ -90,6 +91,11 @@ Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, M
   Reconstruction result;
   result.times.enter(Phase::Start);
   const NearestTriangle nearest(trianglesIn(surface));
+  // All of it alike: sheets whose vertices are all at the boundary, too.
+  while (surface.vertexCount() < std::size_t(parameters.numberOfVertices))
+  {
+    surface = subdivide(surface, executor).mesh;
+  }
   bool isCancelled = !startFromSurface(
     surface, std::size_t(parameters.numberOfVertices), partOf(progress, 0., PartOfStart));
   result.times.leave();

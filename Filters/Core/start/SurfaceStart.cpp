@@ -3,13 +3,12 @@
 
 #include "mesh/EdgeFlips.h"
 #include "mesh/QuadricSimplification.h"
-#include "mesh/Refinement.h"
 
 namespace neuralmesh
 {
 bool startFromSurface(Mesh& mesh, std::size_t count, const Progress& progress)
 {
-  if (mesh.vertexCount() < count && !refine(mesh, count, progress, EdgesAfterSplit::FlipFlat))
+  if (!progress(0.))
   {
     return false;
   }

@@ -8,8 +8,8 @@
 
 namespace neuralmesh
 {
-/// Makes a mesh of `count` vertices of a surface: simplifies it by quadrics, or halves its longest edges, and flips
-/// edges where the surface is flat. It has more vertices where its topology needs them. No vertex may be erased, and
+/// Makes a mesh of `count` vertices of a surface that has as many or more: simplifies it by quadrics, and flips edges
+/// where the surface is flat. It has more vertices where its topology needs them. No vertex may be erased, and
 /// none is in the end. Returns false if it was ended before its end; then the mesh is valid all the same.
 bool startFromSurface(Mesh& mesh, std::size_t count, const Progress& progress);
 }
