@@ -21,9 +21,9 @@ namespace
 constexpr double TimesMoreSamples = 3.;
 /// Of the samples, against those of the fit: some are held out of it.
 constexpr double TimesDrawn = 1.25;
-constexpr double FewestSamples = 20000.;
-constexpr double MostSamples = 4e9;
-constexpr double PartOfStart = 0.4;
+constexpr double FewestSamplesOfSurface = 20000.;
+constexpr double MostSamplesOfSurface = 4e9;
+constexpr double PartOfSurfaceStart = 0.4;
 
 /// Sides stay what they were.
 OrientationReport sidesOf(Mesh& mesh)
@@ -82,7 +82,7 @@ std::size_t samplesOfSurface(const Parameters& parameters)
 {
   const double fitted =
     TimesMoreSamples * parameters.fitSamples * double(parameters.numberOfVertices);
-  return std::size_t(std::clamp(TimesDrawn * fitted, FewestSamples, MostSamples));
+  return std::size_t(std::clamp(TimesDrawn * fitted, FewestSamplesOfSurface, MostSamplesOfSurface));
 }
 
 Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, Mesh surface,
@@ -97,14 +97,14 @@ Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, M
     surface = subdivide(surface, executor).mesh;
   }
   bool isCancelled = !startFromSurface(
-    surface, std::size_t(parameters.numberOfVertices), partOf(progress, 0., PartOfStart));
+    surface, std::size_t(parameters.numberOfVertices), partOf(progress, 0., PartOfSurfaceStart));
   result.times.leave();
   result.times.enter(Phase::Finish);
   if (!isCancelled && parameters.fitRounds > 0)
   {
     const StoredMesh before(surface, executor);
     Finish finish(samples, surface, planFor(surface, nearest, parameters), executor, normalOf);
-    isCancelled = !finish.run(partOf(progress, PartOfStart, 1.));
+    isCancelled = !finish.run(partOf(progress, PartOfSurfaceStart, 1.));
     // Where a piece is small, the fit may lose it.
     if (pieceCount(surface) < pieceCount(before.mesh(executor)))
     {
