@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FileArguments.h"
 
+#include "LearningParameters.h"
+#include "MeshWriter.h"
+
 #include <memory>
 
 namespace
@@ -42,4 +45,13 @@ void AddPointsAndOutput(CLI::App* command, std::vector<std::string>& inputs, std
     ->required()
     ->type_name("");
   *outputOption = AddFile(command, "OUTPUT", output, description);
+}
+
+void RequireSoundNames(const std::vector<std::string>& inputs, const std::string& output)
+{
+  if (inputs.size() > 1 && !IsWritable(output))
+  {
+    throw UsageError(output +
+      ": this is the last of several files, so it is OUTPUT; but it has no extension of a mesh");
+  }
 }

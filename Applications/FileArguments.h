@@ -21,4 +21,7 @@ CLI::Option* AddPoints(CLI::App* command, std::string& path);
 void AddPointsAndOutput(CLI::App* command, std::vector<std::string>& inputs, std::string& output,
   const std::string& description);
 
+/** Throws UsageError if the last of several names is no mesh: it was meant for something else. */
+void RequireSoundNames(const std::vector<std::string>& inputs, const std::string& output);
+
 #endif

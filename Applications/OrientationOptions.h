@@ -24,6 +24,13 @@ public:
    * views cannot be read. */
   void Apply(vtkNeuralMesh* filter) const;
 
+  /** Whether any is given. */
+  bool AreGiven() const
+  {
+    return !this->Viewpoints.empty() || !this->ViewFile.empty() || !this->ViewArray.empty() ||
+      !this->Normals.empty() || !this->Up.empty();
+  }
+
   /** That of --views; empty: none. */
   const std::string& GetViewFile() const { return this->ViewFile; }
 

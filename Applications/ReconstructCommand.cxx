@@ -21,6 +21,7 @@
 #include "RunEstimate.h"
 #include "RunReport.h"
 #include "SizeOptions.h"
+#include "SurfaceInputs.h"
 #include "TableWriter.h"
 
 #include "vtkNeuralMesh.h"
@@ -78,6 +79,7 @@ struct ReconstructOptions
   bool Features = false;
   bool Uncertainty = false;
   bool Automatic = false;
+  bool Remesh = false;
   int Preset = 0;
   std::vector<std::string> Assignments;
   double TimeLimit = 0.0;
@@ -284,40 +286,9 @@ vtkSmartPointer<vtkPointSet> DrawPoints(vtkNeuralMeshFileSampler* sampler)
   return sampler->GetOutput();
 }
 
-/** Throws UsageError if the last of several names is no mesh: it was meant for something else. */
-void RequireSoundNames(const ReconstructOptions& options)
-{
-  if (options.Inputs.size() > 1 && !IsWritable(options.Output))
-  {
-    throw UsageError(options.Output +
-      ": this is the last of several files, so it is OUTPUT; but it has no extension of a mesh");
-  }
-}
-
-/** Throws UsageError where the number of vertices, or what takes its place, excludes something else. */
-void RequireSoundSize(vtkNeuralMesh* filter, const ReconstructOptions& options)
-{
-  neuralmesh::Parameters parameters;
-  parameters.timeLimit = filter->GetTimeLimit();
-  parameters.maximumIterations = static_cast<std::uint64_t>(filter->GetMaximumIterations());
-  parameters.targetSampleDistance = filter->GetTargetSampleDistance();
-  parameters.targetCloudDistance = filter->GetTargetCloudDistance();
-  parameters.targetNormalChange = filter->GetTargetNormalChange();
-  options.Size.RequireSound(parameters,
-    { .firstMesh = !options.Initial.empty() || options.Members > 0,
-      .checkpoint = !options.Checkpoint.empty(),
-      .automatic = options.Automatic });
-  if (options.DryRun && options.Size.IsToBeFound())
-  {
-    throw UsageError(
-      "--dry-run: how long a run takes is told for a number of vertices, not for one "
-      "that is to be found");
-  }
-}
-
 int Reconstruct(const ReconstructOptions& options)
 {
-  RequireSoundNames(options);
+  RequireSoundNames(options.Inputs, options.Output);
   const vtkSmartPointer<vtkNeuralMesh> filter = MakeFilter(options);
   PrepareFilter(filter, options);
   std::vector<NamedFile> files{ { "--initial", options.Initial },
@@ -334,7 +305,26 @@ int Reconstruct(const ReconstructOptions& options)
   {
     files.push_back({ "--levels", path, true });
   }
-  RequireSoundSize(filter, options);
+  options.Size.RequireSound(filter,
+    { .firstMesh = !options.Initial.empty() || options.Members > 0,
+      .checkpoint = !options.Checkpoint.empty(),
+      .automatic = options.Automatic },
+    options.DryRun);
+  if (options.Remesh)
+  {
+    PrepareRemeshing(filter,
+      { .points = options.InPlace || options.Raw != vtkNeuralMeshFileSampler::BY_EXTENSION,
+        .firstMesh = !options.Initial.empty() || options.Members > 0,
+        .weights = !options.Weights.empty(),
+        .sides = options.Orientation.AreGiven(),
+        .size = options.Size.IsToBeFound(),
+        .levels = !options.Size.GetLevels().empty(),
+        .checkpoint = !options.Checkpoint.empty(),
+        .automatic = options.Automatic,
+        .explanation = !options.Explanation.empty(),
+        .estimate = options.DryRun },
+      options.Inputs);
+  }
   RequireDistinctFiles(files);
   RequireWritableExtension(options.Output);
   const MeshShift shift = ParseShift(options.Shift);
@@ -370,10 +360,10 @@ int Reconstruct(const ReconstructOptions& options)
 
   Stopwatch stopwatch;
   const auto sampler = MakeSampler(options, filter);
-  const auto points = sampler
-    ? DrawPoints(sampler)
-    : ReadInputs(
-        options.Inputs, { filter->GetNumberOfViewpoints(), options.Orientation.GetViewArray() });
+  const GivenViews views{ filter->GetNumberOfViewpoints(), options.Orientation.GetViewArray() };
+  const auto points = sampler ? DrawPoints(sampler)
+    : options.Remesh          ? ReadSurface(options.Inputs)
+                              : ReadInputs(options.Inputs, views);
   if (!options.Initial.empty())
   {
     filter->SetFirstMeshData(ReadMesh(options.Initial));
@@ -477,6 +467,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   AddPointsAndOutput(command, options->Inputs, options->Output,
     "Mesh: .vtp .ply .obj .stl .glb .off .vtk; another file than all others");
   options->Size.AddTo(command);
+  AddRemeshOption(command, options->Remesh);
   AddNumber(command, "--seed", options->Seed, seed,
     "Seed of the random numbers, " + Described(seed) + ": the same seed, the same mesh", "N");
   CLI::Option* const initial =

@@ -87,7 +87,11 @@ void PrintReport(vtkPolyData* mesh)
     std::printf(" (shared %.3g)", shared);
   }
   std::printf(", %.2g %% too far off to count\n", 100.0 * FieldNumber(mesh, "OutlierShare"));
-  PrintReasons(mesh);
+  // A surface has no points to be left out.
+  if (mesh->GetFieldData()->HasArray("UnexplainedShare"))
+  {
+    PrintReasons(mesh);
+  }
   if (const long long rounds = FieldValue(mesh, "FitRoundsTakenBack"); rounds > 0)
   {
     std::printf("fit        %s taken back: with more of it the mesh was worse than before\n",

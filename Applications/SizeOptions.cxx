@@ -88,8 +88,14 @@ void SizeOptions::Apply(vtkNeuralMesh* filter) const
 }
 
 void SizeOptions::RequireSound(
-  const neuralmesh::Parameters& parameters, neuralmesh::BesideSize beside) const
+  vtkNeuralMesh* filter, neuralmesh::BesideSize beside, bool isEstimated) const
 {
+  neuralmesh::Parameters parameters;
+  parameters.timeLimit = filter->GetTimeLimit();
+  parameters.maximumIterations = static_cast<std::uint64_t>(filter->GetMaximumIterations());
+  parameters.targetSampleDistance = filter->GetTargetSampleDistance();
+  parameters.targetCloudDistance = filter->GetTargetCloudDistance();
+  parameters.targetNormalChange = filter->GetTargetNormalChange();
   RequireSoundLevels(this->Levels, parameters.timeLimit,
     { .firstMesh = beside.firstMesh,
       .checkpoint = beside.checkpoint,
@@ -99,6 +105,12 @@ void SizeOptions::RequireSound(
   {
     throw UsageError(
       (this->Tolerance > 0.0 ? "--tolerance: " : "--vertices " + Automatic + ": ") + problem);
+  }
+  if (this->IsToBeFound() && isEstimated)
+  {
+    throw UsageError(
+      "--dry-run: how long a run takes is told for a number of vertices, not for one "
+      "that is to be found");
   }
 }
 

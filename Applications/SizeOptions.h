@@ -26,7 +26,7 @@ public:
   void Apply(vtkNeuralMesh* filter) const;
 
   /** Throws UsageError if levels or a number that is to be found do not go with what else is wanted. */
-  void RequireSound(const neuralmesh::Parameters& parameters, neuralmesh::BesideSize beside) const;
+  void RequireSound(vtkNeuralMesh* filter, neuralmesh::BesideSize beside, bool isEstimated) const;
 
   /** Whether nobody has given a number of vertices. */
   bool IsToBeFound() const { return this->Vertices == 0 || this->Tolerance > 0.0; }

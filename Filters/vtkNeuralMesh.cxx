@@ -10,7 +10,6 @@
 #include "run/Warnings.h"
 #include "vtkExplainedPoints.h"
 #include "vtkFeatureLines.h"
-#include "vtkFilePoints.h"
 #include "vtkNeuralMeshGrowth.h"
 #include "vtkNeuralMeshOrientation.h"
 #include "vtkNeuralMeshParameters.h"
@@ -228,53 +227,6 @@ vtkTypeBool vtkNeuralMesh::ProcessRequest(
   return 1;
 }
 
-/// Executes with the input, or with the points of the file in its place.
-int vtkNeuralMesh::ExecuteOnCloud(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  const bool hasInput = inputVector[0]->GetNumberOfInformationObjects() > 0;
-  const bool hasFile = !this->PointFileName.empty();
-  *this->Times = {};
-  if (hasInput == hasFile)
-  {
-    vtkErrorMacro(<< (hasInput ? "There are both an input and a PointFileName."
-                               : "There is neither an input nor a PointFileName."));
-    return 0;
-  }
-  if (hasInput)
-  {
-    return this->Superclass::ProcessRequest(request, inputVector, outputVector);
-  }
-  this->Times->enter(neuralmesh::Phase::Drawing);
-  vtkSmartPointer<vtkPolyData> points;
-  try
-  {
-    const neuralmesh::PointFile file(this->PointFileName);
-    vtkNeuralMeshProgress progress(this);
-    points = vtkFilePoints::Draw(file, static_cast<std::uint64_t>(this->GetUsedMaximumPoints()),
-      static_cast<std::uint64_t>(this->Seed), [&progress](double) { return progress.Report(0.0); });
-  }
-  catch (const std::runtime_error& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  this->Times->leave();
-  if (!points)
-  {
-    this->StopReason = neuralmesh::name(neuralmesh::StopReason::Cancelled).data();
-    this->AbortExecute = 0;
-    return 1;
-  }
-  vtkNew<vtkInformation> information;
-  information->Set(vtkDataObject::DATA_OBJECT(), points);
-  vtkNew<vtkInformationVector> cloud;
-  cloud->Append(information);
-  std::array<vtkInformationVector*, 2> inputs{ cloud,
-    this->GetNumberOfInputPorts() > 1 ? inputVector[1] : nullptr };
-  return this->Superclass::ProcessRequest(request, inputs.data(), outputVector);
-}
-
 /// Snapshots are kept if they are wanted as time steps, and shown to whoever observes them.
 neuralmesh::GrowthWatch vtkNeuralMesh::WatchGrowth(int precision)
 {
@@ -466,6 +418,18 @@ int vtkNeuralMesh::GetUsedPrecision(bool needsDoubles) const
   return this->OutputPointsPrecision == DEFAULT_PRECISION ? byItself : this->OutputPointsPrecision;
 }
 
+neuralmesh::Parameters vtkNeuralMesh::GetRunParameters() const
+{
+  neuralmesh::Parameters parameters;
+  this->FillParameters(parameters);
+#define SET_PARAMETER(property, parameter)                                                         \
+  parameters.parameter = vtkNeuralMeshConvert<decltype(parameters.parameter)>(this->property);
+  NEURAL_MESH_FOR_EACH_PARAMETER(SET_PARAMETER)
+#undef SET_PARAMETER
+  parameters.numberOfVertices = static_cast<std::uint64_t>(this->GetVerticesOfLargest());
+  return parameters;
+}
+
 /// Parameters and first mesh. False if no run can be made of them.
 bool vtkNeuralMesh::BeginRun(
   vtkNeuralMeshRun& run, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
@@ -475,14 +439,11 @@ bool vtkNeuralMesh::BeginRun(
     vtkErrorMacro(<< run.Cloud.whyNoExtent());
     return false;
   }
-  this->FillParameters(run.Parameters);
-#define SET_PARAMETER(property, parameter)                                                         \
-  run.Parameters.parameter =                                                                       \
-    vtkNeuralMeshConvert<decltype(run.Parameters.parameter)>(this->property);
-  NEURAL_MESH_FOR_EACH_PARAMETER(SET_PARAMETER)
-#undef SET_PARAMETER
+  run.Parameters = this->GetRunParameters();
   run.Parameters.numberOfVertices = static_cast<std::uint64_t>(this->GetMostVertices(run.Cloud));
-  if (!this->IsHelper())
+  run.Warnings = std::exchange(this->SurfaceWarnings, {});
+  const bool isSurface = this->InputIs == SURFACE_INPUT;
+  if (!this->IsHelper() && !isSurface)
   {
     run.Warnings = run.Parameters.warnings(run.Cloud.points().size());
   }
@@ -499,7 +460,7 @@ bool vtkNeuralMesh::BeginRun(
   {
     return false;
   }
-  if (!this->IsHelper() && run.FirstMesh)
+  if (!this->IsHelper() && !isSurface && run.FirstMesh)
   {
     const std::string warning = neuralmesh::warningOfFirst(*run.FirstMesh, run.Parameters);
     if (!warning.empty())
@@ -538,6 +499,10 @@ bool vtkNeuralMesh::Learn(
     else if (run.SizeGoal)
     {
       result = this->LearnSized(run, progress);
+    }
+    else if (this->InputIs == SURFACE_INPUT)
+    {
+      result = vtkNeuralMesh::Remesh(run, progress);
     }
     else
     {

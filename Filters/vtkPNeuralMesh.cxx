@@ -21,6 +21,13 @@ vtkPNeuralMesh::~vtkPNeuralMesh() { this->SetController(nullptr); }
 int vtkPNeuralMesh::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  if (this->GetInputIs() == SURFACE_INPUT && this->Controller &&
+    this->Controller->GetNumberOfProcesses() > 1)
+  {
+    vtkErrorMacro(
+      << "A surface is remeshed by one process, and there are several: each has a part of it.");
+    return 0;
+  }
   vtkDistributedRun run(this, this->Controller);
   const int result = run.Execute(
     inputVector,

@@ -25,6 +25,7 @@ COMMAND = (
     "Applications/ReconstructCommand.cxx",
     "Applications/OrientationOptions.cxx",
     "Applications/SizeOptions.cxx",
+    "Applications/SurfaceInputs.cxx",
 )
 PLUGIN = "Wrapping/ParaView/NeuralMesh"
 CORE = {"choices": write_core.choices, "fields": write_core.fields, "table": write_core.table}

@@ -69,7 +69,7 @@ class Functions(unittest.TestCase):
     def test_documentation(self):
         self.assertEqual(FUNCTIONS, [
             neuralmesh.compare, neuralmesh.explain, neuralmesh.info, neuralmesh.reconstruct,
-            neuralmesh.stream,
+            neuralmesh.remesh, neuralmesh.stream,
         ])
         for function in FUNCTIONS:
             with self.subTest(function.__name__):

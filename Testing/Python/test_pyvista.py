@@ -136,6 +136,7 @@ class Registration(unittest.TestCase):
             ("explain", "points"),
             ("compare", "result"),
             ("info", "mesh"),
+            ("remesh", "surface"),
         ):
             with self.subTest(name):
                 function, method = getattr(neuralmesh, name), getattr(surface, name)

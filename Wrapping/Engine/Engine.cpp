@@ -10,6 +10,7 @@
 #include "Run.h"
 #include "Scan.h"
 #include "Stream.h"
+#include "Surface.h"
 #include "Tune.h"
 #include "Values.h"
 
@@ -52,12 +53,13 @@ void learn(Run& run, const nb::dict& parameters, std::optional<nb::dict> ensembl
   const std::optional<ArrayOf<std::int64_t>>& firstTriangles, double tolerance, bool isPercent,
   int measure, bool automatic, bool explain, double endOfMesh, std::string checkpoint,
   double checkpointInterval, std::size_t snapshots, std::vector<std::uint64_t> levels,
-  nb::object takeSnapshot, nb::object tell, nb::object progress)
+  std::optional<std::string> warningOfSurface, nb::object takeSnapshot, nb::object tell,
+  nb::object progress)
 {
   Run::Plan plan{ parameters, std::move(ensemble), {},
     { tolerance, isPercent, ToleranceMeasure(measure) }, automatic, explain, endOfMesh,
     std::move(checkpoint), checkpointInterval, snapshots, std::move(levels),
-    std::move(takeSnapshot), std::move(tell) };
+    std::move(warningOfSurface), std::move(takeSnapshot), std::move(tell) };
   if (firstPoints && firstTriangles)
   {
     plan.firstMesh =
@@ -96,7 +98,8 @@ void bindRun(nb::module_& module)
     .def("learn", &learn, "parameters"_a, "ensemble"_a.none(), "first_points"_a.none(),
       "first_triangles"_a.none(), "tolerance"_a, "tolerance_is_percent"_a, "tolerance_measure"_a,
       "automatic"_a, "explain"_a, "end_of_mesh"_a, "checkpoint"_a, "checkpoint_interval"_a,
-      "snapshots"_a, "levels"_a, "take_snapshot"_a.none(), "tell"_a.none(), "progress"_a.none())
+      "snapshots"_a, "levels"_a, "warning_of_surface"_a.none(), "take_snapshot"_a.none(),
+      "tell"_a.none(), "progress"_a.none())
     .def_prop_ro("smaller_levels", &Run::smallerLevels)
     .def("show", &Run::show, "level"_a)
     .def("mesh", &Run::mesh, "double"_a)
@@ -314,6 +317,8 @@ NB_MODULE(_engine, module)
   module.def(
     "errors", [](const nb::dict& parameters) { return parametersOf(parameters).errors(); },
     "parameters"_a);
+  module.def("remeshing_error", &remeshingError, "parameters"_a, "beside"_a);
+  module.def("sample_surface", &sampleSurface, "parameters"_a, "points"_a, "triangles"_a);
   module.def("empty_curve", [] { return curveOf(LearningCurve()); });
   module.def("grid_count", &Ensemble::gridCount, "resolution"_a);
   bindFiles(module);

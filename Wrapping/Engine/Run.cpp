@@ -11,6 +11,7 @@
 #include "run/AutomaticReconstruction.h"
 #include "run/EnsembleRun.h"
 #include "run/Levels.h"
+#include "run/Remeshing.h"
 #include "run/SizedReconstruction.h"
 #include "run/Warnings.h"
 
@@ -99,8 +100,9 @@ void Run::learn(Plan plan, Call& call)
       throw std::invalid_argument(problem);
     }
   }
+  const bool remeshes = plan.warningOfSurface.has_value();
   const bool isSizeToBeFound = plan.size.tolerance > 0. || parameters.numberOfVertices == 0;
-  if (isSizeToBeFound)
+  if (isSizeToBeFound && !remeshes)
   {
     std::string problem = whyNoSize(parameters,
       { .firstMesh = first || ensemble,
@@ -114,7 +116,14 @@ void Run::learn(Plan plan, Call& call)
     }
     parameters.numberOfVertices = std::max<std::uint64_t>(4, cloud_->points().size() / 2);
   }
-  warn(parameters.warnings(cloud_->points().size()), tell);
+  if (remeshes && !plan.warningOfSurface->empty())
+  {
+    warn({ *plan.warningOfSurface }, tell);
+  }
+  if (!remeshes)
+  {
+    warn(parameters.warnings(cloud_->points().size()), tell);
+  }
   CheckpointPlan checkpoint{ .path = plan.checkpoint,
     .interval = plan.checkpointInterval,
     .warn = [&](const std::string& text)
@@ -127,7 +136,7 @@ void Run::learn(Plan plan, Call& call)
   {
     begin = startFrom(*ensemble, parameters, checkpoint, first, tell, call);
   }
-  if (first)
+  if (first && !remeshes)
   {
     if (const std::string warning = warningOfFirst(*first, parameters); !warning.empty())
     {
@@ -170,6 +179,13 @@ void Run::learn(Plan plan, Call& call)
         },
         progress);
       shown_ = smaller_.size();
+    }
+    else if (remeshes && first)
+    {
+      result_ = remesh(
+        *cloud_, parameters, std::move(*first),
+        [this](std::size_t point) { return Vector4(hints_.normalOf(cloud_->origins()[point])); },
+        progress, executor_);
     }
     else if (isSizeToBeFound)
     {

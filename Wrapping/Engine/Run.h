@@ -40,6 +40,8 @@ public:
     double checkpointInterval = 60.;
     std::size_t snapshots = 0;
     std::vector<std::uint64_t> levels; ///< vertices of each; none: those of the parameters
+    /// The first mesh is a surface, and the points are samples of it: what must be known of that, which may be nothing.
+    std::optional<std::string> warningOfSurface;
     nanobind::object takeSnapshot;
     /// Called with what is said meanwhile, its kind first: "warning", "step" or "choice".
     nanobind::object tell;

@@ -56,10 +56,11 @@ int FidelityRounds::count(Fidelity fidelity, bool isClean)
   return isClean ? rounds.clean : rounds.noisy;
 }
 
-bool FidelityRounds::run(Fidelity fidelity, bool isClean, bool isFixed, const Progress& progress)
+bool FidelityRounds::run(
+  Fidelity fidelity, bool isClean, bool isFixed, double lambda, const Progress& progress)
 {
   const int rounds = count(fidelity, isClean);
-  lambda_ = fit_.smoothness() * (isClean && !isFixed ? PartOnCleanClouds : 1.);
+  lambda_ = lambda * (isClean && !isFixed ? PartOnCleanClouds : 1.);
   fit_.findExactly();
   fit_.keepBoundaries();
   if (isClean)

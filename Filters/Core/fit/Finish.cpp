@@ -27,6 +27,8 @@ constexpr double PartOfFirstRounds = 0.4;
 constexpr double PartOfPlaces = 0.5;
 /// For them.
 constexpr double LeastSamplesPerVertex = 1.5;
+/// Of the residual of a surface: what it may cost to mend intersections, and slivers.
+constexpr double MostGrownByRepair = 0.1;
 /// A piece with less than this part of the area has shrunk to a point.
 constexpr double ShrunkPart = 1e-14;
 
@@ -97,7 +99,9 @@ bool Finish::isWorseThan(const StoredMesh& before, FitGuard& guard) const
   const ResidualRule rule = plan_.smoothness > 0. ? ResidualRule::MayGrow
     : report_.isClean                             ? ResidualRule::MayNotGrow
                                                   : ResidualRule::MayBeNoise;
-  if (guard.isWorse(mesh_, rule, report_.repaired.total() > 0))
+  // Of a surface no point is lost: all count in the residual.
+  if (plan_.surface ? guard.hasGrown(before.mesh(executor_), mesh_, 0.)
+                    : guard.isWorse(mesh_, rule, report_.repaired.total() > 0))
   {
     return true;
   }
@@ -115,7 +119,9 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   const bool areEnough = double(std::min(samples, cloud_.points().size())) >
     LeastSamplesPerVertex * double(plan_.vertexCount);
   const bool hasMore = rounds > 0 && areEnough && plan_.fidelity != Fidelity::Draft;
-  const double endOfFirst = hasMore ? PartOfFirstRounds : 1.;
+  // A surface that is close already would only be smoothed by the first ones.
+  const int firstRounds = plan_.surface ? 0 : rounds;
+  const double endOfFirst = !hasMore ? 1. : firstRounds > 0 ? PartOfFirstRounds : 0.;
   const Progress progress = partOf(report, 0., endOfFirst);
   if (plan_.tellsSmoothness)
   {
@@ -125,6 +131,11 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   const auto beginAnew = [&]
   {
     surfaceFit.emplace(cloud_, mesh_, samples, executor_, normalOf_, viewOf_);
+    if (plan_.surface)
+    {
+      surfaceFit->keepTo(*plan_.surface);
+      surfaceFit->keepBoundaries();
+    }
     if (report_.smoothnessOfVertices)
     {
       surfaceFit->tellSmoothness(*report_.smoothnessOfVertices);
@@ -142,9 +153,14 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   }
   beginAnew();
   double smoothness = plan_.smoothness;
-  for (int round = 0; round < rounds; ++round)
+  if (plan_.surface)
   {
-    const bool isLast = round + 1 == rounds;
+    report_.isClean = true;
+    report_.smoothness = smoothness > 0. ? smoothness : SurfaceFit::LeastSmoothness;
+  }
+  for (int round = 0; round < firstRounds; ++round)
+  {
+    const bool isLast = round + 1 == firstRounds;
     if (isLast && mesh_.vertexCount() < plan_.vertexCount)
     {
       if (!refineAll(double(round) / rounds))
@@ -205,7 +221,16 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   }
   surfaceFit.reset();
   dropShrunkPieces();
+  const StoredMesh withSlivers(mesh_, executor_);
   repairSlivers(mesh_, guard, executor_);
+  if (plan_.surface)
+  {
+    Mesh before = withSlivers.mesh(executor_);
+    if (guard.hasGrown(before, mesh_, MostGrownByRepair))
+    {
+      mesh_ = std::move(before);
+    }
+  }
   return true;
 }
 
@@ -234,6 +259,17 @@ bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& pro
   const IntersectionRepair repair = repairIntersections(mesh_, progress, executor_);
   report_.repaired = repair.before;
   report_.left = repair.after;
+  if (plan_.surface)
+  {
+    // One that cuts itself may have to stay so.
+    Mesh cut = before.mesh(executor_);
+    if (repair.before.total() > 0 && guard.hasGrown(cut, mesh_, MostGrownByRepair))
+    {
+      mesh_ = std::move(cut);
+      report_.left = repair.before;
+    }
+    return true;
+  }
   if (repair.before.total() > 0 && guard.losesPoints(mesh_, true))
   {
     Mesh broken = before.mesh(executor_);
@@ -329,7 +365,8 @@ bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
 {
   report_.fidelityRounds = FidelityRounds::count(plan_.fidelity, report_.isClean);
   FidelityRounds rounds(mesh_, surfaceFit, plan_.vertexCount, plan_.keepsPlaces, executor_);
-  if (!rounds.run(plan_.fidelity, report_.isClean, plan_.smoothness > 0., progress))
+  if (!rounds.run(
+        plan_.fidelity, report_.isClean, plan_.smoothness > 0., report_.smoothness, progress))
   {
     return false;
   }

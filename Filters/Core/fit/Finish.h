@@ -10,6 +10,7 @@
 #include "fit/IntersectionRepair.h"
 #include "fit/SurfaceFit.h"
 #include "mesh/Mesh.h"
+#include "mesh/NearestTriangle.h"
 #include "mesh/StoredMesh.h"
 
 #include <cstddef>
@@ -48,6 +49,9 @@ struct FinishPlan
   /// What the residual is measured to that may not grow. Where a mesh is to be simplified, what lies ill on
   /// thin parts counts.
   DistanceTo residualTo = DistanceTo::Surface;
+  /// Of which the points are, in their coordinates: then none is an outlier, and boundaries are where they are. Null: of
+  /// none that is known.
+  const NearestTriangle* surface = nullptr;
   bool keepsPlaces = false;     ///< vertices do not go elsewhere: what is known of them is of there
   double smoothness = 0.;       ///< lambda of the fit; 0 = by the noise and the shape
   bool tellsSmoothness = false; ///< of each vertex

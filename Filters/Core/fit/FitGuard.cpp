@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace neuralmesh
@@ -26,6 +27,8 @@ constexpr float LeastChangeOfMissed = 1.25f;
 constexpr double Deviations = 2.;
 /// Part of the points that mending intersections may cost.
 constexpr double PriceOfRepair = 0.002;
+/// So many steps of single precision are rounding, not a residual.
+constexpr double Rounding = 4.;
 /// Median of the size of a Gaussian variable, against its deviation.
 constexpr double MedianOfSizes = 0.6745;
 /// Noise is not quite Gaussian in the scans of devices: deviations by their median count so much.
@@ -54,6 +57,14 @@ bool FitGuard::isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired)
   return hasGrown(after, mesh.meanEdge(), rule) || losesPoints(after, isRepaired);
 }
 
+bool FitGuard::hasGrown(const Mesh& before, const Mesh& mesh, double part) const
+{
+  const auto residualOf = [this](const Mesh& one)
+  { return residual(squaredDistances(cloud_, points_, one, executor_, to_), one.meanEdge()); };
+  return residualOf(mesh) >
+    std::max((1. + part) * residualOf(before), Rounding * cloud_.floatStep());
+}
+
 bool FitGuard::losesPoints(const Mesh& mesh, bool isRepaired)
 {
   return losesPoints(squaredDistances(cloud_, points_, mesh, executor_, to_), isRepaired);
@@ -62,7 +73,9 @@ bool FitGuard::losesPoints(const Mesh& mesh, bool isRepaired)
 /// Of those that are no outliers.
 double FitGuard::residual(const std::vector<float>& squared, double meanEdge) const
 {
-  const float most = outlierDistance(float(median(squared)), meanEdge);
+  const float most = to_ == DistanceTo::NearestTriangle
+    ? std::numeric_limits<float>::max()
+    : outlierDistance(float(median(squared)), meanEdge);
   double sum = 0., weights = 0.;
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
@@ -79,7 +92,7 @@ double FitGuard::residual(const std::vector<float>& squared, double meanEdge) co
 bool FitGuard::hasGrown(const std::vector<float>& after, double meanEdge, ResidualRule rule) const
 {
   const double now = residual(after, meanEdge);
-  if (rule == ResidualRule::MayGrow || now <= residual_)
+  if (rule == ResidualRule::MayGrow || now <= std::max(residual_, Rounding * cloud_.floatStep()))
   {
     return false;
   }

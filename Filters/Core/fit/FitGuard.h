@@ -32,12 +32,14 @@ class FitGuard
 {
 public:
   /// Of the mesh as it is. Cloud and executor must outlive the guard.
-  /// Distances are measured to `to`.
+  /// Distances are measured to `to`; to the nearest triangle, of a surface, no point is an outlier.
   FitGuard(const PointCloud& cloud, const Mesh& mesh,
     const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::Surface);
 
   /// Whether `mesh` is worse than the mesh was at first.
   bool isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired = false);
+  /// Whether its residual is larger than that of `before` by more than this part.
+  bool hasGrown(const Mesh& before, const Mesh& mesh, double part) const;
   /// Whether it misses more points than the mesh did at first.
   bool losesPoints(const Mesh& mesh, bool isRepaired);
 

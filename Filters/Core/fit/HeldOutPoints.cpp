@@ -2,6 +2,7 @@
 #include "fit/HeldOutPoints.h"
 
 #include "cloud/PlaceOnMesh.h"
+#include "mesh/NearestTriangle.h"
 
 #include <algorithm>
 
@@ -11,6 +12,23 @@ namespace
 {
 /// A part for the executor.
 constexpr std::size_t HeldOutPerRange = 512;
+
+std::vector<float> distancesToNearest(const PointCloud& cloud,
+  const std::vector<std::size_t>& points, const Mesh& mesh, const Executor& executor)
+{
+  const NearestTriangle nearest(trianglesIn(mesh));
+  std::vector<float> result(points.size());
+  executor.forEachRange(points.size(), HeldOutPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Vector4 point = cloud.points()[points[i]];
+        result[i] = float(nearest.find(point.toDouble()).squaredDistance);
+      }
+    });
+  return result;
+}
 }
 
 std::vector<std::size_t> heldOutPoints(const PointCloud& cloud, std::size_t most)
@@ -29,6 +47,10 @@ std::vector<std::size_t> heldOutPoints(const PointCloud& cloud, std::size_t most
 std::vector<float> squaredDistances(const PointCloud& cloud, const std::vector<std::size_t>& points,
   const Mesh& mesh, const Executor& executor, DistanceTo to)
 {
+  if (to == DistanceTo::NearestTriangle)
+  {
+    return distancesToNearest(cloud, points, mesh, executor);
+  }
   const VertexGrid grid = gridOf(mesh, cloud);
   std::vector<float> result(points.size());
   executor.forEachRange(points.size(), HeldOutPerRange,

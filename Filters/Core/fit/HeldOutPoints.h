@@ -22,7 +22,8 @@ std::vector<std::size_t> heldOutPoints(const PointCloud& cloud, std::size_t most
 enum class DistanceTo
 {
   Surface,
-  TrianglesAtClosestVertex ///< alone: where another is closer, the mesh lies ill there
+  TrianglesAtClosestVertex, ///< alone: where another is closer, the mesh lies ill there
+  NearestTriangle           ///< wherever it is: where the mesh is coarse, others may be closer
 };
 
 /// The squared distance of each of these points to the mesh, of which no vertex may be erased.

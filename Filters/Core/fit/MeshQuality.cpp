@@ -3,12 +3,12 @@
 
 #include "base/Median.h"
 #include "cloud/PlaceOnMesh.h"
-#include "fit/HeldOutPoints.h"
 #include "mesh/NearestTriangle.h"
 #include "mesh/TurnedParts.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace neuralmesh
@@ -47,13 +47,18 @@ void measureAgain(const PointCloud& cloud, const std::vector<std::size_t>& point
 }
 
 MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles,
-  const Executor& executor)
+  const Executor& executor, DistanceTo to)
 {
   const std::vector<std::size_t> points = heldOutPoints(cloud, MostPoints);
-  std::vector<float> squared = squaredDistances(cloud, points, mesh, executor);
-  measureAgain(
-    cloud, points, EdgesToLookAgain * float(mesh.meanEdge()), triangles, executor, squared);
-  const float farthest = outlierDistance(std::sqrt(medianOf(squared)), mesh.meanEdge());
+  std::vector<float> squared = squaredDistances(cloud, points, mesh, executor, to);
+  if (to != DistanceTo::NearestTriangle)
+  {
+    measureAgain(
+      cloud, points, EdgesToLookAgain * float(mesh.meanEdge()), triangles, executor, squared);
+  }
+  const float farthest = to == DistanceTo::NearestTriangle
+    ? std::numeric_limits<float>::max()
+    : outlierDistance(std::sqrt(medianOf(squared)), mesh.meanEdge());
 
   double sum = 0., weights = 0.;
   std::size_t outliers = 0;

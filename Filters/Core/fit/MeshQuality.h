@@ -3,6 +3,7 @@
 
 #include "base/Executor.h"
 #include "cloud/PointCloud.h"
+#include "fit/HeldOutPoints.h"
 #include "mesh/Mesh.h"
 #include "mesh/NarrowHandles.h"
 #include "mesh/SurfaceReport.h"
@@ -22,7 +23,8 @@ struct MeshQuality
   NarrowHandles narrowHandles;
 };
 
-/// `triangles` are those of the mesh. Of very many points only some are measured.
+/// `triangles` are those of the mesh. Of very many points only some are measured; to the nearest triangle, of a surface,
+/// none is an outlier.
 MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles,
-  const Executor& executor = Executor::sequential());
+  const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::Surface);
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace neuralmesh
@@ -29,6 +30,8 @@ constexpr float LaterOutlierEdges = 0.5f;
 /// their places.
 constexpr float OutlierSpacings = 3.f;
 constexpr std::size_t SamplesPerAbortCheck = 65536;
+/// A place elsewhere on the mesh must be nearer than this part of the squared distance.
+constexpr double NearerPart = 0.9;
 /// The equations are filled in so many parts for each thread, from lists of so many samples.
 constexpr std::size_t PartsPerThread = 4;
 constexpr std::size_t SamplesPerList = 65536;
@@ -114,10 +117,16 @@ bool SurfaceFit::findPlaces(const Progress& progress)
         }
       });
   }
+  if (surface_ && normals_.any())
+  {
+    findNearerPlaces();
+  }
   const float edges = hasPlaces_ ? LaterOutlierEdges : FirstOutlierEdges;
   hasPlaces_ = hasDistances_ = true;
   medianDistance_ = std::sqrt(medianOf(distances, executor_));
-  outlierDistance_ = neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(), edges);
+  outlierDistance_ = surface_
+    ? std::numeric_limits<float>::max()
+    : neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(), edges);
   chooseUsed(edges);
   return true;
 }
@@ -146,6 +155,34 @@ void SurfaceFit::findPlace(std::size_t sample, const VertexGrid& grid)
   place = closestPlaceOnLayer(point, mesh_, place.triangle[0]);
   const PlaceOnMesh other = closestPlaceOnLayer(point, mesh_, opposite);
   isUsed_[sample] = other.squaredDistance < place.squaredDistance ? 0 : 1;
+}
+
+/// Where the mesh is coarse, places near by are not always the nearest. Those of the other side of a thin part do not
+/// count.
+void SurfaceFit::findNearerPlaces()
+{
+  const TriangleMesh triangles = trianglesIn(mesh_);
+  const NearestTriangle nearest(triangles);
+  executor_.forEachRange(samples_.size(), SamplesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Vector4 point = samples_[i];
+        const double most = NearerPart * double(places_[i].squaredDistance);
+        const NearestTriangle::Found found = nearest.find(point.toDouble(), most);
+        if (found.triangle != NearestTriangle::None)
+        {
+          const PlaceOnMesh place =
+            closestPlaceAt(point, mesh_, triangles.triangles[found.triangle][0]);
+          if (dot(normalAt(place, mesh_.positions()), normals_.at(i)) > 0.f)
+          {
+            places_[i] = place;
+            isUsed_[i] = 1;
+          }
+        }
+      }
+    });
 }
 
 void SurfaceFit::chooseUsed(float edges)
@@ -413,8 +450,9 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
     const float part = smoothnessParts_.empty() ? 1.f : smoothnessParts_[v];
     mesh_.values(*smoothnessOfVertices_)[v] = float(smoothness_) * part;
   }
+  heldCount_ = surface_ ? holdOvershot(before) : 0;
   hasDistances_ = false;
-  heldCount_ = holdLost(before);
+  heldCount_ += holdLost(before);
   return true;
 }
 

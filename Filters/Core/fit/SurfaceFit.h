@@ -16,6 +16,7 @@
 #include "fit/StoredPlaces.h"
 #include "fit/TriangleSamples.h"
 #include "mesh/Mesh.h"
+#include "mesh/NearestTriangle.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -79,6 +80,10 @@ public:
   void settle() { isSettled_ = true; }
   /// From now on places are looked for beyond the triangles of the closest vertex, too.
   void findExactly() { isExact_ = true; }
+  /// The samples are those of a surface, in the coordinates of the cloud, which must outlive the fit: none is an outlier,
+  /// their places are looked for all over the mesh, if they have normals, and no vertex leaves the surface for where
+  /// nothing holds it.
+  void keepTo(const NearestTriangle& surface) { surface_ = &surface; }
   /// From now on the boundaries, and what is next to them, stay where they are.
   void keepBoundaries();
   /// ... and so do the vertices for which this is not 0.
@@ -135,6 +140,7 @@ private:
   bool isUsed(std::size_t sample) const { return isUsed_[sample] != 0; }
   float weight(std::size_t sample) const { return weights_.empty() ? 1.f : weights_[sample]; }
   void findPlace(std::size_t sample, const VertexGrid& grid);
+  void findNearerPlaces();
   /// Tells outliers by how far samples are from each other around their places.
   void chooseUsed(float edges);
   void fillSystem();
@@ -175,6 +181,7 @@ private:
   template <typename Positions, typename Distance>
   std::size_t hold(const Positions& before, const Distance& squaredBefore);
   std::size_t holdLost(const PackedVectors& before);
+  std::size_t holdOvershot(const PackedVectors& before);
   // In SurfaceFitSmoothness.cpp
   bool chooseSmoothness(const Progress& progress);
   std::vector<float> squaredBends(std::span<const Vector4> positions) const;
@@ -209,6 +216,7 @@ private:
   bool reachesTheEnd_ = false;
   bool isSettled_ = false;
   bool isExact_ = false;
+  const NearestTriangle* surface_ = nullptr; ///< of which the samples are; null: of none
   std::vector<std::uint8_t>
     isKept_;                    ///< of each vertex, whether it stays where it is; empty: none does
   std::vector<Vector4> shifts_; ///< of samples, at each vertex; empty: none

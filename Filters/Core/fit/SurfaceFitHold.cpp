@@ -18,6 +18,8 @@ constexpr float LostSpacings = 2.5f;
 constexpr float LeastLostPart = 0.05f;
 constexpr float LeastLost = 2.f;
 constexpr int MostHolds = 4;
+/// Of the samples about the mesh, so many: a vertex is not to be farther from the surface.
+constexpr double OvershotDeviations = 3.;
 }
 
 /// Whether the mesh was near to a sample, and is not now.
@@ -105,6 +107,40 @@ std::size_t SurfaceFit::holdLost(const PackedVectors& before)
 {
   return hold(
     before, [this](std::size_t i) { return isUsed(i) ? places_[i].squaredDistance : -1.f; });
+}
+
+/// Where little holds them, vertices would leave the surface for places beyond it: they go back if they are farther from
+/// it than samples are from the mesh.
+std::size_t SurfaceFit::holdOvershot(const PackedVectors& before)
+{
+  double sum = 0.;
+  for (const PlaceOnMesh& place : places_)
+  {
+    sum += double(place.squaredDistance);
+  }
+  const double most = OvershotDeviations * OvershotDeviations * sum / double(places_.size());
+  std::vector<std::uint8_t> isOvershot(mesh_.indexEnd(), 0);
+  executor_.forEachRange(mesh_.indexEnd(), SamplesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      const auto squaredDistance = [this](Vector4 place)
+      { return surface_->find(place.toDouble()).squaredDistance; };
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        const double now = squaredDistance(mesh_.position(v));
+        isOvershot[v] = now > most && now > squaredDistance(before[v]) ? 1 : 0;
+      }
+    });
+  std::size_t held = 0;
+  for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
+  {
+    if (isOvershot[v] != 0)
+    {
+      mesh_.setPosition(v, before[v]);
+      ++held;
+    }
+  }
+  return held;
 }
 
 std::size_t SurfaceFit::holdAgainst(const Mesh& before)

@@ -45,9 +45,10 @@ double centerAlong(const TriangleCorners& corners, Eigen::Index axis)
 class NearestPlace
 {
 public:
-  explicit NearestPlace(const Eigen::Vector3d& point)
+  NearestPlace(const Eigen::Vector3d& point, double mostSquared)
     : point_(point)
   {
+    found_.squaredDistance = mostSquared;
   }
 
   double squaredDistanceTo(const Eigen::AlignedBox3d& box) const
@@ -163,9 +164,10 @@ std::uint32_t NearestTriangle::build(std::uint32_t begin, std::uint32_t end)
   return index;
 }
 
-NearestTriangle::Found NearestTriangle::find(const Eigen::Vector3d& point) const
+NearestTriangle::Found NearestTriangle::find(
+  const Eigen::Vector3d& point, double squaredDistance) const
 {
-  NearestPlace nearest(point);
+  NearestPlace nearest(point, squaredDistance);
   if (nodes_.empty() || !point.allFinite())
   {
     return nearest.found();
@@ -204,5 +206,20 @@ NearestTriangle::Found NearestTriangle::find(const Eigen::Vector3d& point) const
     waiting[count++] = near;
   }
   return nearest.found();
+}
+
+TriangleMesh trianglesIn(const Mesh& mesh)
+{
+  TriangleMesh result;
+  result.points.reserve(mesh.indexEnd());
+  for (const Vector4 position : mesh.positions())
+  {
+    result.points.push_back(position.toDouble());
+  }
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+      result.triangles.push_back({ a, b, c });
+    });
+  return result;
 }
 }

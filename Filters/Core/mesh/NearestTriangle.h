@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "mesh/Mesh.h"
 #include "mesh/TriangleMesh.h"
 
 #include <Eigen/Geometry>
@@ -34,8 +35,9 @@ public:
   /// The mesh is copied. Takes O(n log n) for n triangles, of which there may be 4294967295 at most.
   explicit NearestTriangle(const TriangleMesh& mesh);
 
-  /// Finds nothing if there are no triangles, or if the point is not finite.
-  Found find(const Eigen::Vector3d& point) const;
+  /// Finds nothing if there are no triangles, if the point is not finite, or if none is nearer than that.
+  Found find(const Eigen::Vector3d& point,
+    double squaredDistance = std::numeric_limits<double>::infinity()) const;
 
 private:
   struct Triangle
@@ -61,4 +63,7 @@ private:
   std::vector<Triangle> triangles_; ///< those of a leaf beside each other
   std::vector<Node> nodes_;
 };
+
+/// The triangles of a mesh, in its coordinates, with the indices of its vertices, to be searched.
+TriangleMesh trianglesIn(const Mesh& mesh);
 }

@@ -2,6 +2,7 @@
 #include "mesh/QuadricSimplification.h"
 
 #include "mesh/EdgeQueue.h"
+#include "mesh/TriangleShape.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -16,8 +17,13 @@ namespace neuralmesh
 {
 namespace
 {
+/// Of the squared edge, where a triangle gets nearly a line.
+constexpr double WeightOfShape = 0.05;
 /// Of the squared edge, against the squared distance: on a plane short edges go first.
-constexpr double WeightOfLength = 1e-3;
+constexpr double UsualEvenness = 1e-3;
+constexpr double EvennessOfSurface = 1e-4;
+/// Of the radius ratio, of a surface: with less, normals tell little.
+constexpr float LeastShape = 0.25f;
 /// Of the angle by which a triangle may turn.
 constexpr float LeastCosineOfCollapse = 0.2f;
 /// Of what draws a vertex to the middle of its edge, against the planes.
@@ -74,8 +80,10 @@ private:
 class QuadricSimplifier
 {
 public:
-  explicit QuadricSimplifier(Mesh& mesh)
+  QuadricSimplifier(Mesh& mesh, double evenness, float leastShape)
     : mesh_(mesh)
+    , evenness_(evenness)
+    , leastShape_(leastShape)
     , quadrics_(mesh.indexEnd())
   {
     mesh.forEachTriangle(
@@ -156,7 +164,9 @@ private:
       return Never;
     }
     const double squared = double(squaredNorm(mesh_.position(removed) - mesh_.position(kept)));
-    return quadricOf(removed, kept).at(place) + WeightOfLength * squared;
+    const double flattened =
+      leastShape_ > 0.f && flattens(removed, kept, place) ? WeightOfShape : 0.;
+    return quadricOf(removed, kept).at(place) + (evenness_ + flattened) * squared;
   }
 
   /// Whether a triangle of `v` does that is not at the edge.
@@ -179,6 +189,27 @@ private:
       }
     }
     return false;
+  }
+
+  /// Whether a triangle gets nearly a line that is none yet.
+  bool flattens(VertexIndex removed, VertexIndex kept, Vector4 place) const
+  {
+    float before = 1.f, after = 1.f;
+    for (const auto& [v, other] : { std::pair(removed, kept), std::pair(kept, removed) })
+    {
+      const Ring& ring = mesh_.ring(v);
+      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+      {
+        const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
+        before =
+          std::min(before, radiusRatio(mesh_.position(v), mesh_.position(b), mesh_.position(c)));
+        if (b != other && c != other)
+        {
+          after = std::min(after, radiusRatio(place, mesh_.position(b), mesh_.position(c)));
+        }
+      }
+    }
+    return after < leastShape_ && after < before;
   }
 
   /// What it costs has changed with what is around it, perhaps: then it has to wait.
@@ -219,17 +250,29 @@ private:
   }
 
   Mesh& mesh_;
+  double evenness_;
+  float leastShape_;
   std::vector<Quadric> quadrics_;
   EdgeQueue<double> edges_; ///< that vanish with their first vertex
 };
+
+void simplifyBy(Mesh& mesh, std::size_t count, double evenness, float leastShape)
+{
+  if (mesh.vertexCount() > count)
+  {
+    QuadricSimplifier(mesh, evenness, leastShape).simplify(count);
+    mesh.dropErased();
+  }
+}
 }
 
 void simplifyByQuadrics(Mesh& mesh, std::size_t count)
 {
-  if (mesh.vertexCount() > count)
-  {
-    QuadricSimplifier(mesh).simplify(count);
-    mesh.dropErased();
-  }
+  simplifyBy(mesh, count, UsualEvenness, 0.f);
+}
+
+void simplifySurface(Mesh& mesh, std::size_t count)
+{
+  simplifyBy(mesh, count, EvennessOfSurface, LeastShape);
 }
 }

@@ -13,4 +13,8 @@ namespace neuralmesh
 /// P. Heckbert, *Surface simplification using quadric error metrics*, 1997). Handles, boundaries and pieces
 /// stay. In the end, no vertex is erased.
 void simplifyByQuadrics(Mesh& mesh, std::size_t count);
+
+/// The same of a surface that is not learnt afterwards: creases and tips count for more, against short edges, and where
+/// a triangle would be nearly a line, an edge goes late.
+void simplifySurface(Mesh& mesh, std::size_t count);
 }

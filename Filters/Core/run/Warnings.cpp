@@ -394,6 +394,26 @@ std::vector<std::string> warningsOf(
   return warnings;
 }
 
+std::vector<std::string> warningsOfSurface(
+  const Reconstruction& result, const Parameters& parameters)
+{
+  std::vector<std::string> warnings;
+  const std::size_t vertices = result.mesh.points.size();
+  if (!result.quality)
+  {
+    return warnings;
+  }
+  warnOfDefects(result, warnings);
+  warnOfSlivers(result.quality->surface, warnings);
+  if (vertices != parameters.numberOfVertices)
+  {
+    warnings.push_back("The mesh has " + std::to_string(vertices) + " vertices, not " +
+      std::to_string(parameters.numberOfVertices) +
+      ": its pieces, handles and boundaries need so many.");
+  }
+  return warnings;
+}
+
 std::string warningOfFirst(const Mesh& first, const Parameters& parameters)
 {
   if (first.vertexCount() <= parameters.numberOfVertices)

@@ -32,6 +32,11 @@ namespace neuralmesh
 std::vector<std::string> warningsOf(
   const Reconstruction& result, const PointCloud& cloud, const Parameters& parameters = {});
 
+/// The same of a surface that was remeshed: triangles that intersect, folds and slivers, and another number of vertices
+/// than was asked for.
+std::vector<std::string> warningsOfSurface(
+  const Reconstruction& result, const Parameters& parameters);
+
 /// The same of a mesh to start from: that it has more vertices than are asked for, and what becomes of it then.
 /// Empty if it has not.
 std::string warningOfFirst(const Mesh& first, const Parameters& parameters);

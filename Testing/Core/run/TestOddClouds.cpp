@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Promise: of clouds that are no surface comes what Documentation/BadInput.md tells, in 'Clouds that are no
 // surface': a manifold of as many vertices as asked for, near the points, and the warning.
+#include "base/Random.h"
 #include "ManifoldCheck.h"
 #include "run/Reconstruction.h"
 #include "SphereRuns.h"

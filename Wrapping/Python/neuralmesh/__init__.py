@@ -4,7 +4,7 @@
 >>> import neuralmesh
 >>> mesh = neuralmesh.reconstruct(points, vertices=20000)
 
-reconstruct() does it in one call, stream() while points arrive, compare() tells how far a mesh is
+reconstruct() does it in one call, remesh() makes other triangles of a surface, stream() while points arrive, compare() tells how far a mesh is
 from a reference, explain() what it leaves of the points, info() whether it is sound. The VTK classes,
 vtkNeuralMesh and its sisters, are here for pipelines. The methods of a mesh and of all VTK objects are
 those of the package vtkmodules. Where this package was built with a VTK, VTK_VERSION, vtkmodules must be of that very one.
@@ -27,6 +27,7 @@ from ._compare import compare
 from ._explain import explain
 from ._info import info
 from ._reconstruct import reconstruct
+from ._remesh import remesh
 from ._stream import stream
 
 if VTK_VERSION:

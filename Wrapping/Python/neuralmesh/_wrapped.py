@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCompositeDataSet, vtkPolyData
 
 from ._both_ways import BOTH_WAYS
 from ._execution import Progress, check_parameters, execute, observed_call
@@ -39,6 +41,7 @@ __all__ = [
     "learnt_mesh",
     "report",
     "take_points",
+    "take_polygons",
     "take_surface",
     "with_array",
     "with_normals",
@@ -50,6 +53,24 @@ def take_surface(surface: object, parameter: str) -> vtkPolyData:
     if not isinstance(surface, vtkPolyData):
         raise ValueError(f"{parameter} must be a vtkPolyData, not {type(surface).__name__}")
     return surface
+
+
+def take_polygons(surface: Any, parameter: str) -> vtkPolyData | vtkCompositeDataSet:
+    """A surface as a dataset; one of points and triangles. ValueError for anything else."""
+    if isinstance(surface, (vtkPolyData, vtkCompositeDataSet)):
+        return surface
+    if isinstance(surface, tuple) and len(surface) == 2:
+        points, triangles = take_points(surface[0]), np.asarray(surface[1])
+        if triangles.ndim == 2 and triangles.shape[1] == 3 and triangles.dtype.kind in "iu":
+            cells = vtkCellArray()
+            corners = np.ascontiguousarray(triangles, dtype=np.int64)
+            cells.SetData(3, numpy_to_vtkIdTypeArray(corners.reshape(-1), deep=True))
+            points.SetPolys(cells)
+            return points
+    raise ValueError(
+        f"{parameter} must be a vtkPolyData, or a pair of arrays, points and triangles, not "
+        f"{type(surface).__name__}"
+    )
 
 
 def learn(

@@ -16,6 +16,7 @@ from ._compare import compare
 from ._explain import explain
 from ._info import info
 from ._reconstruct import reconstruct
+from ._remesh import remesh
 from ._types import Progress
 
 NAME = "neuralmesh"
@@ -88,6 +89,10 @@ class SurfaceAccessor(CloudAccessor):
         self, reference: Any, samples: int = 200000, seed: int = 1
     ) -> dict[str, dict[str, float]]:
         return compare(reference, self._dataset, samples, seed)
+
+    @_told_as(remesh, "surface")
+    def remesh(self, *arguments: Any, **parameters: Any) -> Any:
+        return remesh(self._dataset, *arguments, **parameters)
 
     @_told_as(info, "mesh")
     def info(self) -> dict[str, Any]:

@@ -61,10 +61,11 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
         first_mesh = read_mesh(job.first_mesh) if job.first_mesh else None
         times.append(time.perf_counter())
         mesh_filter = make_filter(**parameters)
-        # If it is there, the job was killed: it goes on from there. A number of vertices is found anew.
-        if not _is_size_to_be_found(mesh_filter):
+        # If it is there, the job was killed: it goes on from there. A number of vertices is found anew, and a surface is
+        # not learnt.
+        if not _is_size_to_be_found(mesh_filter) and not mesh_filter.GetInputIs():
             mesh_filter.SetCheckpointFileName(str(checkpoint_path(folder, job.name, identity)))
-        mesh_filter.KeepCheckpointOn()
+            mesh_filter.KeepCheckpointOn()
         cloud = take_input(mesh_filter, points, weights)
         path = result_path(folder, job.name, mesh_format)
         most = mesh_filter.GetNumberOfVertices()

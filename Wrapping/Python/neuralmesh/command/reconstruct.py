@@ -42,6 +42,8 @@ def run(arguments: Sequence[str]) -> int:
     mesh = _filter_of(options)
     _require_sound_size(options, mesh)
     shift = _shift_of(options.shift)
+    if options.remesh:
+        _prepare_remeshing(options, mesh)
     _require_sound_files(options, mesh)
 
     watch = [time.monotonic()]
@@ -176,6 +178,24 @@ def _filter_of(options: argparse.Namespace) -> Any:
     return mesh
 
 
+def _prepare_remeshing(options: argparse.Namespace, mesh: Any) -> None:
+    """UsageError if that does not go with what else is asked for."""
+    problem = mesh.remeshing_error(
+        {
+            "points": options.in_place or options.raw is not None,
+            "first_mesh": bool(options.initial),
+            "sides": bool(options.views),
+            "checkpoint": bool(options.checkpoint),
+            "estimate": options.dry_run,
+        }
+    )
+    if problem:
+        raise UsageError(f"--remesh: {problem}")
+    if len(options.inputs) > 1:
+        raise UsageError("--remesh: this goes with one INPUT only")
+    mesh.SetInputIsToSurface()
+
+
 def _tell_sides(mesh: Any, options: argparse.Namespace) -> None:
     for text in options.viewpoint:
         mesh.AddViewpoint(_place("--viewpoint", text))
@@ -265,6 +285,8 @@ def _require_sound_files(options: argparse.Namespace, mesh: Any) -> None:
 
 
 def _read(options: argparse.Namespace, mesh: Any) -> Mesh:
+    if options.remesh:
+        return read_mesh(options.inputs[0])
     return read_inputs(options.inputs, mesh.GetNumberOfViewpoints(), options.view_array)
 
 

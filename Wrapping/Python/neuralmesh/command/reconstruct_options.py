@@ -151,6 +151,11 @@ def parser() -> Parser:
         "--tolerance-of", list(_MEASURES), None,
         f"Which distance --tolerance limits; {described_words(_MEASURES, 'rms')}",
     )  # fmt: skip
+    result.add_flag(
+        "--remesh",
+        "INPUT is a surface, of triangles or other polygons: make other, more even triangles of it, as many as "
+        f"--vertices tell; {MESHES}",
+    )
     result.add_number(
         "--seed", "Seed",
         f"Seed of the random numbers, {described('Seed')}: the same seed, the same mesh", "N",

@@ -131,7 +131,8 @@ def _print_quality(fields: dict[str, Any]) -> None:
         + (f" (shared {shared:.3g})" if shared > 0 else "")
         + f", {100.0 * fields['OutlierShare']:.2g} % too far off to count"
     )
-    print_reasons(fields)
+    if "UnexplainedShare" in fields:  # a surface has no points to be left out
+        print_reasons(fields)
     rounds = fields["FitRoundsTakenBack"]
     if rounds > 0:
         taken = _counted(rounds, "round", "rounds")

@@ -145,6 +145,13 @@ class NeuralMeshAlgorithm:
         """Those of the properties that the engine knows."""
         return {name: value for name, value in self._values.items() if self.PROPERTIES[name].engine}
 
+    def _tells_sides(self) -> bool:
+        """Whether the outer side is told, or normals are not to tell it."""
+        names = self._view_array_name or self._normal_array_name
+        return bool(
+            self._viewpoints or names or any(self._up_direction) or not self._values["UseNormals"]
+        )
+
     def _sides(self, cloud: Cloud | None, problems: list[str]) -> dict[str, Any]:
         """What tells the outer side, as the engine takes it. ValueError if an array is not there."""
         viewpoints = np.array(self._viewpoints, dtype=np.float64).reshape(-1, 3)

@@ -29,6 +29,7 @@ class Block:
     dataset: Any = None
     kept: np.ndarray | None = None
     vtk_data: dict[str, Any] = field(default_factory=dict)
+    triangles: np.ndarray | None = None  # of a Mesh: its own
     is_double: bool | None = None  # whether they were 8-byte floats; None: as they are
 
     @property
@@ -179,6 +180,7 @@ def _of_mesh(mesh: Mesh) -> Cloud:
                 f"{values.shape}"
             )
     block = Block(points, data, data.pop("Normals", None), mesh.normals_name, mesh.scalars)
+    block.triangles = mesh.triangles
     cloud = Cloud([block] if len(block.points) > 0 else [])
     viewpoints = mesh.field_data.get("Viewpoints")
     if viewpoints is not None:

@@ -16,10 +16,12 @@ from .algorithm import NeuralMeshAlgorithm, of_class
 from .carrying import carry
 from .cloud import Block, Cloud
 from .mesh import Mesh
+from .surface import sampled
 
 # Of the progress: then feature lines are looked for, and point data is carried over.
 _BEGIN_OF_LINES, _BEGIN_OF_CARRYING = 0.9, 0.95
 _SINGLE, _DOUBLE = 0, 1
+_SURFACE = 1  # InputIs
 
 
 @dataclass
@@ -167,6 +169,8 @@ class NeuralMesh(NeuralMeshAlgorithm):
         self, first_mesh: Mesh | None, progress: Progress | None, **more: Any
     ) -> Outcome:
         """The same as run() with points that are drawn from PointFileName."""
+        if self._values["InputIs"] == _SURFACE:
+            self._require_remeshing(first_mesh is not None)
         drawn = _engine.draw_points(
             self._point_file_name, self.GetUsedMaximumPoints(), int(self._values["Seed"]),
             (lambda _fraction: progress(0.0)) if progress else None,
@@ -216,8 +220,12 @@ class NeuralMesh(NeuralMeshAlgorithm):
 
         if cloud.other_blocks:
             warn(f"{cloud.other_blocks} blocks are no point sets and were left out.")
-        if len(cloud) == 0:
+        if len(cloud) == 0 and self._values["InputIs"] != _SURFACE:
             return Outcome(_empty_mesh(), warnings=warnings)
+        warning_of_surface = None
+        if self._values["InputIs"] == _SURFACE:
+            self._require_remeshing(first_mesh is not None)
+            cloud, first_mesh, warning_of_surface = sampled(cloud, self._engine_values())
         weights = self._weights(cloud)
         problems = []
         sides = self._sides(cloud, problems)
@@ -263,6 +271,7 @@ class NeuralMesh(NeuralMeshAlgorithm):
             float(self._values["CheckpointInterval"]),
             int(self._values["NumberOfSnapshots"]) - 1 if take_snapshot else 0,
             self._levels,
+            warning_of_surface,
             _snapshot_taker(take_snapshot, is_double),
             tell,
             progress,
@@ -302,6 +311,28 @@ class NeuralMesh(NeuralMeshAlgorithm):
 
     def _ensemble_values(self) -> dict[str, int | float] | None:
         return None
+
+    def remeshing_error(self, beside: dict[str, bool]) -> str:
+        """Why a surface is not remeshed with these properties, and with what is true beside them; empty if it is."""
+        own = {
+            "points": bool(self._point_file_name),
+            "first_mesh": self.IS_ENSEMBLE,
+            "weights": bool(self.GetWeightArrayName()),
+            "sides": self._tells_sides(),
+            "size": self.is_size_to_be_found(),
+            "levels": bool(self._levels),
+            "checkpoint": bool(self._checkpoint_file_name),
+            "snapshots": bool(self._values["GrowthAsTime"]),
+            "automatic": bool(self._values["Automatic"]),
+            "explanation": bool(self._values["ExplainPoints"]),
+        }
+        told = {name: own.get(name, False) or beside.get(name, False) for name in {**own, **beside}}
+        return _engine.remeshing_error(self._engine_values(), told)
+
+    def _require_remeshing(self, has_first_mesh: bool) -> None:
+        problem = self.remeshing_error({"first_mesh": has_first_mesh})
+        if problem:
+            raise ValueError(problem)
 
     def _weights(self, cloud: Cloud) -> np.ndarray | None:
         name = self._weight_array_name

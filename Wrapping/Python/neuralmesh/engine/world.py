@@ -36,6 +36,7 @@ __all__ = [
     "learnt_mesh",
     "report",
     "take_points",
+    "take_polygons",
     "take_surface",
     "with_array",
     "with_normals",
@@ -45,6 +46,14 @@ __all__ = [
 def take_points(points: object, blocks: bool = True) -> Cloud:
     """The points as a cloud."""
     return as_cloud(points, blocks)
+
+
+def take_polygons(surface: object, parameter: str) -> Cloud:
+    """A surface as a cloud that knows its triangles. ValueError for anything else."""
+    is_composite = hasattr(surface, "IsA") and surface.IsA("vtkCompositeDataSet")
+    if is_composite or hasattr(surface, "GetPolys"):
+        return as_cloud(surface)
+    return as_cloud(take_surface(surface, parameter))
 
 
 def with_array(cloud: Cloud, values: object, parameter: str, name: str) -> tuple[Cloud, str]:
