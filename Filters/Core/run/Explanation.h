@@ -37,6 +37,9 @@ struct MissedPiece
   double points = 0.;                               ///< of the cloud, about
   double farthest = 0.;                             ///< from the mesh, in units of the input
   bool isBeyondBoundary = false; ///< whether most of them lie nearest to a boundary of the mesh
+
+  /// Whether the mesh is there, but too coarse: they are no farther than half an edge.
+  bool isCoarse(double meanEdge) const { return !isBeyondBoundary && farthest < 0.5 * meanEdge; }
 };
 
 /// What a mesh leaves of a cloud. A point is away from the mesh if it is farther than three of its own

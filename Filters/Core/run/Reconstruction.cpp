@@ -151,10 +151,16 @@ std::uint64_t verticesToLearn(const RunRequest& request)
 
 bool mayHaveLostThinParts(const Reconstruction& result, const RunRequest& request)
 {
-  return mayLearnOtherwise(request) && result.stopReason == StopReason::Vertices && result.finish &&
-    result.explanation && result.quality && request.parameters.fidelity != Fidelity::Draft &&
-    (!result.explanation->pieces.empty() || result.finish->left.intersectingTriangles > 0 ||
-      result.quality->surface.foldedEdges > 0);
+  if (!mayLearnOtherwise(request) || request.parameters.fidelity == Fidelity::Draft ||
+    result.stopReason != StopReason::Vertices || !result.finish || !result.explanation ||
+    !result.quality)
+  {
+    return false;
+  }
+  const double meanEdge = result.explanation->asked.meanEdge * request.cloud.unit();
+  return result.finish->left.intersectingTriangles > 0 || result.quality->surface.foldedEdges > 0 ||
+    !std::ranges::all_of(result.explanation->pieces,
+      [meanEdge](const MissedPiece& piece) { return piece.isCoarse(meanEdge); });
 }
 
 bool holdsMore(const Reconstruction& finer, const Reconstruction& other)

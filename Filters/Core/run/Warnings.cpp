@@ -33,8 +33,6 @@ constexpr double WholeArea = 0.999;
 constexpr double MostDisagreeing = 0.02;
 /// Named in one sentence; the others are counted.
 constexpr std::size_t MostPiecesNamed = 2;
-/// What is no farther from the mesh than this part of an edge is there, but coarse.
-constexpr double CoarseEdges = 0.5;
 /// With less points a vertex, the mesh follows single points.
 constexpr std::size_t LeastPointsPerVertex = 2;
 /// Of a closed mesh.
@@ -75,20 +73,20 @@ enum class Fate
   Coarse
 };
 
-Fate fateOf(const MissedPiece& piece, double coarse)
+Fate fateOf(const MissedPiece& piece, double meanEdge)
 {
   return piece.isBeyondBoundary ? Fate::BeyondBoundary
-    : piece.farthest < coarse   ? Fate::Coarse
+    : piece.isCoarse(meanEdge)  ? Fate::Coarse
                                 : Fate::Missing;
 }
 
 void warnOfPieces(const Explanation& explanation, const PointCloud& cloud, Fate fate,
   std::vector<std::string>& warnings)
 {
-  const double coarse = CoarseEdges * explanation.asked.meanEdge * cloud.unit();
+  const double meanEdge = explanation.asked.meanEdge * cloud.unit();
   std::vector<MissedPiece> pieces;
   std::copy_if(explanation.pieces.begin(), explanation.pieces.end(), std::back_inserter(pieces),
-    [&](const MissedPiece& piece) { return fateOf(piece, coarse) == fate; });
+    [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == fate; });
   if (pieces.empty())
   {
     return;
