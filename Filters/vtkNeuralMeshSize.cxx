@@ -37,12 +37,13 @@ bool vtkNeuralMesh::IsSizeToBeFound() const
 /// Has the run find its number of vertices, if it has none. False if it cannot.
 bool vtkNeuralMesh::PrepareSize(vtkNeuralMeshRun& run)
 {
-  if (!this->IsSizeToBeFound())
+  run.SizeGoal = neuralmesh::sizeGoalOf(static_cast<std::uint64_t>(this->GetVerticesOfLargest()),
+    this->Tolerance, this->ToleranceIsPercent != 0,
+    vtkNeuralMeshConvert<neuralmesh::ToleranceMeasure>(this->ToleranceMeasure));
+  if (!run.SizeGoal)
   {
     return true;
   }
-  run.SizeGoal = neuralmesh::SizeGoal{ this->Tolerance, this->ToleranceIsPercent != 0,
-    vtkNeuralMeshConvert<neuralmesh::ToleranceMeasure>(this->ToleranceMeasure) };
   std::string problem = neuralmesh::whyNoSize(run.Parameters,
     { .firstMesh = run.FirstMesh.has_value(),
       .checkpoint = !this->CheckpointFileName.empty(),
