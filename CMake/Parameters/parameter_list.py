@@ -7,6 +7,7 @@ A choice has
   values      each with its name and its text, from 0 on
   constants   what stands behind the names of the values in the header of VTK (none)
   owner       the class of VTK whose enumeration it is; the core does not know it then (none)
+  engine      false if the core does not know it either (true)
 
 A group, which is a table of Documentation/Parameters.md, has
   key         by which templates name it
@@ -52,7 +53,7 @@ import unicodedata
 
 import reserved
 
-CHOICE_KEYS = {"name": str, "title": str, "values": list, "constants": str, "owner": str}
+CHOICE_KEYS = {"name": str, "title": str, "values": list, "constants": str, "owner": str, "engine": bool}
 VALUE_KEYS = {"name": str, "text": str}
 GROUP_KEYS = {"key": str, "title": str, "panel": (str, type(None)), "parameters": list}
 PARAMETER_KEYS = {
@@ -134,6 +135,7 @@ class Choice:
     title: str
     owner: str
     values: list
+    in_engine: bool = True
 
     def index(self, name):
         return [value.name for value in self.values].index(name)
@@ -310,7 +312,8 @@ class Reader:
                 Value(value["name"], value["text"], snake_case(value["name"]).upper() + suffix)
                 for value in entry["values"]
             ]
-            choices.append(Choice(entry["name"], entry["title"], entry.get("owner"), values))
+            in_engine = entry.get("engine", "owner" not in entry)
+            choices.append(Choice(entry["name"], entry["title"], entry.get("owner"), values, in_engine))
         self.names([choice.name for choice in choices], "choices")
         constants = [value.constant for choice in choices for value in choice.values]
         for constant in reserved.MACROS.intersection(constants):
@@ -428,7 +431,7 @@ class Reader:
             holds = not (is_whole and ends) or (ends[0] >= 0 and ends[1] <= ENGINE_TYPES[engine])
             self.check(holds, place, f"{engine} does not hold the range")
         elif "engine" not in entry and choice:
-            self.check(not choice.owner, place, f"the engine does not know the choice {choice.name}")
+            self.check(choice.in_engine, place, f"the engine does not know the choice {choice.name}")
 
     def conditions(self, found):
         """Notes variants and conditions that name nothing."""

@@ -10,8 +10,7 @@ TYPES = {"bool": "bool", "int": "int", "count": "std::uint64_t", "double": "doub
 
 def choices_of(found):
     """Those that the core knows."""
-    of_vtk = {parameter.type for parameter in found.parameters if not parameter.in_engine}
-    return [choice for choice in found.choices if not choice.owner and choice.name not in of_vtk]
+    return [choice for choice in found.choices if choice.in_engine]
 
 
 def choices(found):

@@ -123,7 +123,8 @@ Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, M
   result.activities.assign(surface.vertexCount(), 0.);
   if (!isCancelled)
   {
-    result.quality = measureQuality(samples, surface, result.mesh, DistanceTo::NearestTriangle);
+    result.quality =
+      measureQuality(samples, surface, result.mesh, executor, DistanceTo::NearestTriangle);
   }
   result.surface = std::move(surface);
   result.warnings = warningsOfSurface(result, parameters);
