@@ -338,7 +338,6 @@ private:
       grown_ && double(firstVertices(largest)) <= TimesFiner * double(firstVertices(startedFor_));
     if (isFine && grown_->mesh && grown_->mesh->vertexCount() <= vertices)
     {
-      isGrown_ = true;
       return *grown_;
     }
     PhaseTimes times;
@@ -347,7 +346,6 @@ private:
     start_ = run_.begin(startedFor_, part);
     times.leave();
     times_.add(times);
-    isGrown_ = false;
     return start_;
   }
 
@@ -358,7 +356,8 @@ private:
     const std::uint64_t learnt = verticesToLearn(requestWith(parameters));
     Beginning beginning = beginningFor(learnt, largest, { part.begin, middle });
     LearntRun run = run_.learn(learnt, std::move(beginning), { middle, part.end }, none_);
-    run.isLearnt = run.isLearnt || isGrown_;
+    // A first surface that has more vertices than are asked for is simplified, and learns nothing.
+    run.isLearnt = true;
     grown_ = Beginning{ run.learnt.mesh, start_.gaps, start_.weights };
     return run;
   }
@@ -396,8 +395,11 @@ private:
     const double middle = part.begin + PartOfGrowthOfTrial * (part.end - part.begin);
     const Parameters parameters = parametersWith(vertices);
     LearntRun learnt = learn(vertices, vertices, { part.begin, middle });
-    return betterRun(run_.finish(std::move(learnt), vertices, { middle, part.end }),
-      requestWith(parameters), partOf(progress_, part.end, part.end));
+    const RunRequest request = requestWith(parameters);
+    const Progress atTheEnd = partOf(progress_, part.end, part.end);
+    return runWithThinParts(
+      betterRun(run_.finish(std::move(learnt), vertices, { middle, part.end }), request, atTheEnd),
+      request, atTheEnd);
   }
 
   Reconstruction ownRun(std::uint64_t vertices)
@@ -442,7 +444,6 @@ private:
   Beginning start_;
   std::uint64_t startedFor_ = 0;
   std::optional<Beginning> grown_; ///< what was learnt last, before its fit
-  bool isGrown_ = false;           ///< whether the mesh that learns comes from another one
   double done_ = 0.;
   PhaseTimes times_;
   std::optional<Reconstruction> ended_;
