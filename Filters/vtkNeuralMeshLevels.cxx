@@ -7,6 +7,7 @@
 #include "vtkNeuralMeshRun.h"
 #include "vtkPointDataCarrier.h"
 
+#include "vtkInformation.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPolyData.h"
 

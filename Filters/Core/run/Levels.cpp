@@ -68,7 +68,7 @@ struct DoubtfulLevel
 
 /// Tells of the doubtful levels: as they are, or simplified from what the last one has learnt if that holds more.
 void takeDoubtful(Run& run, const std::optional<LearntRun>& learnt, Reconstruction& last,
-  std::vector<DoubtfulLevel> doubtful, const LevelTaker& take)
+  std::vector<DoubtfulLevel>& doubtful, const LevelTaker& take)
 {
   for (auto& [number, mesh] : doubtful)
   {
@@ -159,7 +159,7 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
       }
       if (isLast || !result.isComplete())
       {
-        takeDoubtful(run, learntForDoubtful, result, std::move(doubtful), take);
+        takeDoubtful(run, learntForDoubtful, result, doubtful, take);
         return result;
       }
       if (mayHaveLostThinParts(result, own))
