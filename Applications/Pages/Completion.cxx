@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <utility>
+
 namespace
 {
 /** The names of --set, with the equals sign that follows. */
@@ -33,7 +35,10 @@ Completion CompleteValue(const CLI::Option& option)
   // one|two|three, after which there may be more in brackets.
   if (type.find('|') != std::string::npos)
   {
-    return { CLI::detail::split(type.substr(0, type.find('[')), '|') };
+    std::vector<std::string> words = CLI::detail::split(type.substr(0, type.find('[')), '|');
+    // What stands for a number is no word.
+    std::erase(words, "N");
+    return { std::move(words) };
   }
   return {};
 }

@@ -114,7 +114,8 @@ test_fish_completion()
   offers_fish "cloud.ply" "neuralmesh info cl"
   offers_fish "cloud.ply" "neuralmesh reconstruct --initial cl"
   offers_fish "basic noise normal" "neuralmesh reconstruct --method "
-  offers_fish "" "neuralmesh reconstruct --vertices "
+  offers_fish "auto" "neuralmesh reconstruct --vertices "
+  offers_fish "" "neuralmesh reconstruct --seed "
   offers_fish "Start=occupied_space" "neuralmesh reconstruct --set Start=oc"
 }
 

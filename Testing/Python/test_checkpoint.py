@@ -14,8 +14,10 @@ from neuralmesh import vtkNeuralMesh
 # count.
 # Of `automatic` the values that are chosen are compared.
 FREE = {"automatic", "compute_uncertainty", "use_normals", "time_limit", "carry_point_data", "output_points_precision",
-        "checkpoint_interval", "feature_angle", "keep_checkpoint", "number_of_threads", "maximum_points"}
-REFUSED_BEFORE = {"compute_feature_lines", "explain_points", "growth_as_time", "number_of_snapshots", "preset", "jump"}
+        "checkpoint_interval", "feature_angle", "keep_checkpoint", "number_of_threads", "maximum_points",
+        "tolerance_is_percent", "tolerance_measure"}
+REFUSED_BEFORE = {"compute_feature_lines", "explain_points", "growth_as_time", "number_of_snapshots", "preset", "jump",
+                  "input_is", "tolerance"}
 
 
 def reconstruct(**parameters):
