@@ -55,6 +55,7 @@ class HowMany(unittest.TestCase):
             (sphere(), {"vertices": 0, "time_limit": 5}, "stopping rule"),
             (sphere(), {"vertices": 0, "ensemble": 2}, "ensemble"),
             (sphere(), {"vertices": 0, "automatic": True}, "automatic"),
+            (sphere(), {"vertices": "auto", "levels": (10, 100)}, "levels"),
             (sphere(), {"tolerance": 0.1, "levels": (100, 200)}, "levels"),
         ):
             with self.subTest(**more), self.assertRaisesRegex(ValueError, words):

@@ -66,22 +66,27 @@ struct DoubtfulLevel
   Reconstruction mesh;
 };
 
-/// Tells of the doubtful levels: as they are, or simplified from what the last one has learnt if that holds more.
-void takeDoubtful(Run& run, const std::optional<LearntRun>& learnt, Reconstruction& last,
-  std::vector<DoubtfulLevel>& doubtful, const LevelTaker& take)
+/// Tells of the doubtful levels: as they are, or simplified from what the last one has learnt if that holds more. If
+/// that has lost thin parts itself, nothing is learnt: then each level is one of its own.
+void takeDoubtful(Run& run, const std::optional<LearntRun>& learnt, const RunRequest& request,
+  Reconstruction& last, std::vector<DoubtfulLevel>& doubtful, const LevelTaker& take,
+  const Progress& progress)
 {
   for (auto& [number, mesh] : doubtful)
   {
-    if (learnt && last.isComplete())
+    Parameters parameters = request.parameters;
+    parameters.numberOfVertices = mesh.surface.vertexCount();
+    if (last.isComplete())
     {
-      Reconstruction other = run.finish(*learnt, mesh.surface.vertexCount(), { 1., 1. });
+      Reconstruction other = learnt
+        ? betterOf(mesh, run.finish(*learnt, parameters.numberOfVertices, { 1., 1. }), holdsMore)
+        : runWithThinParts(mesh, requestOf(request, parameters), progress);
       if (other.stopReason == StopReason::Cancelled)
       {
         last.stopReason = StopReason::Cancelled;
       }
-      else if (holdsMore(other, mesh))
+      else
       {
-        other.times.add(mesh.times);
         mesh = std::move(other);
       }
     }
@@ -147,19 +152,24 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
       learnt.isLearnt = true;
       next = { learnt.learnt.mesh, beginning.gaps, beginning.weights };
       const bool isLast = level + 1 == levels.size();
-      const auto learntForDoubtful =
+      auto learntForDoubtful =
         isLast && !doubtful.empty() ? std::optional<LearntRun>(learnt) : std::nullopt;
       Reconstruction result =
         betterRun(run.finish(std::move(learnt), levels[level], { endOfGrowth, end }), own,
           partOf(progress, end, end));
       result.times.add(std::exchange(times, {}));
+      if (mayHaveLostThinParts(result, own))
+      {
+        learntForDoubtful.reset();
+      }
       if (isLast)
       {
         result = runWithThinParts(std::move(result), own, partOf(progress, end, end));
       }
       if (isLast || !result.isComplete())
       {
-        takeDoubtful(run, learntForDoubtful, result, doubtful, take);
+        takeDoubtful(
+          run, learntForDoubtful, request, result, doubtful, take, partOf(progress, end, end));
         return result;
       }
       if (mayHaveLostThinParts(result, own))

@@ -106,17 +106,6 @@ bool isBetterRefined(const Reconstruction& refined, const Reconstruction& learnt
   return isCloser(
     refined, learnt, learnt.surface.vertexCount(), hasMoreSlivers ? 1. / TimesOfDraw : TimesOfDraw);
 }
-
-/// Of a run and another one that came after it: the second if it is better, or was cancelled.
-Reconstruction betterOf(Reconstruction first, Reconstruction other,
-  const std::function<bool(const Reconstruction&, const Reconstruction&)>& isOtherBetter)
-{
-  other.resumedIterations = first.resumedIterations;
-  other.times.add(first.times);
-  first.times = other.times;
-  const bool isTaken = other.stopReason == StopReason::Cancelled || isOtherBetter(first, other);
-  return isTaken ? other : first;
-}
 }
 
 Parameters learnable(Parameters parameters, const PointCloud& cloud)
@@ -147,6 +136,16 @@ std::uint64_t verticesToLearn(const RunRequest& request)
   const std::uint64_t least =
     std::min<std::uint64_t>(LeastLearntToFit, request.cloud.differentCount() / PointsToSimplify);
   return mayLearnOtherwise(request) ? std::max(asked, least) : asked;
+}
+
+Reconstruction betterOf(Reconstruction first, Reconstruction other,
+  const std::function<bool(const Reconstruction&, const Reconstruction&)>& isBetter)
+{
+  other.resumedIterations = first.resumedIterations;
+  other.times.add(first.times);
+  first.times = other.times;
+  const bool isTaken = other.stopReason == StopReason::Cancelled || isBetter(other, first);
+  return isTaken ? other : first;
 }
 
 bool mayHaveLostThinParts(const Reconstruction& result, const RunRequest& request)
@@ -190,7 +189,7 @@ Reconstruction betterRun(Reconstruction result, const RunRequest& request, const
     return isRight(result, asked)
       ? result
       : betterOf(std::move(result), learnAndFinish(asked, request, progress, {}, {}),
-          [&](const Reconstruction& first, const Reconstruction& other)
+          [&](const Reconstruction& other, const Reconstruction& first)
           { return !isCloser(first, other, asked); });
   }
   if (!mayHaveRoundedCreases(result, request.cloud, request.parameters))
@@ -198,9 +197,8 @@ Reconstruction betterRun(Reconstruction result, const RunRequest& request, const
     return result;
   }
   const std::uint64_t fewer = request.cloud.differentCount() / PointsThatTellCreases;
-  return betterOf(std::move(result), learnAndFinish(fewer, request, progress, {}, {}),
-    [](const Reconstruction& first, const Reconstruction& other)
-    { return isBetterRefined(other, first); });
+  return betterOf(
+    std::move(result), learnAndFinish(fewer, request, progress, {}, {}), isBetterRefined);
 }
 
 Reconstruction runWithThinParts(
@@ -214,9 +212,7 @@ Reconstruction runWithThinParts(
   {
     return result;
   }
-  return betterOf(std::move(result), learnAndFinish(finer, request, progress, {}, {}),
-    [](const Reconstruction& first, const Reconstruction& other)
-    { return holdsMore(other, first); });
+  return betterOf(std::move(result), learnAndFinish(finer, request, progress, {}, {}), holdsMore);
 }
 
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,

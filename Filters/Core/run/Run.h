@@ -14,6 +14,7 @@
 #include "run/Stages.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 namespace neuralmesh
@@ -84,6 +85,9 @@ private:
 /// So many vertices are learnt first. A mesh of few would lose what is narrower than its edges while it learns, so it
 /// is simplified from more.
 std::uint64_t verticesToLearn(const RunRequest& request);
+/// Of a run and another one that came after it: the second if it is better than the first, or was cancelled.
+Reconstruction betterOf(Reconstruction first, Reconstruction other,
+  const std::function<bool(const Reconstruction& other, const Reconstruction& first)>& isBetter);
 /// `result`, which has learnt so many; or a run of its own that learns fewer or as many as are asked for, where that
 /// may be better and is.
 Reconstruction betterRun(

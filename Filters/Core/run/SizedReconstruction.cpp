@@ -140,6 +140,7 @@ private:
       const std::uint64_t size = isLast ? soundSize() : sizeByTrials();
       choice_.predicted = std::min(expected(size), choice_.length);
       Reconstruction result = grownRun(size);
+      limitNoise(result);
       if (!result.isComplete() || isLast || size == mostVertices())
       {
         return conclude(std::move(result));
@@ -261,6 +262,16 @@ private:
     const auto square = [](const Measured& one)
     { return one.error.rootMeanSquare * one.error.rootMeanSquare; };
     return std::max(0., square(fewer) - square(more)) / (power(fewer) - power(more));
+  }
+
+  /// The fit of a finished mesh tells its noise: trials may have taken the shape of thin parts for more.
+  void limitNoise(const Reconstruction& result)
+  {
+    if (result.finish)
+    {
+      noise_ = std::min(noise_, result.finish->noise);
+      choice_.noise = noise_ * request_.cloud.unit();
+    }
   }
 
   std::uint64_t sizeByCloud()
@@ -416,6 +427,7 @@ private:
     {
       return result;
     }
+    limitNoise(result);
     for (const Measured& one : measured_)
     {
       choice_.trials.push_back({ one.vertices, errorOf(one.error) });

@@ -5,6 +5,7 @@
 #include "run/HeldOutError.h"
 #include "run/SizedReconstruction.h"
 #include "Shapes.h"
+#include "ThinPlate.h"
 
 #include <gtest/gtest.h>
 
@@ -62,6 +63,22 @@ TEST(SizedReconstruction, TellsNoise)
     EXPECT_LE(error.rootMeanSquare, error.ninetyNine);
     EXPECT_LE(error.ninetyNine, error.largest);
   }
+}
+
+// Promise: what a small mesh makes of a thin part is not taken for noise in the end: of a plate without noise nothing is
+// taken off, and a tolerance that is not met is warned of.
+TEST(SizedReconstruction, ThinPartsAreNoNoise)
+{
+  constexpr double Thickness = 0.012;
+  CloudOptions options;
+  options.count = 60000;
+  const PointCloud cloud(generateCloud(makePlate(20, Thickness), options));
+  const Reconstruction mesh = sized(cloud, percent(0.6, ToleranceMeasure::Largest));
+  ASSERT_TRUE(mesh.size);
+  EXPECT_LT(mesh.size->noise, 0.05 * Thickness);
+  const HeldOutError error = heldOutError(cloud, mesh.surface);
+  const bool isMet = cloud.unit() * error.largest <= 1.05 * mesh.size->length;
+  EXPECT_NE(isMet, !mesh.size->warning().empty());
 }
 
 // Promise: noise is taken off as squares, by as much as a distance has of it, and nothing below 0 is left.

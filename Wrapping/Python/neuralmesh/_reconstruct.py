@@ -158,6 +158,8 @@ def reconstruct(
             >>> mesh.GetNumberOfPoints()
             5000
     """
+    if vertices == "auto" and levels is not None:
+        raise ValueError('vertices="auto" and levels exclude each other: levels are numbers of vertices.')
     mesh = make_filter(
         vertices,
         seed,
