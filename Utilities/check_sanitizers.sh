@@ -43,7 +43,8 @@ memory='^Filters\.TestNeuralMeshManyRuns$|^Core\.FitMemory\.ALargeFitTakesLittle
 # threads: the longest tests of that are left to --all.
 choice='Tuning|Automatic'
 quality='\.(CreaseRefinement\.MoreVertices|Fidelity\.(SharpensACube|MoreVertices|AveragesNoise)|ScatteredPoints\.'
-quality+='|SmallMeshes\.KeepA|Levels\.OfThin|Levels\.AreAsGood|Warnings\.LostRod|SizedReconstruction\.ThinParts|FirstSurface\.HollowBodies'
+quality+='|SmallMeshes\.KeepA|Levels\.OfThin|Levels\.AreAsGood|Warnings\.LostRod'
+quality+='|SizedReconstruction\.ThinParts|FirstSurface\.HollowBodies'
 quality+='|Uncertainty\.(Grows|IsThere|Knows|Holds|Leaves|IsLargest|Chance))'
 programs='NeuralMeshCoreMemoryTests NeuralMeshCoreThreadTests NeuralMeshFilterTests
   NeuralMeshFilterThreadTests NeuralMeshFuzzEngineShortly'

@@ -264,12 +264,14 @@ private:
     return std::max(0., square(fewer) - square(more)) / (power(fewer) - power(more));
   }
 
-  /// The fit of a finished mesh tells its noise: trials may have taken the shape of thin parts for more.
+  /// The fit of a finished mesh tells its noise: where that is clearly less, trials have taken the shape of thin parts
+  /// for more.
   void limitNoise(const Reconstruction& result)
   {
-    if (result.finish)
+    constexpr double ClearlyLess = 0.9;
+    if (result.finish && result.finish->noise < ClearlyLess * noise_)
     {
-      noise_ = std::min(noise_, result.finish->noise);
+      noise_ = result.finish->noise;
       choice_.noise = noise_ * request_.cloud.unit();
     }
   }
