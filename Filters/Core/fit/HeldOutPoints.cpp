@@ -5,6 +5,7 @@
 #include "mesh/NearestTriangle.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace neuralmesh
 {
@@ -13,21 +14,32 @@ namespace
 /// A part for the executor.
 constexpr std::size_t HeldOutPerRange = 512;
 
-std::vector<float> distancesToNearest(const PointCloud& cloud,
-  const std::vector<std::size_t>& points, const Mesh& mesh, const Executor& executor)
+/// Where edges are long beside how thin the mesh is, the closest vertex may lie on another part of it: what seems to be
+/// farther away than this part of an edge is measured to all triangles.
+constexpr double EdgesToLookAgain = 0.05;
+
+/// Those that are larger than `least` are measured to all triangles.
+void measureToAll(const PointCloud& cloud, const std::vector<std::size_t>& points, const Mesh& mesh,
+  float least, const Executor& executor, std::vector<float>& squared)
 {
+  const auto isFar = [least](float distance) { return distance > least; };
+  if (std::none_of(squared.begin(), squared.end(), isFar))
+  {
+    return;
+  }
   const NearestTriangle nearest(trianglesIn(mesh));
-  std::vector<float> result(points.size());
   executor.forEachRange(points.size(), HeldOutPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        const Vector4 point = cloud.points()[points[i]];
-        result[i] = float(nearest.find(point.toDouble()).squaredDistance);
+        if (isFar(squared[i]))
+        {
+          const auto found = nearest.find(cloud.points()[points[i]].toDouble());
+          squared[i] = std::min(squared[i], float(found.squaredDistance));
+        }
       }
     });
-  return result;
 }
 }
 
@@ -47,12 +59,13 @@ std::vector<std::size_t> heldOutPoints(const PointCloud& cloud, std::size_t most
 std::vector<float> squaredDistances(const PointCloud& cloud, const std::vector<std::size_t>& points,
   const Mesh& mesh, const Executor& executor, DistanceTo to)
 {
+  std::vector<float> result(points.size(), std::numeric_limits<float>::infinity());
   if (to == DistanceTo::NearestTriangle)
   {
-    return distancesToNearest(cloud, points, mesh, executor);
+    measureToAll(cloud, points, mesh, 0.f, executor, result);
+    return result;
   }
   const VertexGrid grid = gridOf(mesh, cloud);
-  std::vector<float> result(points.size());
   executor.forEachRange(points.size(), HeldOutPerRange,
     [&](std::size_t begin, std::size_t end)
     {
@@ -60,12 +73,17 @@ std::vector<float> squaredDistances(const PointCloud& cloud, const std::vector<s
       {
         const Vector4 point = cloud.points()[points[i]];
         const VertexIndex closest = grid.closest(point, mesh.positions());
-        const PlaceOnMesh place = to == DistanceTo::Surface
-          ? closestPlaceAround(point, mesh, closest)
-          : closestPlaceAt(point, mesh, closest);
+        const PlaceOnMesh place = to == DistanceTo::TrianglesAtClosestVertex
+          ? closestPlaceAt(point, mesh, closest)
+          : closestPlaceAround(point, mesh, closest);
         result[i] = place.squaredDistance;
       }
     });
+  if (to == DistanceTo::SurfaceAgain)
+  {
+    const double least = EdgesToLookAgain * mesh.meanEdge();
+    measureToAll(cloud, points, mesh, float(least * least), executor, result);
+  }
   return result;
 }
 }

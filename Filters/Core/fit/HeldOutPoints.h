@@ -21,7 +21,8 @@ std::vector<std::size_t> heldOutPoints(const PointCloud& cloud, std::size_t most
 /// What of a mesh a distance is to.
 enum class DistanceTo
 {
-  Surface,
+  Surface,                  ///< around the closest vertex
+  SurfaceAgain,             ///< and to all triangles where that seems to be far
   TrianglesAtClosestVertex, ///< alone: where another is closer, the mesh lies ill there
   NearestTriangle           ///< wherever it is: where the mesh is coarse, others may be closer
 };

@@ -26,5 +26,5 @@ struct MeshQuality
 /// `triangles` are those of the mesh. Of very many points only some are measured; to the nearest triangle, of a surface,
 /// none is an outlier.
 MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles,
-  const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::Surface);
+  const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::SurfaceAgain);
 }

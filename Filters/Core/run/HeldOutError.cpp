@@ -136,7 +136,8 @@ double HeldOutError::withoutNoise(ToleranceMeasure measure, double noise) const
 HeldOutError heldOutError(const PointCloud& cloud, const Mesh& mesh, const Executor& executor)
 {
   const std::vector<std::size_t> points = heldOutPoints(cloud, MostMeasured);
-  std::vector<float> distances = squaredDistances(cloud, points, mesh, executor);
+  std::vector<float> distances =
+    squaredDistances(cloud, points, mesh, executor, DistanceTo::SurfaceAgain);
   std::transform(distances.begin(), distances.end(), distances.begin(),
     [](float squared) { return std::sqrt(squared); });
   HeldOutError result;

@@ -88,15 +88,7 @@ void findExactly(const Mesh& mesh, const PointCloud& cloud, float least, const E
   {
     return;
   }
-  TriangleMesh triangles;
-  for (const Vector4& position : mesh.positions())
-  {
-    triangles.points.push_back(position.toDouble());
-  }
-  mesh.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
-      triangles.triangles.push_back({ a, b, c });
-    });
+  const TriangleMesh triangles = trianglesIn(mesh);
   const NearestTriangle nearest(triangles);
   executor.forEachRange(result.points.size(), DistancesPerRange,
     [&](std::size_t begin, std::size_t end)

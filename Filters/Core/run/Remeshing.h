@@ -37,7 +37,8 @@ std::string whyNoRemeshing(const Parameters& parameters, const BesideSurface& be
 /// How many samples of a surface a mesh with these parameters is fitted to.
 std::size_t samplesOfSurface(const Parameters& parameters);
 
-/// Remeshes `surface`, of which `samples` are points with normals, by their index in the cloud: refines and simplifies it to as many vertices as the
+/// Remeshes `surface`, of which `samples` are points with normals, by their index in the cloud: refines and simplifies it
+/// to as many vertices as the
 /// parameters have, evens them, and fits them to the samples. Nothing is learnt, boundaries and sides stay what they
 /// are. Where the topology needs more vertices, there are more.
 Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, Mesh surface,
