@@ -4,7 +4,7 @@
 
 Every relative link leads to a file and, behind a #, to a heading; every file that prose names in code
 font with its folder exists; every page of Documentation is linked from its index; every file named in
-Documentation/Thesis.md exists, and no cell of its tables is empty. Prints what does not hold.
+Thesis.md exists, and no cell of its tables is empty. Prints what does not hold.
 """
 
 import pathlib
@@ -45,7 +45,7 @@ def not_in_index(all_pages):
     (index,) = (page for page in all_pages if page.name == "Documentation/README.md")
     linked = {(index.path.parent / link.partition("#")[0]).resolve() for link in index.links}
     for page in all_pages:
-        if page.path.parent == index.path.parent and page is not index and page.path.resolve() not in linked:
+        if page.path.is_relative_to(index.path.parent) and page is not index and page.path.resolve() not in linked:
             yield f"{index.name}: {page.name} is not linked"
 
 
@@ -67,7 +67,7 @@ def check(root):
     by_path = {page.path: page for page in all_pages}
     wrong = [text for page in all_pages for text in (*bad_links(page, by_path), *bad_names(page, root))]
     wrong += not_in_index(all_pages)
-    (thesis,) = (page for page in all_pages if page.name == "Documentation/Thesis.md")
+    (thesis,) = (page for page in all_pages if page.path.name == "Thesis.md")
     wrong += bad_cells(root, thesis)
     print("\n".join(wrong) or f"{sum(len(page.links) for page in all_pages)} links: all well")
     return 1 if wrong else 0

@@ -51,7 +51,7 @@ class Tables(unittest.TestCase):
     def test_values(self):
         variants = {"Basic": "Basic", "NoiseFiltering": "NoiseFiltering", "NormalBased": "NormalBased"}
         checked = 0
-        written = [page.path for page in pages(ROOT) if page.path.parent == DOCUMENTATION]
+        written = [page.path for page in pages(ROOT) if page.path.is_relative_to(DOCUMENTATION)]
         for page in [*written, PARAMETERS]:
             for row in rows_of(page):
                 name = row["property"].strip("`")
