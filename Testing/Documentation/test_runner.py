@@ -20,7 +20,7 @@ BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 PLANTED = [
     "scan.ply", "scan.vtp", "scan.raw", "coarse.ply", "reference.ply", "mesh.ply", "mesh.vtp", "jobs.json",
     "jobs-results/summary.csv", "scans/scan.ply", "prefix/bin/neuralmesh", "program/program.cxx",
-    "demo/kitten.xyz", "packages/notes.txt", "Documentation/Pictures/mine.png",
+    "packages/notes.txt", "Documentation/Pictures/mine.png",
 ]
 NOTES = """# Notes
 
