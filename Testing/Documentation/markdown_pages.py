@@ -36,7 +36,7 @@ LANGUAGES = {*RUN, "cpp", "cmake", "json", "diff", "text"}
 PACKAGES = {"pyvista": "Testing/Python/test_pyvista.py"}
 # Run by a test that knows what stands on the page.
 ELSEWHERE = {
-    "Documentation/Tutorial.md": "ParaView.tutorial",
+    "Documentation/Guide/ParaView.md": "ParaView.tutorial",
 }
 
 
