@@ -13,9 +13,9 @@ bash "$root/Utilities/release.sh" --check "$build"
 disagrees()
 {
   rm -rf "${copy:?}"/*
-  mkdir "$copy/Utilities" "$copy/Documentation"
+  mkdir -p "$copy/Utilities" "$copy/Documentation/Guide"
   cp "$root"/{CMakeLists.txt,CHANGELOG.md} "$copy"
-  cp "$root"/Documentation/{Cpp,FiveMinutes}.md "$copy/Documentation"
+  cp "$root/Documentation/Guide/Start.md" "$copy/Documentation/Guide"
   cp "$root/Utilities/release.sh" "$copy/Utilities"
   sed -i "s/$2/$3/" "$copy/$1"
   ! bash "$copy/Utilities/release.sh" --check "${@:5}" > "$copy/out" 2>&1 ||
@@ -26,6 +26,6 @@ disagrees()
 
 disagrees CHANGELOG.md '^## \[[0-9.]*\] - ' '## [99.0.0] - ' CHANGELOG.md
 disagrees CHANGELOG.md '^## \[[0-9.]*\] - .*' '## [99.0.0]' CHANGELOG.md
-disagrees Documentation/Cpp.md '^find_package(NeuralMesh [0-9.]*' 'find_package(NeuralMesh 99.0' \
-  Documentation/Cpp.md,
+disagrees Documentation/Guide/Start.md '^find_package(NeuralMesh [0-9.]*' 'find_package(NeuralMesh 99.0' \
+  Documentation/Guide/Start.md,
 disagrees CMakeLists.txt 'NeuralMesh VERSION [0-9.]*' 'NeuralMesh VERSION 99.0.0' "the command" "$build"

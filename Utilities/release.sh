@@ -50,11 +50,9 @@ check_files()
 {
   agrees CMakeLists.txt "$version"
   agrees CHANGELOG.md "$(newest_section)"
-  local page
-  for page in Documentation/Cpp.md Documentation/FiveMinutes.md; do
-    agrees "$page, find_package" \
-      "$(sed -nE 's/^find_package\(NeuralMesh ([0-9.]+) .*/\1/p' "$page")" "${version%.*}"
-  done
+  local page=Documentation/Guide/Start.md
+  agrees "$page, find_package" \
+    "$(sed -nE 's/^find_package\(NeuralMesh ([0-9.]+) .*/\1/p' "$page")" "${version%.*}"
 }
 
 # check_build BUILD

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws the pictures of the tutorial for PyVista anew, by doing what it says: draw_pyvista.sh [PYTHON], a Python
+# Draws the pictures of the page for Python and PyVista anew, by doing what it says: draw_pyvista.sh [PYTHON], a Python
 # that has NeuralMesh and PyVista. Without it, one is made, for which NeuralMesh is compiled.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -24,7 +24,7 @@ sys.path.insert(0, str(root / "Testing" / "Documentation"))
 from markdown_pages import Page
 from PIL import Image
 
-page = Page(root / "Documentation" / "PyVista.md", "PyVista.md")
+page = Page(root / "Documentation" / "Guide" / "Python.md", "Python.md")
 os.chdir(folder)
 variables = {}
 for block in page.blocks:

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws the pictures of the tutorial anew, by doing what it says.
+# Draws the pictures of the page for ParaView anew, by doing what it says.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source Utilities/build.sh

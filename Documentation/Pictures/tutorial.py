@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plays Documentation/Tutorial.md in pvpython: tutorial.py FOLDER
+"""Plays Documentation/Guide/ParaView.md in pvpython: tutorial.py FOLDER
 
 Runs its blocks of Python one after the other, and saves each picture that a block leads to as it is
 on the screen then. A block with file=NAME behind its fence is written to that file.
@@ -12,14 +12,14 @@ import sys
 
 from paraview import simple
 
-PAGE = pathlib.Path(__file__).parents[1] / "Tutorial.md"
+PAGE = pathlib.Path(__file__).parents[1] / "Guide" / "ParaView.md"
 SIZE = [640, 480]
 
 
 def steps():
     """Blocks of code as (language or file, text), and pictures as ("picture", name), as they come."""
     text = PAGE.read_text(encoding="utf-8")
-    blocks = r"```(\w+)(?: file=(\S+))?\n(.*?)```|!\[[^]]*\]\(Pictures/(\w+\.png)\)"
+    blocks = r"```(\w+)(?: file=(\S+))?\n(.*?)```|!\[[^]]*\]\(\.\./Pictures/(\w+\.png)\)"
     for match in re.finditer(blocks, text, re.DOTALL):
         language, file, code, picture = match.groups()
         yield (file or language, code) if language else ("picture", picture)

@@ -14,7 +14,7 @@ import re
 import subprocess
 import sys
 
-from markdown_pages import ELSEWHERE, LANGUAGES, REASONS, Block, pages
+from markdown_pages import ELSEWHERE, LANGUAGES, PACKAGES, REASONS, Block, pages
 from repository_copy import repository_copy
 
 # The test that compiles what the page saves.
@@ -78,7 +78,9 @@ def wrong_blocks(page, all_pages, root):
             yield f"{place}: a block of {block.language or 'no language'}: one of {sorted(LANGUAGES)}"
         if reason is not None and reason not in REASONS:
             yield f"{place}: no reason: {reason}: one of {sorted(REASONS)}"
-        unknown = [word for word in block.words if not re.match("norun=|file=|output$", word)]
+        if block.value("needs") not in {None, *PACKAGES}:
+            yield f"{place}: no test has {block.value('needs')}: one of {sorted(PACKAGES)}"
+        unknown = [word for word in block.words if not re.match("norun=|file=|needs=|output$", word)]
         if unknown:
             yield f"{place}: what is {unknown}?"
         if not block.is_run:

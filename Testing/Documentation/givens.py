@@ -7,8 +7,6 @@ that they are made.
 
 import functools
 import json
-import pathlib
-import tarfile
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -68,19 +66,10 @@ def make_files(folder, build, page):
     (folder / "scan.raw").write_bytes(bytes(512) + torus(POINTS).astype("<f4").tobytes())
     for name in ("coarse", "reference"):
         write(vtkPLYWriter(), folder / f"{name}.ply", coarse)
-    if page == "Documentation/Batch.md":
-        take_kitten(folder / "demo")
-    else:
+    # That page has a recipe of its own.
+    if page != "Documentation/Guide/CommandLine.md":
         recipe = {"scans": ["scan.ply"], "matrix": {"vertices": 500}, "gallery": False}
         (folder / "jobs.json").write_text(json.dumps(recipe), encoding="utf-8")
-
-
-def take_kitten(folder):
-    """What demo.sh takes out of the Debian package libcgal-demo."""
-    folder.mkdir()
-    with tarfile.open("/usr/share/doc/libcgal-dev/data.tar.gz") as archive:
-        file = archive.extractfile("data/points_3/kitten.xyz")
-        pathlib.Path(folder / "kitten.xyz").write_bytes(file.read())
 
 
 def variables():

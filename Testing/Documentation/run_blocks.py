@@ -5,10 +5,12 @@
 They run in a copy of the repository, with BUILD as `build`, that has what pages take as given: see
 givens.py. Blocks of Python share their variables. Blocks of shell are one session: what one of them
 exports, and the folder that it goes to, are there for the next. Nothing else leads to what was built, so
-that commands work as they are printed. Prints what it runs.
+that commands work as they are printed. Prints what it runs, and which blocks it leaves out, as what they need
+is not there.
 """
 
 import doctest
+import importlib.util
 import os
 import pathlib
 import subprocess
@@ -77,12 +79,19 @@ def save(path, text):
         file.write(text)
 
 
+def is_missing(package):
+    return package is not None and importlib.util.find_spec(package) is None
+
+
 def play(page, folder, build):
     environment = shell_environment(folder, build)
     variables = givens.variables()
     printed = ""
     for block in page.blocks:
         print(f"{page.name}:{block.line}: {block.language} {' '.join(block.words)}", flush=True)
+        if is_missing(block.value("needs")):
+            print(f"left out: there is no {block.value('needs')}")
+            continue
         try:
             if block.is_saved:
                 save(folder / block.value("file"), block.text)

@@ -19,8 +19,8 @@ BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 # What tutorials and users leave in the folder: the names are those that pages and givens.py use.
 PLANTED = [
     "scan.ply", "scan.vtp", "scan.raw", "coarse.ply", "reference.ply", "mesh.ply", "mesh.vtp", "jobs.json",
-    "jobs-results/summary.csv", "scans/kitten.xyz", "prefix/bin/neuralmesh", "program/program.cxx",
-    "demo/kitten.xyz", "packages/notes.txt", "Documentation/Pictures/mine.png",
+    "jobs-results/summary.csv", "scans/scan.ply", "prefix/bin/neuralmesh", "program/program.cxx",
+    "packages/notes.txt", "Documentation/Pictures/mine.png",
 ]
 NOTES = """# Notes
 
@@ -172,10 +172,10 @@ class Planted(InFolder):
     def test_pages(self):
         # Of the batch, what is quick.
         recipe = '"matrix": {"vertices": 200}, "gallery": false,'
-        self.edit("Documentation/Batch.md", lambda text: re.sub('"matrix": .*', recipe, text))
+        self.edit("Documentation/Guide/CommandLine.md", lambda text: re.sub('"matrix": .*', recipe, text))
         write(self.folder / "Documentation" / "Session.md", SESSION.replace("BUILD", str(BUILD)))
         before = self.snapshot()
-        names = ("README", "Documentation/Batch", "Documentation/Session")
+        names = ("README", "Documentation/Guide/CommandLine", "Documentation/Session")
         processes = {name: self.start("run_blocks.py", BUILD, f"{name}.md") for name in names}
         for name, process in processes.items():
             with self.subTest(page=name):

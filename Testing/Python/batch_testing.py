@@ -67,7 +67,7 @@ class BatchTest(unittest.TestCase):
     @classmethod
     def write_example(cls, **changes):
         """The recipe of the documentation, with two scans that are sound and one that is not."""
-        text = (DOCUMENTATION / "Batch.md").read_text(encoding="utf-8")
+        text = (DOCUMENTATION / "Guide" / "CommandLine.md").read_text(encoding="utf-8")
         example = json.loads(re.search(r"```json[^\n]*\n(.*?)```", text, re.DOTALL).group(1))
         example["format"] = DEFAULT_FORMAT
         cls.write_recipe(**{**example, **changes})

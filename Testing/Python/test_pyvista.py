@@ -362,7 +362,7 @@ class Data(unittest.TestCase):
 
 
 class Page(unittest.TestCase):
-    # Promise: all that the tutorial shows works as it is printed, plots and all.
+    # Promise: all that the page for Python shows works as it is printed, plots and all.
     def test_page(self):
         if importlib.util.find_spec("vtkmodules") is None:
             self.skipTest("what runs the blocks of a page needs vtkmodules")
@@ -373,11 +373,12 @@ class Page(unittest.TestCase):
         with tempfile.TemporaryDirectory() as build:
             runner = [sys.executable, ROOT / "Testing" / "Documentation" / "run_blocks.py"]
             process = subprocess.run(
-                [*self.screen(), *runner, ROOT, build, "Documentation/PyVista.md"],
+                [*self.screen(), *runner, ROOT, build, "Documentation/Guide/Python.md"],
                 capture_output=True, text=True,
             )  # fmt: skip
         self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
         self.assertIn("all well", process.stdout)
+        self.assertNotIn("left out", process.stdout)
 
     def screen(self):
         """What a command begins with that draws: from version 9.4 on pip's VTK needs no screen."""

@@ -14,7 +14,7 @@ from ._build import VTK_VERSION
 _PLUGIN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "paraview_plugin.py")
 _COMPILED = """\
 This package belongs to the compiled plugin, NeuralMesh.so: the Debian package has it, and ParaView loads
-it by itself. Documentation/ParaView.md tells of others.
+it by itself. Documentation/Guide/ParaView.md tells of others.
 """
 _PYTHON = """\
 The plugin for ParaView is this file:
