@@ -40,7 +40,7 @@
  *
  * @par What it does not do
  * Text and compressed files, and other formats: read them whole, or write them anew.
- * See Documentation/LargeClouds.md.
+ * See Documentation/Guide/Large.md.
  *
  * @sa vtkNeuralMesh vtkPLYReader vtkXMLPolyDataReader
  */
