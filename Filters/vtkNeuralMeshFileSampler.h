@@ -40,7 +40,7 @@
  *
  * @par What it does not do
  * Text and compressed files, and other formats: read them whole, or write them anew.
- * See Documentation/Guide/Large.md.
+ * See Documentation/LargeClouds.md.
  *
  * @sa vtkNeuralMesh vtkPLYReader vtkXMLPolyDataReader
  */

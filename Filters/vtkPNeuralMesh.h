@@ -6,7 +6,7 @@
  * vtkPNeuralMesh is vtkNeuralMesh for a cloud of which each process of the Controller has a part, as
  * in pvserver and pvbatch under MPI. Learning needs samples, never the whole cloud: points move only
  * once, and no more than MaximumPoints or so, however large the cloud is. Process 0 learns; the mesh
- * is on process 0, and the outputs of the others are empty. Documentation/Guide/Large.md tells how it is
+ * is on process 0, and the outputs of the others are empty. Documentation/Cluster.md tells how it is
  * run, and what is moved.
  *
  * @par Selection
