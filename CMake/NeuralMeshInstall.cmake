@@ -21,5 +21,5 @@ install(DIRECTORY Documentation DESTINATION "${CMAKE_INSTALL_DOCDIR}"
   PATTERN Doxyfile.in EXCLUDE
   PATTERN Parameters.md EXCLUDE)
 # With its tables.
-install(FILES "${PROJECT_BINARY_DIR}/Documentation/Parameters.md"
-  DESTINATION "${CMAKE_INSTALL_DOCDIR}/Documentation")
+install(FILES "${PROJECT_BINARY_DIR}/Documentation/Guide/Parameters.md"
+  DESTINATION "${CMAKE_INSTALL_DOCDIR}/Documentation/Guide")

@@ -1,5 +1,5 @@
 # What follows from the list of parameters, Filters/Parameters.json: headers, XML of the ParaView plugin
-# and the page Documentation/Parameters.md, each from a template, in the build tree where that lies in
+# and the page Documentation/Guide/Parameters.md, each from a template, in the build tree where that lies in
 # the sources. They are written anew where the list, a template or a script has changed.
 find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
 

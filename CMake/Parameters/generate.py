@@ -61,7 +61,7 @@ TEMPLATES = {
     f"{PLUGIN}/NeuralMeshSurface.xml.in": PANEL,
     "Wrapping/Python/neuralmesh/_list.py.in": PYTHON,
     # The page itself, which is read in the repository, too.
-    "Documentation/Parameters.md": PAGE,
+    "Documentation/Guide/Parameters.md": PAGE,
 }
 
 

@@ -9,7 +9,7 @@ A choice has
   owner       the class of VTK whose enumeration it is; the core does not know it then (none)
   engine      false if the core does not know it either (true)
 
-A group, which is a table of Documentation/Parameters.md, has
+A group, which is a table of Documentation/Guide/Parameters.md, has
   key         by which templates name it
   title       of the section in the struct
   panel       the label of the group of the panel of ParaView in which its parameters stand; null for

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of Documentation/Parameters.md."""
+"""The tables of Documentation/Guide/Parameters.md."""
 
 import fractions
 import re

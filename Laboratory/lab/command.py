@@ -66,9 +66,6 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--models", nargs="+", metavar="FILE", help="models instead of those of the packages"
     )
-    parser.add_argument(
-        "--markdown", type=Path, metavar="FILE", help="write the verdicts there, too"
-    )
     add_processes_option(parser, "runs")
     return parser
 
@@ -106,15 +103,12 @@ def _experiment(experiments: list[Experiment], options: argparse.Namespace) -> i
         names = ", ".join(map(model_name, scale.models))
         write_report(results, folder / "index.html", f"models {names} {shown}".strip())
         print(f"report             {folder / 'index.html'}")
-        _write_markdown(results, options)
+        write_text(folder / "verdicts.md", verdicts_as_markdown(results, _command_line(options)))
     return 1 if failed else 0
 
 
-def _write_markdown(results: list[Result], options: argparse.Namespace) -> None:
-    if options.markdown is not None:
-        names = " ".join([*options.names, *(["--quick"] if options.quick else [])])
-        write_text(options.markdown.absolute(), verdicts_as_markdown(results, names))
-        print(f"verdicts           {options.markdown}")
+def _command_line(options: argparse.Namespace) -> str:
+    return " ".join([*options.names, *(["--quick"] if options.quick else [])])
 
 
 def _run(runs: dict[str, Run], store: Path, processes: int) -> set[str]:

@@ -171,12 +171,12 @@ def _mean(part: Table, name: str) -> str:
 # --- Markdown ------------------------------------------------------------------------------------
 
 
-def verdicts_as_markdown(results: list[Result], names: str) -> str:
-    """The verdicts alone, as tables."""
+def verdicts_as_markdown(results: list[Result], arguments: str) -> str:
+    """The verdicts alone, as tables; the arguments are those of the command."""
     parts = [
         "# The thesis, experiment by experiment\n",
-        f"Written by `python3 -m neuralmesh.lab {names} --markdown FILE`; what it means is told by "
-        "[Laboratory.md](Laboratory.md).\n",
+        f"`python3 -m neuralmesh.lab {arguments}` has written this page. "
+        "Documentation/Research/Laboratory.md explains it.\n",
         "| thesis | experiment | verdict |\n|---|---|---|\n",
     ]
     for result in results:

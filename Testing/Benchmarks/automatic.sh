@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prints what Automatic chooses for clouds, and the errors with it and without: the table of
-# Documentation/Automatic.md.
+# Documentation/Research/Measurements.md.
 #
 #   automatic.sh [--seeds N] CLOUD,REFERENCE[,close]...
 set -euo pipefail

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prints how much of the sharp edges of known shapes the feature lines find, and how many lines are none: the
-# table of Documentation/FeatureLines.md.
+# table of Documentation/Research/Measurements.md.
 #
 #   feature_lines.sh [--vertices N] [--points N] [ROW...]
 #

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prints how numbers of vertices that are found compare with what a search finds: the tables of
-# Documentation/HowMany.md.
+# Documentation/Research/Measurements.md.
 #
 #   how_many.sh [--seed N] [--tolerances PERCENT,...] [--measure rms|99|largest] [--no-ladder] [--no-search]
 #               CLOUD[,REFERENCE]...

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Prints how levels of detail compare with runs of their own: the table of Documentation/Levels.md.
+# Prints how levels of detail compare with runs of their own: the table of Documentation/Research/Measurements.md.
 #
 #   levels.sh [--seeds N] [--levels N1,N2,...] CLOUD,REFERENCE...
 set -euo pipefail

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Prints how far the volume tells the outer side of open shapes: the table of Documentation/Orientation.md.
+# Prints how far the volume tells the outer side of open shapes: the table of Documentation/Research/Measurements.md.
 #
 #   orientation.sh [--vertices N] [--seeds N] [CLOUD...]
 set -euo pipefail

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prints our meshes beside those of Open3D, PyMeshLab, PoissonRecon and CGAL on easy and hard clouds: the tables and
-# the pictures of Documentation/Peers.md. What is not to be had is left out, with a word.
+# the pictures of Documentation/Research/Peers.md. What is not to be had is left out, with a word.
 #
 #   peers.sh [CLOUD...]
 #

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prints surfaces that we remesh to 50, 10 and 1 % of their triangles beside those of VTK, pyacvd, fast-simplification
-# and PyMeshLab: the tables of Documentation/Remeshing.md.
+# and PyMeshLab: the tables of Documentation/Research/Measurements.md.
 #
 #   remesh.sh [MODEL.ply...]
 #

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Prints the tables of the README and of Documentation/Checkpoints.md, and the benchmarks of the parts
+# Prints the tables of the README and of Documentation/Guide/Large.md, and the benchmarks of the parts
 # of the loop. About three minutes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prints what large meshes cost, from 20,000 to a million vertices, and what two threads gain:
-# the tables of Documentation/Scale.md. About ten minutes.
+# the tables of Documentation/Guide/Large.md. About ten minutes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source Utilities/build.sh

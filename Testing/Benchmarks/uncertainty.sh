@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prints how often the truth lies within the error bars of the vertices, on clouds whose surface is known: the
-# tables of Documentation/Uncertainty.md.
+# tables of Documentation/Research/Measurements.md.
 #
 #   uncertainty.sh [--seeds 1,2,3] [--vertices N] [--set NAME=VALUE] [--picture FILE] [ROW...]
 #

@@ -78,7 +78,8 @@ def put_tables(root):
     generate = root / "CMake" / "Parameters" / "generate.py"
     with tempfile.TemporaryDirectory() as build:
         subprocess.run([sys.executable, generate, root, build], check=True, stdout=subprocess.DEVNULL)
-        shutil.copy(pathlib.Path(build, "Documentation", "Parameters.md"), root / "Documentation")
+        page = pathlib.Path("Documentation", "Guide", "Parameters.md")
+        shutil.copy(build / page, root / page)
 
 
 def main():

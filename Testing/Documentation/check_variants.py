@@ -1,44 +1,61 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether the page of each variant has the same form: check_variants.py ROOT
+"""Whether the section of each variant has the same form: check_variants.py ROOT
 
-What it is for comes first, then a picture, how it is done in C++, Python and shell, what it costs, and
-where it comes from. The index has them all. Prints what is missing.
+What it is for comes first, then how it is done in one block of shell, a picture, what it costs, and where it
+comes from. Prints what is missing.
 """
 
 import re
 import sys
 
-from markdown_pages import Page
+from markdown_pages import Block, Page
 from repository_copy import repository_copy
 
-HEADINGS = ["How", "What it costs", "Source"]
-LANGUAGES = {"cpp", "python", "sh"}
+PAGE = "Documentation/Research/Variants.md"
+VARIANTS = ["Noise filtering", "Basic", "Normal-based", "Topology rules", "Ensembles"]
+# Values of all of them: nothing that a picture could show.
+PRESET = "Thesis preset"
+FORM = ["Purpose:", "sh", "**Cost.**", "**Source.**"]
 
 
-def variants(index):
-    """The pages in the table of the index that begins with `page` and `for`."""
-    text = index.path.read_text(encoding="utf-8")
-    table = re.search(r"\| page \| for \|\n\|---\|---\|\n((?:\|.*\n)+)", text)[1]
-    return re.findall(r"\]\((\w+\.md)\)", table)
+def sections(page):
+    """The parts of the page below each heading of the second level."""
+    found, title = {}, None
+    for part in page.parts:
+        if not isinstance(part, Block) and part[1].startswith("## "):
+            title = part[1][3:]
+            found[title] = []
+        elif title is not None:
+            found[title].append(part)
+    return found
 
 
-def missing(page):
-    headings = [line[3:] for _, line in page.prose if line.startswith("## ")]
-    if [heading for heading in headings if heading in HEADINGS] != HEADINGS:
-        yield f"{page.name}: the headings {HEADINGS}, in this order"
-    if not page.pictures:
-        yield f"{page.name}: a picture"
-    for language in LANGUAGES - {block.language for block in page.blocks}:
-        yield f"{page.name}: how it is done in {language}"
+def marks(parts):
+    """Which parts of the form a section has, in its order."""
+    for part in parts:
+        if isinstance(part, Block):
+            yield part.language
+        else:
+            yield from (mark for mark in FORM if part[1].startswith(mark) and part[1] != mark)
+
+
+def missing(title, parts):
+    found = list(marks(parts))
+    if found != FORM:
+        yield f"{title}: {FORM}, each once and in this order, not {found}"
+    text = "\n".join(part[1] for part in parts if not isinstance(part, Block))
+    if title != PRESET and not re.search(r"!\[[^]]+\]\(", text):
+        yield f"{title}: a picture"
 
 
 def check(root):
-    folder = root / "Documentation"
-    names = variants(Page(folder / "README.md", "README.md"))
-    wrong = [text for name in names for text in missing(Page(folder / name, name))]
-    print("\n".join(wrong) or f"{len(names)} variants: all well")
-    return 1 if wrong or len(names) < 9 else 0
+    found = sections(Page(root / PAGE, PAGE))
+    wrong = [text for title, parts in found.items() for text in missing(title, parts)]
+    if list(found) != [*VARIANTS, PRESET]:
+        wrong.append(f"sections: {[*VARIANTS, PRESET]}, not {list(found)}")
+    print("\n".join(wrong) or f"{len(found)} sections: all well")
+    return 1 if wrong else 0
 
 
 def main():

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Follows the recipe of Documentation/Developers.md: run_recipe.py ROOT COMPILER OPTION...
+"""Follows the recipe of Documentation/Developers/Extending.md: run_recipe.py ROOT COMPILER OPTION...
 
 The blocks of diff are applied to a copy of the engine, what follows from the list of parameters is written,
 the files of the page are added, and all of it is compiled. The tests among them must pass.
@@ -12,6 +12,8 @@ import sys
 
 from markdown_pages import Page
 from repository_copy import repository_copy
+
+PAGE = pathlib.PurePath("Documentation", "Developers", "Extending.md")
 
 
 def run(command, **options):
@@ -32,7 +34,7 @@ def check_places(folder, files):
         path.name for path in folder.rglob("*")
         if path.is_file() and parameter.lower().encode() in path.read_bytes().lower()
     }
-    wanted = {"Parameters.json", "StoppingRules.cpp", f"Test{parameter}.cpp", "Developers.md"}
+    wanted = {"Parameters.json", "WinGain.cpp", f"Test{parameter}.cpp", PAGE.name}
     if found != wanted:
         sys.exit(f"{parameter} stands in {', '.join(sorted(found))}")
 
@@ -42,7 +44,7 @@ def main():
     compile_command = [*sys.argv[2:], *options, "-I", "Filters/Core", "-I", "build/Filters/Core"]
     with repository_copy(sys.argv[1]) as folder:
         core = folder / "Filters" / "Core"
-        blocks = Page(folder / "Documentation" / "Developers.md", "Developers.md").blocks
+        blocks = Page(folder / PAGE, str(PAGE)).blocks
         patches = [block.text for block in blocks if block.language == "diff"]
         files = {block.value("file"): block.text for block in blocks if block.is_saved}
         run(["patch", "-p1"], input="".join(patches), cwd=folder)

@@ -32,7 +32,7 @@ case_install()
   cmake --install "$build" --prefix "$scratch/first" > "$scratch/install.txt"
   mv "$scratch/first" "$prefix"
   local file
-  for file in README.md LICENSE CHANGELOG.md Documentation/Theory.md; do
+  for file in README.md LICENSE CHANGELOG.md Documentation/Research/Theory.md; do
     [ -s "$prefix/share/doc/NeuralMesh/$file" ] || fail "no $file"
   done
   [ -z "$(find "$prefix" -name '*CS.a')" ] || fail "the static library of the wrapping is there"

@@ -273,7 +273,7 @@ class NewEntries(ListTest):
         self.assertIn('  use(TestedShare, 0.0, 1.0, "how much of it is tested") ', table)
         self.assertIn(
             "| `TestedShare` | α_t of (1.2): how much of it is tested | part | 0.25 | 0 | it does |\n",
-            self.written("Documentation/Parameters.md"))
+            self.written("Documentation/Guide/Parameters.md"))
 
     # Promise: the panel of ParaView has it in its group, and shows it where it counts.
     def test_panel(self):
@@ -300,7 +300,7 @@ class NewEntries(ListTest):
         entry_of(entry, "RemovalLimit")["why"] = "another reason"
         self.write(entry)
         self.generate(self.sources)
-        self.assertIn("another reason", self.written("Documentation/Parameters.md"))
+        self.assertIn("another reason", self.written("Documentation/Guide/Parameters.md"))
 
     # Promise: the panel of ParaView calls a group as the list does.
     def test_label(self):

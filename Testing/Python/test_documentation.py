@@ -18,6 +18,7 @@ DOCUMENTATION = ROOT / "Documentation"
 # With its tables.
 PARAMETERS = pathlib.Path(os.environ["NEURALMESH_PARAMETERS_PAGE"])
 WORDS = {"on": 1, "off": 0}
+VARIANTS = {"noise filtering": "NoiseFiltering", "basic": "Basic", "normal-based": "NormalBased"}
 
 
 def rows_of(page):
@@ -31,6 +32,14 @@ def rows_of(page):
             header = cells
         elif "property" in header and "default" in header and not cells[0].startswith("-"):
             yield dict(zip(header, cells))
+
+
+def columns_of(row):
+    """The columns of a row that have a value, with the preset and the variant that they are for."""
+    for column, text in row.items():
+        preset, _, variant = column.partition(", ")
+        if preset in {"default", "thesis"} and text:
+            yield column, preset, variant or "noise filtering"
 
 
 def value_of(mesh, name):
@@ -47,22 +56,20 @@ def value_of(mesh, name):
 
 class Tables(unittest.TestCase):
     # Promise: what a page gives as the default of a property, or as its value in the thesis preset of
-    # the variant that the page is about, it is.
+    # a variant, it is. A column is `default` or `thesis`, with `, VARIANT` behind it if it is not for the
+    # noise-filtering one.
     def test_values(self):
-        variants = {"Basic": "Basic", "NoiseFiltering": "NoiseFiltering", "NormalBased": "NormalBased"}
-        checked = 0
+        checked, seen = 0, set()
         written = [page.path for page in pages(ROOT) if page.path.is_relative_to(DOCUMENTATION)]
         for page in [*written, PARAMETERS]:
             for row in rows_of(page):
                 name = row["property"].strip("`")
-                for column in {"default", "thesis"} & set(row):
-                    if not row[column]:
-                        continue
+                for column, preset, variant in columns_of(row):
                     mesh = vtkNeuralMesh()
-                    if page.stem == "Ensembles" or not hasattr(mesh, "Get" + name):
+                    if not hasattr(mesh, "Get" + name):
                         mesh = vtkNeuralMeshEnsemble()
-                    getattr(mesh, "SetVariantTo" + variants.get(page.stem, "NoiseFiltering"))()
-                    getattr(mesh, "SetPresetTo" + column.capitalize())()
+                    getattr(mesh, "SetVariantTo" + VARIANTS[variant])()
+                    getattr(mesh, "SetPresetTo" + preset.capitalize())()
                     with self.subTest(page=page.name, property=name, column=column):
                         value = value_of(mesh, name)
                         shown = WORDS.get(row[column], row[column])
@@ -71,7 +78,9 @@ class Tables(unittest.TestCase):
                         else:
                             self.assertAlmostEqual(float(shown), value, places=3)
                         checked += 1
+                        seen.add(variant)
         self.assertGreater(checked, 50)
+        self.assertEqual(seen, set(VARIANTS))
 
     # Promise: every parameter has a row on the page of parameters, just one.
     def test_parameters(self):

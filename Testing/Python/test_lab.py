@@ -68,10 +68,9 @@ class Quick(FolderTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.results = cls.folder / "all"
-        cls.markdown = cls.folder / "verdicts.md"
-        arguments = ("all", "--quick", "--markdown", str(cls.markdown))
-        cls.output, cls.errors, cls.status = run(cls.results, *arguments)
+        cls.output, cls.errors, cls.status = run(cls.results, "all", "--quick")
         cls.report = (cls.results / "index.html").read_text(encoding="utf-8")
+        cls.markdown = (cls.results / "verdicts.md").read_text(encoding="utf-8")
 
     # Promise: the quick form does all runs without errors, and tells how far it is.
     def test_status(self):
@@ -113,12 +112,19 @@ class Quick(FolderTest):
 
     # Promise: the verdicts in Markdown are those of the report.
     def test_markdown(self):
-        text = self.markdown.read_text(encoding="utf-8")
         table = self.report.split("<table>")[1].split("</table>")[0]
-        found = re.findall(r"\| (.*) \| (.*) \| (.*) \|", text.split("## ")[0])[1:]
+        found = re.findall(r"\| (.*) \| (.*) \| (.*) \|", self.markdown.split("## ")[0])[1:]
         wanted = re.findall(r'<a href="#.*?">(.*?)</a></td><td>(.*?)</td><td .*?>(.*?)</td>', table)
         self.assertEqual(found, [tuple(map(html.unescape, row)) for row in wanted])
         self.assertEqual(len(found), len(EXPERIMENTS))
+
+    # Promise: they have every experiment, each claim and a verdict on it.
+    def test_verdicts(self):
+        for experiment in EXPERIMENTS.values():
+            self.assertIn(f"## {experiment.figures}: {experiment.title}", self.markdown)
+            for claim in experiment.claims:
+                row = next((line for line in self.markdown.splitlines() if claim.says in line), "")
+                self.assertRegex(row, rf"\| ({HOLDS}|{HOLDS_IN_PART}|{DOES_NOT_HOLD})[^|]* \|$")
 
     # Promise: exact counters in heaps give the mesh that the search through all counters gives.
     def test_exact(self):
@@ -283,14 +289,15 @@ class Judging(unittest.TestCase):
 
 
 class Documentation(unittest.TestCase):
-    # Promise: the documentation has every experiment, each claim and a verdict on it.
+    # Promise: the page of the laboratory has a row for every experiment, which counts all of its claims.
     def test_verdicts(self):
-        text = (DOCUMENTATION / "LaboratoryVerdicts.md").read_text(encoding="utf-8")
+        text = (DOCUMENTATION / "Research" / "Laboratory.md").read_text(encoding="utf-8")
+        rows = re.findall(r"^\| (.*?) \| .* \| (\d+) of (\d+) \|$", text, re.MULTILINE)
         for experiment in EXPERIMENTS.values():
-            self.assertIn(f"## {experiment.figures}: {experiment.title}", text)
-            for claim in experiment.claims:
-                row = next((line for line in text.splitlines() if claim.says in line), "")
-                self.assertRegex(row, rf"\| ({HOLDS}|{HOLDS_IN_PART}|{DOES_NOT_HOLD})[^|]* \|$")
+            (counts,) = [tuple(map(int, row[1:])) for row in rows if row[0] == experiment.figures]
+            self.assertLessEqual(counts[0], counts[1])
+            self.assertEqual(counts[1], len(experiment.claims), experiment.figures)
+        self.assertEqual(len(rows), len(EXPERIMENTS))
 
 
 if __name__ == "__main__":

@@ -31,6 +31,8 @@ constexpr double LeastSamplesPerVertex = 1.5;
 constexpr double MostGrownByRepair = 0.1;
 /// A piece with less than this part of the area has shrunk to a point.
 constexpr double ShrunkPart = 1e-14;
+/// ... however many vertices it has.
+constexpr double AnyVertices = 1.;
 
 DefectCount countDefects(const Mesh& mesh, const Executor& executor)
 {
@@ -239,7 +241,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
 void Finish::dropShrunkPieces()
 {
   const StoredMesh before(mesh_, executor_);
-  if (dropPieces(mesh_, ShrunkPart) > 0)
+  if (dropPieces(mesh_, ShrunkPart, AnyVertices) > 0)
   {
     refine(
       mesh_, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);

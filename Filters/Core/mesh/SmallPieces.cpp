@@ -85,7 +85,7 @@ std::vector<std::uint8_t> valencesOf(const Mesh& mesh)
   return valences;
 }
 
-std::size_t dropPieces(Mesh& mesh, double leastPart)
+std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices)
 {
   const std::vector<Piece> pieces = findPieces(mesh);
   double all = 0., largest = 0.;
@@ -98,7 +98,8 @@ std::size_t dropPieces(Mesh& mesh, double leastPart)
   std::size_t dropped = 0, vertices = 0;
   for (const Piece& piece : pieces)
   {
-    if (piece.area < leastPart * all && piece.area < largest)
+    if (piece.area < leastArea * all && piece.area < largest &&
+      double(piece.vertices.size()) < leastVertices * double(mesh.vertexCount()))
     {
       ++dropped;
       vertices += piece.vertices.size();
@@ -108,7 +109,7 @@ std::size_t dropPieces(Mesh& mesh, double leastPart)
       }
     }
   }
-  const bool areSmall = leastPart < PartOfSmallPiece;
+  const bool areSmall = leastArea < PartOfSmallPiece;
   const bool areMost = double(vertices) > MostOfVertices * double(mesh.vertexCount());
   if (areSmall && areMost)
   {

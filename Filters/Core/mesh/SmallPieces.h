@@ -18,8 +18,8 @@ std::vector<Triangle> findCutOffPieces(
 /// By the index of the vertex.
 std::vector<std::uint8_t> valencesOf(const Mesh& mesh);
 
-/// Drops all pieces with less than this part of the area of all, but the largest. No vertex may be erased,
-/// and none is in the end; properties follow. Where pieces with less than 1 % are most of the mesh, they stay.
-/// Returns how many were dropped.
-std::size_t dropPieces(Mesh& mesh, double leastPart);
+/// Drops all pieces with less than these parts of the area and of the vertices of all, but the largest. No vertex
+/// may be erased, and none is in the end; properties follow. Where pieces with less than 1 % of the area are most
+/// of the mesh, they stay. Returns how many were dropped.
+std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices);
 }

@@ -26,6 +26,9 @@ constexpr double PartOfFront = 0.75;
 /// Of the curvature.
 constexpr double UsualDensityExponent = 0.5;
 constexpr double DensityExponentIfOpen = 0.25;
+/// A piece with so many times the part of the vertices that is small of the area is none of outliers, however little
+/// area it has: its points are denser than others.
+constexpr double VerticesOfDensePiece = 20.;
 /// With fewer vertices, claws and ears are no wider than edges, and would be lost while the mesh grows.
 constexpr std::uint64_t FewestDistributedLater = 10000;
 
@@ -152,7 +155,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
     .gaps = gaps,
     .closedOutline = parameters.closeHolesBelow / cloud.unit(),
     .vertexCount = std::max(vertexCount, learnt.mesh.vertexCount()) };
-  dropPieces(learnt.mesh, parameters.keepPieces);
+  dropPieces(learnt.mesh, parameters.keepPieces, VerticesOfDensePiece * parameters.keepPieces);
   const bool isSimplified = plan.vertexCount > vertexCount;
   if (isSimplified)
   {

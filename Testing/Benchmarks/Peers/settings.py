@@ -74,7 +74,7 @@ def quarter(name):
 
 
 def rough_fandisk():
-    """With noise of 0.1 %, as in Documentation/Fit.md; every fourth point."""
+    """With noise of 0.1 %, as in Documentation/Research/Fit.md; every fourth point."""
     return quarter_of(made.sampled(made.model("fandisk"), noise=0.1))
 
 

@@ -95,7 +95,7 @@ def coarse():
 
 
 def fit():
-    """The rows of Documentation/Fit.md."""
+    """The rows of Documentation/Research/Fit.md."""
     close = ("--boundaries", "close")
     for file, make, reference, options in (
             ("bunny_200k", lambda: made.sampled(made.model("bunny")), "bunny_pmp", ()),

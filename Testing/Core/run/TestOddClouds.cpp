@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Promise: of clouds that are no surface comes what Documentation/BadInput.md tells, in 'Clouds that are no
-// surface': a manifold of as many vertices as asked for, near the points, and the warning.
+// Promise: clouds that are no surface give a manifold of as many vertices as asked for, near the points, and the
+// warning that Documentation/Guide/Failures.md explains ('Bad input' has some of these clouds).
 #include "base/Random.h"
 #include "ManifoldCheck.h"
 #include "run/Reconstruction.h"

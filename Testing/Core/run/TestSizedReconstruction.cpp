@@ -93,7 +93,7 @@ TEST(SizedReconstruction, TakesNoiseOff)
 }
 
 // Promise: by itself, a mesh gets more vertices where the cloud is clean than where it is noisy, within what is said in
-// HowMany.md; it is sound, and the report has what was tried and reached.
+// Documentation/Guide/Choosing.md; it is sound, and the report has what was tried and reached.
 TEST(SizedReconstruction, ChoosesByTheCloud)
 {
   const PointCloud clean = torusToSize(0.);

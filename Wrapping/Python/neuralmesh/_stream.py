@@ -151,7 +151,7 @@ def stream(
 ) -> Stream:
     """Begin a mesh that is learnt while points arrive, from a scanner, say.
 
-        The same calls give the same bytes. See Documentation/Streaming.md.
+        The same calls give the same bytes. See Documentation/Guide/Large.md.
 
         Args:
             vertices: The number of vertices of the mesh, from 4 to 1000000000.

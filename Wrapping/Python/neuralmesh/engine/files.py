@@ -44,7 +44,7 @@ def read(path: str | os.PathLike[str]) -> Mesh:
     """Read points or a mesh, in the format that the extension tells.
 
     Always: .ply .stl .obj .off .pcd .pwn .ptx .npy, and text .xyz .pts .txt .csv .asc. Where VTK is installed:
-    .vtp .vtk .vtu, too. With neuralmesh[lidar]: .las .laz .e57. See Documentation/Formats.md.
+    .vtp .vtk .vtu, too. With neuralmesh[lidar]: .las .laz .e57. See Documentation/Guide/Formats.md.
 
     Args:
         path: The file.
