@@ -248,7 +248,7 @@ int CheckNormals()
       "Normals", sheet->GetNumberOfPoints(), { useless, useless, useless }));
     const Outcome outcome = Run(sheet);
     CHECK(IsUnknown(outcome) && outcome.Warnings == 1);
-    CHECK(outcome.Text.find("normals of the input tell nothing") != std::string::npos);
+    CHECK(outcome.Text.find("normals of the input determine no side") != std::string::npos);
   }
   const auto sheet = Sheet();
   sheet->GetPointData()->AddArray(Constant<vtkFloatArray>("Normals", 17, { 0, 0, 1 }));
@@ -379,7 +379,7 @@ int CheckFit()
       Constant<vtkDoubleArray>("Directions", cloud->GetNumberOfPoints(), useless));
     const Outcome outcome = Run(cloud, named);
     CHECK(IsSame(outcome, off) && outcome.Errors == 0 && outcome.Warnings == off.Warnings + 1);
-    CHECK(outcome.Text.find("normals of the input tell nothing") != std::string::npos);
+    CHECK(outcome.Text.find("normals of the input determine no side") != std::string::npos);
   }
   return EXIT_SUCCESS;
 }
@@ -471,7 +471,7 @@ int CheckUselessViewpoints()
   const Outcome outcome =
     Run(Sheet(), [](auto* filter) { filter->SetViewpoint(NotANumber, 0.0, 1.0); });
   CHECK(IsUnknown(outcome) && outcome.Warnings == 1);
-  CHECK(outcome.Text.find("viewpoints tell nothing") != std::string::npos);
+  CHECK(outcome.Text.find("viewpoints determine no side") != std::string::npos);
   const auto sheet = Sheet();
   sheet->GetFieldData()->AddArray(Constant<vtkDoubleArray>("Viewpoints", 3, { 0, 1 }));
   CHECK(IsUnknown(Run(sheet)) && Run(sheet).Warnings == 1);

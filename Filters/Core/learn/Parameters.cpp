@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/WarningTopic.h"
 #include "learn/ParameterTable.h"
 
 #include <cmath>
@@ -66,20 +67,22 @@ std::vector<std::string> Parameters::errors() const
 
 std::vector<std::string> Parameters::warnings(std::size_t pointCount) const
 {
-  std::vector<std::string> warnings;
+  WarningList warnings;
   // (6.18)
   const double expansion = std::exp(-removalPatience) * samplesPerAddition;
   if (removalPatience <= expansion)
   {
-    warnings.push_back("The mesh may not grow: RemovalPatience (C_ec) should exceed "
-                       "exp(-C_ec) * SamplesPerAddition = " +
-      std::to_string(expansion) + ", as (6.18) demands.");
+    warnings.add(WarningTopic::GrowthStopped,
+      "The mesh may not grow: RemovalPatience (C_ec) must exceed exp(-C_ec) * SamplesPerAddition "
+      "= " +
+        std::to_string(expansion) + " (6.18). Increase it, or decrease SamplesPerAddition.");
   }
   if (numberOfVertices > pointCount)
   {
-    warnings.push_back(std::to_string(numberOfVertices) + " vertices from " +
-      std::to_string(pointCount) + " points: beyond one vertex a point there is nothing to learn.");
+    warnings.add(WarningTopic::FinerThanData,
+      std::to_string(numberOfVertices) + " vertices for " + std::to_string(pointCount) +
+        " points are too many. Use at most one vertex for two points.");
   }
-  return warnings;
+  return warnings.take();
 }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/SizeChoice.h"
 
+#include "base/WarningTopic.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -180,10 +182,12 @@ std::string SizeChoice::warning() const
   {
     return {};
   }
-  const std::string end = "; see the reasons of the choice.";
-  return reached <= least ? "The tolerance of " + lengthText(length) +
-      " is less than can be told under the noise of the points, " + lengthText(least) + end
-                          : "The tolerance of " + lengthText(length) + " is not met: the mesh of " +
-      std::to_string(vertices) + " vertices reaches " + lengthText(reached) + end;
+  const std::string text = reached <= least
+    ? "The tolerance of " + lengthText(length) +
+      " is less than the noise of the points allows to " + "measure, " + lengthText(least) + "."
+    : "The tolerance of " + lengthText(length) + " is not met: the mesh of " +
+      std::to_string(vertices) + " vertices reaches " + lengthText(reached) + ".";
+  return taggedWarning(WarningTopic::NumberNotFound,
+    text + " The field data Choice has the reasons. Use a larger tolerance or more points.");
 }
 }

@@ -265,7 +265,7 @@ TEST(OddClouds, NoiseIsABody)
     EXPECT_EQ(run.report.components, 1u);
     EXPECT_EQ(run.report.genus(), 0);
     EXPECT_GT(volumeOf(run.result.mesh), 1.);
-    EXPECT_TRUE(run.warnsOf("has no surface"));
+    EXPECT_TRUE(run.warnsOf("has no recognizable surface"));
   }
 }
 
