@@ -141,13 +141,13 @@ std::function<int()> AddTuneCommand(CLI::App& application)
     application.add_subcommand("tune", "Choose the parameters for a point cloud, and say why");
   AddPoints(command, options->Input);
   AddNumber(command, "--vertices", options->Vertices, vertices,
-    "Vertices that the mesh is to have, " + Described(vertices), "N");
+    "Vertices of the mesh, " + Described(vertices), "N");
   AddNumber(
     command, "--seed", options->Seed, seed, "Seed of the random numbers, " + Described(seed), "N");
-  command->add_flag("--close", options->Close, "The mesh is to be closed where the scan has gaps");
+  command->add_flag(
+    "--close", options->Close, "The mesh shall be watertight, although the scan has gaps");
   AddNumber(command, "--threads", options->Threads, threads,
-    "Work on so many threads at most, " + Described(threads) +
-      "; 0: on as many as the machine runs at once",
+    "Largest number of threads, " + Described(threads) + "; 0: as many as the machine runs at once",
     "N");
   command->add_flag("--json", options->JSON, "Print JSON");
   command->footer("Takes seconds, however large the cloud is; writes nothing.\n"

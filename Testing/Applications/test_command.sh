@@ -237,7 +237,7 @@ for entry in numbers:
     ends = f"from {low} on" if high is None else f"{low} to {high}"
     assert re.search(rf"\b{ends}\b", option), option
     default = entry["default"]
-    assert f"(default {default})" in option or entry["command"] == "--ensemble" and f", {default} say" in option
+    assert f"(default {default})" in option or entry["command"] == "--ensemble" and f", {default} is usual" in option
 PYTHON
 }
 

@@ -121,7 +121,7 @@ Parameter = Number | Switch | Choice
 
 @functools.lru_cache(maxsize=None)
 def parameters_of(vtk_class: type) -> dict[str, Parameter]:
-    """The parameters that our classes add to those of VTK: names in snake case."""
+    """The parameters that the classes of this package add to those of VTK: names in snake case."""
     found = {}
     for method in _own_methods(vtk_class):
         name = method[len("Set") :]

@@ -75,14 +75,13 @@ def _parser() -> Parser:
     result.add_argument("input", metavar="INPUT", help=POINTS)
     result.add_number(
         "--vertices", "NumberOfVertices",
-        f"Vertices that the mesh is to have, {described('NumberOfVertices')}", "N",
+        f"Vertices of the mesh, {described('NumberOfVertices')}", "N",
     )  # fmt: skip
     result.add_number("--seed", "Seed", f"Seed of the random numbers, {described('Seed')}", "N")
-    result.add_flag("--close", "The mesh is to be closed where the scan has gaps")
+    result.add_flag("--close", "The mesh shall be watertight, although the scan has gaps")
     result.add_number(
         "--threads", "NumberOfThreads",
-        f"Work on so many threads at most, {described('NumberOfThreads')}; 0: on as many as the machine "
-        "runs at once", "N",
+        f"Largest number of threads, {described('NumberOfThreads')}; 0: as many as the machine runs at once", "N",
     )  # fmt: skip
     result.add_flag("--json", "Print JSON")
     return result
