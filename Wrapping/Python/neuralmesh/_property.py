@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Properties of our classes, and the methods by which VTK has them."""
+"""Properties of the classes of this package, and their methods as in VTK."""
 
 from __future__ import annotations
 

@@ -120,8 +120,8 @@ def learnt_mesh(stream: NeuralMeshStream, progress: Progress | None, given: obje
 def compare(
     comparison: NeuralMeshComparison, reference: vtkPolyData, result: vtkPolyData
 ) -> tuple[dict[str, list[Any]], dict[str, float]]:
-    """Columns of a row for each direction, and what is told of both ways; nothing where both surfaces are
-    empty.
+    """Columns with a row for each direction, and the figures of both directions together; empty if both
+    surfaces are empty.
     """
     comparison.SetReferenceData(reference)
     comparison.SetInputData(result)

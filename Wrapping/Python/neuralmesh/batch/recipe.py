@@ -198,7 +198,7 @@ def _names(scans: list[Path]) -> list[str]:
         names = [_in_name(name) for name in names]
         if len(set(names)) == len(names):
             return names
-    raise RecipeError("scans: their names cannot be told apart")
+    raise RecipeError("scans: their names are equal")
 
 
 def _in_name(value: Any) -> str:

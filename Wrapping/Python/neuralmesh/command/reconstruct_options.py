@@ -166,7 +166,7 @@ def parser() -> Parser:
         type=number_from(members.low, members.high, True),
         default=0,
         metavar="MEMBERS",
-        help="Number of coarse meshes whose average is the start, {range_text(members)}, "
+        help=f"Number of coarse meshes whose average is the start, {range_text(members)}, "
         f"{plain(members.default)} is usual: makes handles more reliable",
     )
     for option, name, texts, before in (

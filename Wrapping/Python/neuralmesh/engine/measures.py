@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is told of meshes that are there, as vtkNeuralMeshComparison and vtkNeuralMeshExplanation do it,
-without VTK.
-"""
+"""Measures of given meshes, as of vtkNeuralMeshComparison and vtkNeuralMeshExplanation, without VTK."""
 
 from __future__ import annotations
 
