@@ -138,7 +138,7 @@ std::function<int()> AddTuneCommand(CLI::App& application)
   const auto threads = NEURAL_MESH_NUMBERS(defaults, NumberOfThreads);
   options->Close = defaults->GetBoundaries() == vtkNeuralMesh::CLOSE;
   CLI::App* command =
-    application.add_subcommand("tune", "Choose the parameters for a point cloud, and say why");
+    application.add_subcommand("tune", "Choose the parameters for a point cloud, with reasons");
   AddPoints(command, options->Input);
   AddNumber(command, "--vertices", options->Vertices, vertices,
     "Vertices of the mesh, " + Described(vertices), "N");
@@ -150,7 +150,7 @@ std::function<int()> AddTuneCommand(CLI::App& application)
     "Largest number of threads, " + Described(threads) + "; 0: as many as the machine runs at once",
     "N");
   command->add_flag("--json", options->JSON, "Print JSON");
-  command->footer("Takes seconds, however large the cloud is; writes nothing.\n"
+  command->footer("Takes some seconds for a cloud of any size, and writes nothing.\n"
                   "reconstruct --automatic does the same before it learns.\n"
                   "For example: neuralmesh tune scan.ply --vertices 20000\n"
                   "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use.");

@@ -53,7 +53,7 @@ fi
 files=("$@")
 [ $# -gt 0 ] || mapfile -t files < <(git ls-files 'Documentation/*.md' README.md CONTRIBUTING.md \
   Filters/Parameters.json 'Filters/*.cpp' 'Filters/*.cxx' 'Filters/vtk*.h' 'Filters/vtk*.h.in' 'Applications/*.cxx' \
-  'Wrapping/Python/neuralmesh/*.py')
+  'Wrapping/Python/neuralmesh/*.py' 'Wrapping/ParaView/*.xml*')
 pages=() sources=()
 for file in "${files[@]}"; do
   case $file in

@@ -3,8 +3,8 @@
 extract_texts.py FOLDER FILE...
 
 Each file gives FOLDER/FILE.md, in which each text stands on the line on which it stands in the file. Texts are the
-values of Filters/Parameters.json, strings of C++ with several words, comments of headers for Doxygen, and
-docstrings and strings with several words of Python.
+values of Filters/Parameters.json, strings of C++ with several words, comments of headers for Doxygen,
+docstrings and strings with several words of Python, and what proxies of ParaView document.
 """
 
 import ast
@@ -137,6 +137,16 @@ def of_python(source):
     return page
 
 
+def of_xml(source):
+    """Of proxies of ParaView: what they document."""
+    page = Page(source.count("\n") + 1)
+    for found in re.finditer(r'<Documentation[^>]*>([^<]*)|_help="([^"]*)"', source):
+        group = 2 if found[1] is None else 1
+        for offset, line in enumerate(found[group].split("\n")):
+            page.put(source.count("\n", 0, found.start(group)) + offset, line, goes_on=offset > 1)
+    return page
+
+
 def main(folder, names):
     for name in names:
         source = Path(name).read_text(encoding="utf-8")
@@ -144,6 +154,8 @@ def main(folder, names):
             page = of_list(source)
         elif name.endswith(".py"):
             page = of_python(source)
+        elif name.endswith((".xml", ".xml.in")):
+            page = of_xml(source)
         else:
             page = of_cpp(source, is_header=name.endswith((".h", ".h.in")))
         path = folder / f"{name}.md"

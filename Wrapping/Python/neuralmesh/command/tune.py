@@ -12,7 +12,7 @@ from .names import POINTS, read_points
 from .parsing import Parser, described
 
 _FOOTER = (
-    "Takes seconds, however large the cloud is; writes nothing.\n"
+    "Takes some seconds for a cloud of any size, and writes nothing.\n"
     "reconstruct --automatic does the same before it learns.\n"
     "For example: neuralmesh tune scan.ply --vertices 20000\n"
     "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use."
@@ -70,7 +70,7 @@ def _text(value: float | str) -> str:
 
 def _parser() -> Parser:
     result = Parser(
-        "tune", "Choose the parameters for a point cloud, and say why", "INPUT", _FOOTER
+        "tune", "Choose the parameters for a point cloud, with reasons", "INPUT", _FOOTER
     )
     result.add_argument("input", metavar="INPUT", help=POINTS)
     result.add_number(
