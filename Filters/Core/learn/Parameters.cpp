@@ -39,10 +39,8 @@ std::vector<std::string> Parameters::errors() const
   std::vector<std::string> errors;
   if (jump != Jump::Constant && order == Order::Exact)
   {
-    errors.push_back(
-      "Jump tells how far winners jump in the activity list, and with exact counters "
-      "there is none. What goes together: any jump with the order list; the order "
-      "exact with the jump constant.");
+    errors.push_back("Jump counts only for the activity list, and exact counters have none. Use "
+                     "any jump with the order list, or the jump constant with the order exact.");
   }
   const double weights = constantWeight + normalWeight + areaWeight + volumeWeight;
   if (jump == Jump::Weighted && weights <= 0.)
@@ -52,15 +50,14 @@ std::vector<std::string> Parameters::errors() const
   }
   if (topologyLearning && variant == Variant::NormalBased)
   {
-    errors.push_back("Topology learning takes large triangles for openings, and the normal-based "
-                     "variant makes them where the surface is flat. What goes together: topology "
-                     "learning with the variants noise_filtering and basic.");
+    errors.push_back("Topology learning removes large triangles, and the normal-based variant "
+                     "makes them where the surface is flat. Use topology learning only with the "
+                     "variants noise_filtering and basic.");
   }
   if (computeUncertainty && fitRounds == 0)
   {
-    errors.push_back(
-      "Uncertainty is that of the fit, and FitRounds is 0: without a fit there is none. What goes "
-      "together: error bars with one round of the fit or more; no fit without error bars.");
+    errors.push_back("Error bars need the fit, and FitRounds is 0. Use at least one round of the "
+                     "fit, or no error bars.");
   }
   return errors;
 }
