@@ -359,7 +359,7 @@ test_variants()
   ! grep -aq 'Name="Uncertainty"' plain.vtp || fail "there are error bars unasked"
   cp bars.vtp before.vtp
   expect 2 "$neuralmesh" reconstruct cloud.xyz bars.vtp --vertices 400 --uncertainty --set FitRounds=0
-  grep -q 'Uncertainty is that of the fit' err || fail "the message does not say what error bars need"
+  grep -q 'Error bars need the fit' err || fail "the message does not say what error bars need"
   cmp -s bars.vtp before.vtp || fail "what was there is lost"
   expect 2 "$neuralmesh" reconstruct cloud.xyz bars.ply --vertices 400 --uncertainty
   grep -q 'vtp' err || fail "the message does not name the format that keeps error bars"

@@ -111,7 +111,7 @@ class Functions(unittest.TestCase):
             bars = mesh.point_data["Uncertainty"]
         self.assertEqual((bars.dtype, bars.shape), (np.float32, (300,)))
         self.assertGreater(bars.min(), 0)
-        with self.assertRaisesRegex(ValueError, "Uncertainty is that of the fit"):
+        with self.assertRaisesRegex(ValueError, "Error bars need the fit"):
             neuralmesh.reconstruct(ball(), 300, compute_uncertainty=True, fit_rounds=0)
 
     # Promise: what makes one cloud gives one mesh, however the array lies; numbers of 4 bytes stay so.
