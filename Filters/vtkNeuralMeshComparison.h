@@ -136,8 +136,8 @@ public:
 
   ///@{
   /**
-   * Of the sharp edges of the surface from which a direction sets out, those between triangles whose
-   * planes turn by more than 30 degrees, whichever way they are oriented; points at the same place
+   * Sharp edges of the surface from which a direction starts, between triangles whose planes turn by
+   * more than 30 degrees, whichever way they are oriented; points at the same place
    * are one here, and boundaries are not sharp. GetEdgeLength() is their length, 0 without any.
    * GetEdgeMean() is the mean distance of 20000 points (NumberOfSamples, if that is less), drawn
    * evenly over that length, from the nearest sharp edge of the other surface, and NaN if one of

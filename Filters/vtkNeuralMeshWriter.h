@@ -11,7 +11,7 @@
  *
  * @par .glb
  * Binary glTF 2.0. Coordinates do not change, although y is up in glTF. Normals are of length 1.
- * Colours are taken for sRGB and become linear, of 16 bits. The material is matt, and seen from both
+ * The writer reads colours as sRGB and makes them linear, of 16 bits. The material is matt, and seen from both
  * sides. Values that are not finite are an error.
  *
  * @par Digits

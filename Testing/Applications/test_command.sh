@@ -566,7 +566,7 @@ test_columns()
   cmp cloud.xyz.ply other.csv.ply || fail "another mesh with other names"
   [ ! -s named.csv.err ] || { cat named.csv.err; fail "names are warned of"; }
   [ "$(cat other.csv.err)" = "neuralmesh: warning: other.csv: no columns are named x, y and z; \
-the first three are taken for these" ] || { cat other.csv.err; fail "another warning"; }
+the program reads the first three" ] || { cat other.csv.err; fail "another warning"; }
 }
 
 # Promise: a dry run says what it will take, and writes nothing.

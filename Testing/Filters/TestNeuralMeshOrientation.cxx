@@ -312,8 +312,9 @@ int CheckNamedNormals()
       Constant<vtkIntArray>("Single", sheet->GetNumberOfPoints(), { 1 }));
     const Outcome single = Run(sheet, [](auto* filter) { filter->SetNormalArrayName("Single"); });
     CHECK(single.Errors == 1 && single.Mesh->GetNumberOfPoints() == 0);
-    CHECK(single.Text.find("called Single for the normals. Of three components are: Directions, "
-                           "Normals.") != std::string::npos);
+    CHECK(
+      single.Text.find("called Single for the normals. Arrays with three components: Directions, "
+                       "Normals.") != std::string::npos);
 
     // Without use, the mesh is that of points without normals, whatever is named.
     for (const char* name : { "", "Directions", "Nothing" })
@@ -513,7 +514,7 @@ int CheckFile()
     messages->Observe(filter);
     filter->Update();
     CHECK(messages->Errors > 0);
-    CHECK(messages->AllText.find("Of three components are: Normals.") != std::string::npos);
+    CHECK(messages->AllText.find("Arrays with three components: Normals.") != std::string::npos);
     std::remove(name);
   }
   return EXIT_SUCCESS;

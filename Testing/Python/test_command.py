@@ -321,7 +321,7 @@ class Beside(CommandTest):
         self.assertEqual(meshes[0], meshes[3])
         found, wanted = self.both("reconstruct", "ball.vtp", "p.stl", "--normals", "Upwards")
         self.assertEqual(found, wanted)
-        self.assertIn("Of three components are: Inwards, Outwards.", found[1])
+        self.assertIn("Arrays with three components: Inwards, Outwards.", found[1])
         self.assertEqual(found[2], 1)
 
     # Promise: text and triangles in .obj are the same, and the triangles of .stl.

@@ -85,7 +85,7 @@ class Sides(unittest.TestCase):
             for given in ({"normals": "off"}, {"use_normals": False}):
                 mesh = neuralmesh.reconstruct(dataset, 200, **given)
                 self.assertEqual(told_by(mesh), "nothing")
-            message = "called Up for the normals. Of three components are: Normals, Slope."
+            message = "called Up for the normals. Arrays with three components: Normals, Slope."
             with self.assertRaisesRegex(ValueError, message):
                 neuralmesh.reconstruct(dataset, 200, normals="Up")
 

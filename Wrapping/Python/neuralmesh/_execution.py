@@ -59,7 +59,7 @@ def check_parameters(algorithm: vtkNeuralMeshAlgorithm) -> None:
 
 
 class _Execution:
-    """What is seen of a filter while it runs. No exception may pass through VTK."""
+    """Observes a filter while it runs. No exception may pass through VTK."""
 
     def __init__(self, algorithm: vtkAlgorithm, progress: Progress | None):
         self._algorithm = algorithm

@@ -31,7 +31,7 @@ class Property:
     text: str = ""
 
     def clamped(self, value: Any, before: int | float | None = None) -> int | float:
-        """What SetX makes of a value. What is no number is what was there before."""
+        """The value that SetX sets. NaN does not change it."""
         if self.kind == "double":
             number: int | float = float(value)
             if number != number:
@@ -43,7 +43,7 @@ class Property:
         return min(max(number, int(self.low)), int(self.high))
 
     def warning(self, value: Any, used: int | float) -> str:
-        """What is said where a value is not the one that is used; empty where it is."""
+        """The warning if another value than the given one is used; empty if it is used."""
         if value == used:
             return ""
         shown = "%g" if self.kind == "double" else "%d"

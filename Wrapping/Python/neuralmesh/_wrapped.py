@@ -153,7 +153,7 @@ def report(mesh: vtkPolyData) -> dict[str, Any]:
 
 
 def _figure(array: Any) -> Any:
-    """Of a vtkDataArray: a number, whether something holds, or what belongs to each number."""
+    """The figure in a vtkDataArray: a number, a flag, or a dict of numbers."""
     if array.GetNumberOfComponents() == 2:
         pairs = [array.GetTuple2(i) for i in range(array.GetNumberOfTuples())]
         return {int(number): int(count) for number, count in pairs}

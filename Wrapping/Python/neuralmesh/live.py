@@ -22,7 +22,7 @@ def watch(
 ) -> None:
     """Bring a mesh up to date, and show each snapshot of its growth in a view meanwhile.
 
-    In the end the finished mesh is in the view, the same as without being watched. It has
+    At the end the view shows the finished mesh, the same as without watch(). It has
     NumberOfSnapshots snapshots. If it is up to date already there is nothing to be seen.
 
     Args:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is printed of a run."""
+"""The printed report of a run."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..engine.mesh import Mesh
 
 @dataclass
 class Seconds:
-    """Of the clock."""
+    """Wall-clock times."""
 
     reading: float
     learning: float

@@ -45,7 +45,7 @@ class NeuralMeshAlgorithm:
         self._up_direction = (0.0, 0.0, 0.0)
 
     def Modified(self) -> None:
-        """Called when a property changes. Of the classes for pipelines it is that of VTK."""
+        """Called when a property changes. The classes for pipelines have that of VTK."""
 
     def _warn(self, text: str) -> None:
         """Called with a warning about a property."""

@@ -75,11 +75,11 @@ def write_mesh(
     """Write a mesh, completely or not at all. Returns the shift.
 
     Args:
-        mesh: What is written: of point data all in .vtp and .vtk, else normals and colours.
-        path: Where to. The extension tells the format: .ply .stl .obj .off .glb, .xyz and .npy for
-            the points alone; .vtp and .vtk where VTK is installed.
-        shift: Vector that is subtracted from the coordinates and stored in the file: None, three numbers, or "auto"
-            for a round vector where floats do not hold the coordinates.
+        mesh: The mesh. A .vtp or a .vtk gets all its point data, others normals and colours.
+        path: The file. Its extension is the format: .ply .stl .obj .off .glb, .xyz and .npy for only the
+            points; .vtp and .vtk with VTK.
+        shift: Vector that is subtracted from the coordinates and stored in the file: None, three
+            numbers, or "auto" for a round vector if floats cannot resolve the mesh.
 
     Raises:
         ValueError: The format is another one, has no room for the digits of the coordinates, or takes

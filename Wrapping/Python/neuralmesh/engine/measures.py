@@ -31,7 +31,7 @@ class Measure:
         self._values = new_values(type(self))
 
     def Modified(self) -> None:
-        """Called when a property changes. Of the classes for pipelines it is that of VTK."""
+        """Called when a property changes. The classes for pipelines have that of VTK."""
 
     def _warn(self, text: str) -> None:
         """Called with a warning about a property."""

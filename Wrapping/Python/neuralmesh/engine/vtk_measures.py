@@ -104,7 +104,7 @@ class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
         return self._figure("NormalConsistency", direction)
 
     def GetEdgeLength(self, direction: int) -> float:
-        """Of the sharp edges of the surface from which the direction sets out."""
+        """Length of the sharp edges of the surface from which the direction starts."""
         return self._figure("EdgeLength", direction)
 
     def GetEdgeMean(self, direction: int) -> float:
