@@ -91,21 +91,21 @@ std::function<int()> AddExplainCommand(CLI::App& application)
   auto options = std::make_shared<ExplainOptions>();
   vtkNew<vtkNeuralMeshExplanation> defaults;
   const auto smallest = NEURAL_MESH_NUMBERS(defaults, SmallestPiece);
-  CLI::App* command =
-    application.add_subcommand("explain", "Tell of each point how far it is from a mesh, and why");
+  CLI::App* command = application.add_subcommand(
+    "explain", "Measure the distance of each point from a mesh, and give the reason");
   AddPoints(command, options->Input);
   AddFile(command, "MESH", options->Mesh,
-    "Any mesh of them, in the same coordinates: .ply .vtp .vtk .obj .stl .off");
+    "A mesh of any program, in the same coordinates: .ply .vtp .vtk .obj .stl .off");
   AddFile(command, "OUTPUT", options->Output, "The points with Distance and Reason: .vtp");
   AddNumber(command, "--keep-pieces", options->SmallestPiece, smallest,
-    "Missed points that are less than this part of all are a small piece, " + Described(smallest),
+    "Part of all points below which missed points are a small piece, " + Described(smallest),
     "PART");
   command->footer(
-    "A point is away from the mesh if it is farther than three of its own mean distances to its "
-    "six\n"
-    "nearest neighbours, and than eight times the median distance of all points. Reason is 0\n"
-    "(explained: not away), 1 (outlier: away, and apart from other points), 2 (small piece: away,\n"
-    "with few others), 3 (unreachable: away, with many others) or 4 (dropped: no coordinates).\n"
+    "A point is away from the mesh if its distance exceeds two limits: three times its mean\n"
+    "distance to its six nearest neighbours, and eight times the median distance of all points.\n"
+    "Reason is 0 (explained: not away), 1 (outlier: away, and apart from other points), 2 (small\n"
+    "piece: away, with few others), 3 (unreachable: away, with many others) or 4 (dropped: no\n"
+    "finite coordinates).\n"
     "\nExit status: 0 done, 1 failed (the message is on stderr), 2 wrong use.");
   return [options] { return Explain(*options); };
 }

@@ -177,18 +177,17 @@ std::function<int()> AddInfoCommand(CLI::App& application)
 {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* command =
-    application.add_subcommand("info", "Tell whether meshes are sound, and how good they are");
+    application.add_subcommand("info", "Check whether meshes are sound, and how good they are");
   command->add_option("MESH", options->Meshes, "Meshes: .ply .vtp .vtk .obj .stl .off")->required();
-  command->add_flag(
-    "--json", options->JSON, "Print a JSON object for each mesh, on a line of its own");
+  command->add_flag("--json", options->JSON, "Print a JSON object for each mesh, one per line");
   command->footer(
     "regular vertices   have six edges, or four on the boundary\n"
     "triangle quality   twice the radius of the inscribed over that of the circumscribed circle\n"
-    "closed             every edge has two triangles at least\n"
-    "manifold           an edge has at most two triangles, those at a vertex hang together\n"
-    "oriented           neighbouring triangles have the same side in front\n"
-    "components         pieces that edges hold together\n"
-    "genus              handles of all components, with the holes taken as capped\n"
+    "closed             every edge has at least two triangles\n"
+    "manifold           an edge has at most two triangles, and those at a vertex are connected\n"
+    "oriented           neighbouring triangles have their fronts on the same side\n"
+    "components         pieces connected by edges\n"
+    "genus              handles of all components, as if the holes were capped\n"
     "boundary loops     outlines and holes\n"
     "folded edges       where the surface turns by more than 150 degrees\n"
     "volume             positive if the normals point outwards\n"

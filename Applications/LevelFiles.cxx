@@ -45,8 +45,8 @@ void AddLevelsOption(
 {
   command
     ->add_option("--levels", levels,
-      "Levels of detail: meshes of N1, N2, ... vertices in one run, in place of --vertices; the "
-      "largest is OUTPUT, the others lie beside it, such as OUTPUT_1000.vtp")
+      "Levels of detail: meshes of N1, N2, ... vertices in one run, instead of --vertices. The "
+      "largest is OUTPUT. The others are beside it, such as OUTPUT_1000.vtp")
     ->type_name("N1,N2,...")
     ->delimiter(',')
     ->expected(1, CLI::detail::expected_max_vector_size - 1)

@@ -14,9 +14,8 @@ void AddShiftOption(CLI::App* command, std::string& text)
 {
   command
     ->add_option("--shift", text,
-      "Take this off the coordinates of OUTPUT, and note it there; auto: a round vector, where "
-      "they "
-      "are too large for floats")
+      "Subtract this from the coordinates of OUTPUT, and store it there. auto: a round vector if "
+      "they are too large for floats")
     ->type_name("auto|X,Y,Z");
 }
 

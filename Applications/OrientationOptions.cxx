@@ -51,31 +51,30 @@ void OrientationOptions::AddTo(CLI::App* command)
   CLI::Option* const viewpoint =
     command
       ->add_option("--viewpoint", this->Viewpoints,
-        "Where the scanner stood: the surface looks there; may be given several times, and counts "
-        "instead of what INPUT tells; as many as there are INPUTs are one for each")
+        "Position of the scanner: the surface looks there. May be given several times, and "
+        "replaces the viewpoints of INPUT. As many as INPUTs: one for each")
       ->type_name("X,Y,Z")
       ->take_all()
       ->allow_extra_args(false);
   command
     ->add_option("--views", this->ViewFile,
-      "The places of the scanner, one for each view, as the points of this file; else as "
+      "The positions of the scanner, one for each view, as the points of this file. Excludes "
       "--viewpoint")
     ->type_name("FILE")
     ->excludes(viewpoint);
   command
     ->add_option("--view-array", this->ViewArray,
-      "With --views: the point array of INPUT that names the view of each point, from 0 on "
-      "(default "
-      "View, if there is one; without one, what nothing hides was seen)")
+      "With --views: the point array of INPUT with the number of the view of each point, from 0 "
+      "on. Default: View. Without it, a view sees what nothing hides")
     ->type_name("ARRAY");
   command
     ->add_option("--normals", this->Normals,
-      "The point array of INPUT that has the normals (default the active ones, or Normals: nx, ny, "
-      "nz of a .ply); off: none count")
+      "The point array of INPUT with the normals; off: ignore normals. Default: the active ones, "
+      "or Normals (nx, ny, nz of a .ply)")
     ->type_name("ARRAY|off");
   command
-    ->add_option(
-      "--up", this->Up, "Where up is: most of an open surface looks there; --viewpoint tells more")
+    ->add_option("--up", this->Up,
+      "The up direction: most of an open surface looks there. --viewpoint is more reliable")
     ->type_name("X,Y,Z");
 }
 
@@ -137,7 +136,8 @@ void PrintSides(vtkPolyData* mesh)
   }
   if (unknown > 50.0 || guessed > 50.0)
   {
-    std::printf("%s --viewpoint or --up tells", unknown > 50.0 ? ", most looks up, along z;" : ";");
+    std::printf(
+      "%s --viewpoint or --up determines them", unknown > 50.0 ? ", most looks up, along z;" : ";");
   }
   std::printf("\n");
 }

@@ -445,27 +445,27 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   const auto pieces = NEURAL_MESH_NUMBERS(defaults, KeepPieces);
   const auto interval = NEURAL_MESH_NUMBERS(defaults, CheckpointInterval);
   const std::vector<PropertyWord> methods{ { "basic", vtkNeuralMesh::BASIC,
-                                             "every sample pulls alike" },
-    { "noise", vtkNeuralMesh::NOISE_FILTERING, "samples that are far off pull less" },
+                                             "all samples move vertices alike" },
+    { "noise", vtkNeuralMesh::NOISE_FILTERING, "distant samples move vertices less" },
     { "normal", vtkNeuralMesh::NORMAL_BASED,
       "dense where the surface bends, sparse where it is flat" } };
   const std::vector<PropertyWord> presets{ { "default", vtkNeuralMesh::DEFAULT,
-                                             "what measures best" },
-    { "thesis", vtkNeuralMesh::THESIS, "Saleem's values of 2004, and nothing that he lacks" } };
+                                             "the values with the best measured results" },
+    { "thesis", vtkNeuralMesh::THESIS, "the values of Saleem's thesis, without later additions" } };
   const std::vector<PropertyWord> orders{ { "exact", vtkNeuralMesh::EXACT, "counters" },
     { "list", vtkNeuralMesh::LIST, "the activity list" } };
   const std::vector<PropertyWord> boundaries{ { "keep", vtkNeuralMesh::KEEP,
-                                                "the mesh ends where the data ends" },
-    { "close", vtkNeuralMesh::CLOSE, "it is watertight" } };
+                                                "the mesh ends where the points end" },
+    { "close", vtkNeuralMesh::CLOSE, "the mesh is watertight" } };
   const std::vector<PropertyWord> fidelities{ { "draft", vtkNeuralMesh::DRAFT_FIDELITY,
-                                                "the first rounds of the fit alone" },
-    { "default", vtkNeuralMesh::DEFAULT_FIDELITY, "creases, tips and noise, too" },
-    { "high", vtkNeuralMesh::HIGH_FIDELITY, "until hardly anything is gained" } };
+                                                "only the first rounds of the fit" },
+    { "default", vtkNeuralMesh::DEFAULT_FIDELITY, "also creases, tips and noise" },
+    { "high", vtkNeuralMesh::HIGH_FIDELITY, "more rounds, until they gain almost nothing" } };
 
   CLI::App* command =
     application.add_subcommand("reconstruct", "Make a triangle mesh from a point cloud");
   AddPointsAndOutput(command, options->Inputs, options->Output,
-    "Mesh: .vtp .ply .obj .stl .glb .off .vtk; another file than all others");
+    "Mesh: .vtp .ply .obj .stl .glb .off .vtk. It must differ from all other files");
   options->Size.AddTo(command);
   AddRemeshOption(command, options->Remesh);
   AddNumber(command, "--seed", options->Seed, seed,
@@ -476,26 +476,25 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
         "Start from the triangles of this file: .ply .vtp .vtk .obj .stl .off")
       ->type_name("FILE");
   AddNumber(command, "--ensemble", options->Members, members.Minimum, members.Maximum,
-    "Start from the average of so many coarse meshes, " +
+    "Number of coarse meshes whose average is the start, " +
       RangeText(members.Minimum, members.Maximum) + ", " + PlainNumber(members.Default) +
-      " say: handles come out right",
+      " is usual: makes handles more reliable",
     "MEMBERS")
     ->excludes(initial);
   AddChoice(command, "--method", options->Variant, methods, Described(methods, options->Variant));
   AddChoice(command, "--preset", options->Preset, presets, Described(presets, options->Preset));
   AddChoice(command, "--order", options->Order, orders,
-    "How it is known where to grow; " + Described(orders, options->Order));
+    "How the program measures where to grow; " + Described(orders, options->Order));
   command
     ->add_option("--weights", options->Weights,
-      "Trust the points by this point array of INPUT: weights from 0 on, of which ratios count")
+      "Weight the points by this point array of INPUT: weights from 0 on. Only ratios count")
     ->type_name("ARRAY");
   options->Orientation.AddTo(command);
   command
     ->add_option("--jump", options->Jump,
-      "With --order list: how far winners jump; FRACTION of the vertices (default " +
+      "With --order list: how far winners jump. FRACTION of the vertices (default " +
         LearningDefault("JumpFraction") +
-        ") times 1 (constant) or the change by the move over the "
-        "mean change; default " +
+        ") times 1 (constant) or the change by the move over the mean change. Default " +
         WordOf(Jumps, defaults->GetJump()))
     ->type_name(Joined(Jumps) + "[=FRACTION]");
   const std::vector<PropertyWord> topologies{ { "off", 0,
@@ -508,82 +507,80 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   AddChoice(command, "--boundaries", options->Boundaries, boundaries,
     "Gaps in the scan; " + Described(boundaries, options->Boundaries));
   AddChoice(command, "--fidelity", options->Fidelity, fidelities,
-    "How much is done to come close to the points; " + Described(fidelities, options->Fidelity));
+    "How much work brings the mesh close to the points; " +
+      Described(fidelities, options->Fidelity));
   AddNumber(command, "--close-holes-below", options->CloseHolesBelow, holes,
-    "Fill holes whose outline, the sum of its edges, is shorter than LENGTH, in units of INPUT; " +
+    "Fill holes with an outline, the sum of the edges, shorter than LENGTH, in units of INPUT; " +
       Described(holes),
     "LENGTH");
   AddNumber(command, "--keep-pieces", options->KeepPieces, pieces,
-    "Drop pieces of the surface with less than this part of its area, " + Described(pieces) +
+    "Drop pieces with less than this part of the area of the surface, " + Described(pieces) +
       "; 0 keeps all",
     "PART");
   command
     ->add_option("--set", options->Assignments,
-      "Set a parameter of learning, see below; as often as there are some to set")
+      "Set a parameter of learning, see below. May be given several times")
     ->type_name("NAME=VALUE")
     ->take_all()
     // Of any number, but each behind a --set of its own; the help would tell otherwise.
     ->expected(1, CLI::detail::expected_max_vector_size - 1)
     ->allow_extra_args(false);
   command->add_flag("--automatic", options->Automatic,
-    "Choose Fidelity, FitSmoothness and CurvatureDensity for INPUT by some seconds of short runs");
+    "Choose Fidelity and FitSmoothness for INPUT by short runs of some seconds");
   command->add_flag("--features", options->Features,
-    "Give each vertex its FeatureStrength, high at edges and corners; OUTPUT must be .vtp or .vtk");
+    "Add FeatureStrength, which is high at edges and corners. OUTPUT must be .vtp or .vtk");
   command->add_flag("--uncertainty", options->Uncertainty,
-    "Give each vertex its Uncertainty, how far it may be off, in units of INPUT; OUTPUT must be "
-    ".vtp or .vtk");
+    "Add Uncertainty, the error bar of each vertex, in units of INPUT. OUTPUT must be .vtp or "
+    ".vtk");
   AddNumber(command, "--time-limit", options->TimeLimit, seconds,
-    "Learn for so many seconds at most, " + Described(seconds) +
-      ", and write the mesh learnt so far; 0: as long as it takes",
+    "Largest time of learning in seconds, " + Described(seconds) +
+      "; the mesh learnt so far is written; 0: no limit",
     "SECONDS");
   command->add_flag("--in-place", options->InPlace,
-    "Do not read INPUT, which may be larger than the memory, but draw as many points from it as "
-    "the "
-    "vertices need: binary .ply, .vtp appended raw");
+    "Draw points from INPUT, which may be larger than the memory, instead of reading it. INPUT is "
+    "a binary .ply or a .vtp with appended raw data");
   const std::vector<PropertyWord> formats{ { "float", vtkNeuralMeshFileSampler::RAW_FLOAT, "" },
     { "double", vtkNeuralMeshFileSampler::RAW_DOUBLE, "" } };
   AddChoice(command, "--raw", options->Raw, formats,
-    "INPUT is x y z in binary, of 4 or 8 bytes each, little-endian; drawn as with --in-place");
+    "INPUT is x y z in binary, of 4 or 8 bytes each, little-endian. Draw points as with "
+    "--in-place");
   AddNumber(command, "--skip", options->Skip, 0LL, static_cast<long long>(VTK_ID_MAX),
     "With --raw: bytes before the first point", "BYTES");
   AddNumber(command, "--threads", options->Threads, threads,
-    "Work on so many threads at most, " + Described(threads) +
-      "; 0: on as many as the machine runs at once; the mesh is the same with any number",
+    "Largest number of threads, " + Described(threads) +
+      "; 0: as many as the machine runs at once; the mesh is the same with any number",
     "N");
   command
-    ->add_option("--statistics", options->Statistics,
-      "Write how the run went, step by step, to this .csv file")
+    ->add_option("--statistics", options->Statistics, "Write the learning curve to this .csv file")
     ->type_name("FILE");
   command
     ->add_option("--explain", options->Explanation,
-      "Write the points of INPUT to this .vtp file, each with its Distance to the mesh and the "
-      "Reason "
-      "why it lies there; takes some seconds for millions of points")
+      "Write the points of INPUT to this .vtp file, each with its Distance to the mesh and a "
+      "Reason. This takes some seconds for millions of points")
     ->type_name("FILE");
   command
     ->add_option("--feature-lines", options->FeatureLines,
-      "Write the edges of the shape that are sharper than FeatureAngle (30 degrees), and that the "
-      "points confirm, to this .vtp or .vtk file, as lines with corners; OUTPUT gets the array "
-      "Crease")
+      "Write edges sharper than FeatureAngle (30 degrees) that the points confirm to this .vtp or "
+      ".vtk file, as lines with corners. OUTPUT gets the array Crease")
     ->type_name("FILE");
   command->add_flag("--strict", options->Strict,
-    "Exit with status 3 if there was a warning; the mesh is written all the same");
+    "Exit with status 3 if there was a warning. The mesh is written in any case");
   CLI::Option* const checkpoint =
     command
       ->add_option("--checkpoint", options->Checkpoint,
-        "Leave the state of the run in this file while it lasts, and go on from there if it "
-        "exists: "
-        "the same command ends with the same bytes, however often it was killed")
+        "Save the state of the run to this file, and resume from it if it exists. The mesh is the "
+        "same, byte for byte, however often the command was killed")
       ->type_name("FILE");
   AddNumber(command, "--checkpoint-interval", options->CheckpointInterval, interval,
-    "Seconds from one checkpoint to the next, " + Described(interval), "SECONDS")
+    "Seconds between two checkpoints, " + Described(interval), "SECONDS")
     ->needs(checkpoint);
   command->add_flag("--dry-run", options->DryRun,
-    "Write nothing; print how much memory and time the run will take, roughly");
-  command->add_flag("--quiet", options->Quiet, "Print nothing but errors and warnings");
+    "Write nothing, and print estimates of the memory and the time of the run");
+  command->add_flag("--quiet", options->Quiet, "Print only errors and warnings");
   command->footer("Parameters of learning, for --set:\n" + DescribeLearningParameters() +
     "\nFor example: neuralmesh reconstruct scan.ply mesh.vtp --vertices 20000\n"
-    "Ctrl-C ends the learning, and the mesh learnt so far is written.\n"
+    "Ctrl-C ends the learning and writes the mesh learnt so far.\nEach warning ends with a tag in "
+    "brackets: a heading of Documentation/Guide/Failures.md.\n"
     "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 3 done with a "
     "warning\nand --strict, 130 after Ctrl-C.");
   return [options] { return Reconstruct(*options); };

@@ -41,7 +41,7 @@ void SizeOptions::AddTo(CLI::App* command)
   CLI::Option* const number = command
                                 ->add_option("--vertices", this->Vertices,
                                   "Vertices of the mesh, " + Described(vertices) + "; " +
-                                    Automatic + ": as many as INPUT has something to tell for")
+                                    Automatic + ": as many as the points support")
                                 ->transform(CLI::Validator(toNumber, ""))
                                 ->type_name("N|" + Automatic);
   AddLevelsOption(command, this->Levels, vertices.Minimum, vertices.Maximum);
@@ -61,14 +61,14 @@ void SizeOptions::AddTo(CLI::App* command)
   CLI::Option* const tolerance =
     command
       ->add_option_function<std::string>("--tolerance", toLength,
-        "As few vertices as bring held-out points so close to the mesh, noise taken off: in units "
-        "of INPUT, or with % behind it in percent of the diagonal of its bounding box")
+        "Choose the fewest vertices with this distance to held-out points, without their noise. In "
+        "units of INPUT, or with % in percent of the diagonal of its bounding box")
       ->type_name("LENGTH[%]")
       ->excludes(number)
       ->excludes("--levels");
   const std::vector<PropertyWord> measures{ { "rms", vtkNeuralMesh::ROOT_MEAN_SQUARE,
                                               "the root of the mean square" },
-    { "99", vtkNeuralMesh::NINETY_NINE_PERCENT, "the one that 99 % do not exceed" },
+    { "99", vtkNeuralMesh::NINETY_NINE_PERCENT, "the distance that 99 % do not exceed" },
     { "largest", vtkNeuralMesh::LARGEST, "" } };
   AddChoice(command, "--tolerance-of", this->Measure, measures,
     "Which distance --tolerance limits; " + Described(measures, this->Measure))
@@ -108,9 +108,7 @@ void SizeOptions::RequireSound(
   }
   if (this->IsToBeFound() && isEstimated)
   {
-    throw UsageError(
-      "--dry-run: how long a run takes is told for a number of vertices, not for one "
-      "that is to be found");
+    throw UsageError("--dry-run: the program estimates a run only for a given number of vertices");
   }
 }
 

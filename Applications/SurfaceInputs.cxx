@@ -13,9 +13,8 @@
 void AddRemeshOption(CLI::App* command, bool& remeshes)
 {
   command->add_flag("--remesh", remeshes,
-    "INPUT is a surface, of triangles or other polygons: make other, more even triangles of it, as "
-    "many "
-    "as --vertices tell; .ply .vtp .vtk .obj .stl .off");
+    "INPUT is a surface of triangles or other polygons: remesh it with the number of --vertices; "
+    ".ply .vtp .vtk .obj .stl .off");
 }
 
 void PrepareRemeshing(vtkNeuralMesh* filter, const neuralmesh::BesideSurface& beside,

@@ -138,19 +138,19 @@ std::function<int()> AddTuneCommand(CLI::App& application)
   const auto threads = NEURAL_MESH_NUMBERS(defaults, NumberOfThreads);
   options->Close = defaults->GetBoundaries() == vtkNeuralMesh::CLOSE;
   CLI::App* command =
-    application.add_subcommand("tune", "Choose the parameters for a point cloud, and say why");
+    application.add_subcommand("tune", "Choose the parameters for a point cloud, with reasons");
   AddPoints(command, options->Input);
   AddNumber(command, "--vertices", options->Vertices, vertices,
-    "Vertices that the mesh is to have, " + Described(vertices), "N");
+    "Vertices of the mesh, " + Described(vertices), "N");
   AddNumber(
     command, "--seed", options->Seed, seed, "Seed of the random numbers, " + Described(seed), "N");
-  command->add_flag("--close", options->Close, "The mesh is to be closed where the scan has gaps");
+  command->add_flag(
+    "--close", options->Close, "The mesh shall be watertight, although the scan has gaps");
   AddNumber(command, "--threads", options->Threads, threads,
-    "Work on so many threads at most, " + Described(threads) +
-      "; 0: on as many as the machine runs at once",
+    "Largest number of threads, " + Described(threads) + "; 0: as many as the machine runs at once",
     "N");
   command->add_flag("--json", options->JSON, "Print JSON");
-  command->footer("Takes seconds, however large the cloud is; writes nothing.\n"
+  command->footer("Takes some seconds for a cloud of any size, and writes nothing.\n"
                   "reconstruct --automatic does the same before it learns.\n"
                   "For example: neuralmesh tune scan.ply --vertices 20000\n"
                   "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use.");

@@ -3,8 +3,9 @@
  * @class   vtkDistributedRun
  * @brief   what vtkPNeuralMesh and vtkPNeuralMeshEnsemble share: one run on all processes
  *
- * Internal to the module. Selects points of the cloud, of which each process has a part, moves them
- * to process 0 and has that learn, while the others wait, hear of its progress and may abort it.
+ * Internal to the module. Each process has a part of the cloud. The class selects points, moves
+ * them to process 0 and starts learning there. The other processes wait, receive its progress and
+ * may abort it.
  */
 
 #ifndef vtkDistributedRun_h
@@ -64,7 +65,7 @@ public:
   vtkMultiProcessController* GetController() const { return this->Controller; }
 
 private:
-  /** What is to be known of the parts, as numbers that are added up. */
+  /** Properties of the parts, as numbers that are added up. */
   struct Census;
 
   void Count(const std::vector<double>& weights, Census& census);

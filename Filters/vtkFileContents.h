@@ -24,8 +24,8 @@ public:
   static void Store(const neuralmesh::FileContents& contents, vtkPolyData* output);
   /**
    * Points, triangles, normals, and the active scalars if they are colours (unsigned char, 3 or 4
-   * components); a shift that vtkShift has stored. Points of double precision come out as doubles if
-   * that is told, else as floats.
+   * components); a shift that vtkShift has stored. Points of double precision become doubles with
+   * hasDoubles, else floats.
    */
   static neuralmesh::FileContents Of(vtkPolyData* mesh, bool hasDoubles);
 };

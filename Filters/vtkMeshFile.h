@@ -22,12 +22,12 @@ public:
   static std::string Extension(const std::string& path);
   /** Whether files of this extension are written. */
   static bool IsKnown(const std::string& extension);
-  /** Whether the format knows floats only. */
+  /** Whether the format has floats only. */
   static bool HasOnlyFloats(const std::string& extension);
   /**
-   * Writes a file, and looks whether it is whole: VTK's writers do not all notice a full disk. A .ply
-   * or an .off has doubles if that is told. A shift that vtkShift has stored is noted. Throws std::runtime_error,
-   * without the name of the file.
+   * Writes a file and checks that it is complete: some of VTK's writers do not notice a full disk. A
+   * .ply or an .off has doubles with hasDoubles. The file gets the shift that vtkShift has stored.
+   * Throws std::runtime_error, without the name of the file.
    */
   static void Write(vtkPolyData* mesh, const std::string& path, bool hasDoubles);
   /** The shift that is noted in an .obj or .stl, which VTK's readers do not see; zero if none is. */

@@ -513,7 +513,7 @@ bool vtkNeuralMesh::Learn(
   }
   catch (const std::runtime_error& error)
   {
-    vtkErrorMacro(<< "Of the checkpoint: " << error.what() << ".");
+    vtkErrorMacro(<< "The checkpoint: " << error.what() << ".");
     return false;
   }
   this->AbortExecute = 0;

@@ -3,22 +3,21 @@
  * @class   vtkNeuralMeshComparison
  * @brief   how far a mesh is from a reference, over the surfaces and both ways
  *
- * vtkNeuralMeshComparison draws points evenly over the area of two surfaces, takes the distance of
- * each to the nearest point of the other surface, and gives mean, root mean square, 99 % and
- * maximum of them, for each direction. From the result to the reference these tell of what the
- * result has and the reference has not, from the reference to the result of what the result misses.
- * Both directions together give the measures of the field: Chamfer distance, F-score, normal
- * consistency, Hausdorff distance, and the distance between the sharp edges of both.
- * vtkHausdorffDistancePointSetFilter looks at vertices alone: its figures depend on how the vertices
- * are spread, and what a large triangle cuts off it does not see.
+ * vtkNeuralMeshComparison draws points evenly over the area of two surfaces and measures the
+ * distance of each to the nearest point of the other surface. For each direction it gives mean,
+ * root mean square, 99 % and maximum. Distances from the result to the reference show what is
+ * superfluous in the result. Those from the reference to the result show what it misses. Both
+ * directions together give the usual measures: Chamfer distance, F-score, normal consistency,
+ * Hausdorff distance, and the distance between the sharp edges.
+ * vtkHausdorffDistancePointSetFilter measures at vertices only: its figures depend on the spacing of
+ * the vertices, and it misses what a large triangle cuts off.
  *
  * @par Input
- * Port 0: the result; port 1: the reference; vtkPolyData both. Polygons are taken as fans of
- * triangles, strips taken apart. Triangles without area, and those with a corner that is not
- * finite, are left out. Coordinates may be large against the extent (UTM, say), and of any unit:
- * the filter computes in coordinates of its own.
- * Two inputs without cells and points give empty outputs. It is an error if otherwise one of them
- * has no triangle with an area, or a cell refers to a point that is not there.
+ * Port 0: the result; port 1: the reference; vtkPolyData both. Polygons become fans of triangles,
+ * and strips become triangles. Triangles without area, and those with a corner that is not finite,
+ * are left out. Coordinates may be large against the extent, as in UTM, and of any unit.
+ * Two inputs without cells and points give empty outputs. Otherwise it is an error if one of them
+ * has no triangle with an area, or a cell refers to a point that does not exist.
  *
  * @par Output
  * Port 0: the result, port 1: the reference, each with the point data `Distance` (double), the
@@ -33,18 +32,17 @@
  * - `EdgeMean`, `EdgeToSurface`, `EdgeLength` in units of the input, and `EdgeMeanPercent`,
  *   `EdgeToSurfacePercent`: of the sharp edges.
  *
- * What is told of both directions together is field data of that table, a double each: `Hausdorff`,
+ * Values of both directions together are field data of that table, a double each: `Hausdorff`,
  * `HausdorffPercent`, `NormalAngle`, `NormalConsistency`, `Chamfer`, `ChamferPercent`,
  * `ChamferSquared`, `Precision0_1`, `Recall0_1`, `FScore0_1` at 0.1 % of the diagonal,
  * `Precision0_5`, `Recall0_5`, `FScore0_5` at 0.5 %, `EdgeChamfer`, `EdgeChamferPercent`.
  *
- * The same inputs and seed give the same figures, on any number of threads. Of triangles that are
+ * The same inputs and seed give the same figures, with any number of threads. If triangles are
  * equally near, the normal of the first counts.
  *
- * @par What it does not do
- * The surfaces are compared as they lie: nothing is aligned. The maximum is a lower bound, in
- * practice a close one. An abort takes effect after some thousands of distances, and leaves the
- * outputs empty.
+ * @par Limits
+ * The filter does not align the surfaces. The maximum is a lower bound, in practice a close one. An
+ * abort takes effect after some thousands of distances and leaves the outputs empty.
  *
  * @sa vtkHausdorffDistancePointSetFilter vtkDistancePolyDataFilter vtkNeuralMesh
  */
@@ -138,8 +136,8 @@ public:
 
   ///@{
   /**
-   * Of the sharp edges of the surface from which a direction sets out, those between triangles whose
-   * planes turn by more than 30 degrees, whichever way they are oriented; points at the same place
+   * Sharp edges of the surface from which a direction starts, between triangles whose planes turn by
+   * more than 30 degrees, whichever way they are oriented; points at the same place
    * are one here, and boundaries are not sharp. GetEdgeLength() is their length, 0 without any.
    * GetEdgeMean() is the mean distance of 20000 points (NumberOfSamples, if that is less), drawn
    * evenly over that length, from the nearest sharp edge of the other surface, and NaN if one of

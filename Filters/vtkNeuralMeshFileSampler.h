@@ -3,10 +3,10 @@
  * @class   vtkNeuralMeshFileSampler
  * @brief   some points of a file that may be larger than the memory
  *
- * vtkNeuralMeshFileSampler is a source: it draws points at random from a binary file where they lie.
- * The file is read once, from front to back, and no more of it is held than a megabyte: memory and
- * output depend on NumberOfPoints alone. vtkNeuralMesh needs no more than 50 points per vertex; its
- * property PointFileName does the same by itself.
+ * vtkNeuralMeshFileSampler is a source that draws points at random from a binary file. It reads the
+ * file once, from front to back, and holds at most a megabyte of it: memory and output depend only
+ * on NumberOfPoints. vtkNeuralMesh needs at most 50 points per vertex; its property PointFileName
+ * uses this class.
  *
  * @par File
  * - `.ply`, binary, of either byte order: the vertices have x, y and z, all float or all double, and
@@ -16,31 +16,31 @@
  *   EncodeAppendedDataOff() and SetCompressorTypeToNone() writes such.
  * - Any file of raw x y z, little-endian, behind HeaderBytes bytes of something else: see Format.
  *
- * It is an error, which names the file, if there is none, it cannot be read, is of another kind, is
- * damaged, holds fewer points than it says, or becomes shorter while it is read. A file without
- * points gives an empty output.
+ * It is an error, which names the file, if it does not exist, cannot be read, is of another kind, is
+ * damaged, has fewer points than it says, or becomes shorter during reading. A file without points
+ * gives an empty output.
  *
  * @par Output
- * vtkPolyData with the points, float or double as they are in the file and in its order, and no
- * cells. Of a file with more than NumberOfPoints points, that many are drawn: one at random of each
- * of so many equal shares of the file, so that each point is as likely as any other. (A point that
- * two shares have in common may be drawn twice.) Of other files all points are taken. Points that are
- * not finite are drawn like others: vtkNeuralMesh counts and drops them. Colours of a .ply, red, green
- * and blue as bytes one behind the other, are the point data `RGB`, and nx, ny and nz of the type of the
- * coordinates the `Normals`, as vtkPLYReader has them. Nothing else is read of the file.
+ * vtkPolyData with the points, float or double as in the file and in its order, and without cells.
+ * If the file has more than NumberOfPoints points, that number is drawn: one at random from each of
+ * as many equal shares of the file, so that all points are equally likely. (A point on the border of
+ * two shares may be drawn twice.) Otherwise all points are taken. Points that are not finite are
+ * drawn, too: vtkNeuralMesh counts and drops them. Consecutive bytes red, green and blue of a .ply
+ * are the point data `RGB`. Its nx, ny and nz of the type of the coordinates are the `Normals`, as
+ * in vtkPLYReader. Nothing else of the file is read.
  *
- * The same file and seed give the same bytes. That the file has changed on the disk is not noticed:
- * call Modified().
+ * The same file and seed give the same bytes. The filter does not notice that the file has changed
+ * on the disk: call Modified().
  *
  * @par Abort
- * SetAbortExecute(1), from an observer of ProgressEvent, say, ends the drawing and leaves the output
- * empty. The flag is cleared when it has been obeyed.
+ * SetAbortExecute(1), for example from an observer of ProgressEvent, ends the drawing and leaves the
+ * output empty. The filter then clears the flag.
  *
  * A property out of its range is clamped, with a warning.
  *
- * @par What it does not do
- * Text and compressed files, and other formats: read them whole, or write them anew.
- * See Documentation/LargeClouds.md.
+ * @par Limits
+ * It does not read text files, compressed files and other formats: read them as a whole, or convert
+ * them. See Documentation/Guide/Large.md.
  *
  * @sa vtkNeuralMesh vtkPLYReader vtkXMLPolyDataReader
  */
@@ -100,7 +100,7 @@ public:
 
   ///@{
   /**
-   * How many points are drawn of a file that has more. Default 1000000, range 1 to 4294967295.
+   * Number of points drawn from a file that has more. Default 1000000, range 1 to 4294967295.
    */
   vtkNeuralMeshSetClampMacro(NumberOfPoints, vtkIdType, 1, VTK_UNSIGNED_INT_MAX);
   vtkGetMacro(NumberOfPoints, vtkIdType);
@@ -115,7 +115,7 @@ public:
   ///@}
 
   /**
-   * How many points the file has; known after the execution.
+   * Number of points in the file; known after the execution.
    */
   vtkIdType GetNumberOfFilePoints() const { return this->NumberOfFilePoints; }
 

@@ -35,19 +35,19 @@ public:
   bool Has(vtkMTimeType time) const { return !this->Finished.empty() && this->Time == time; }
 
   /**
-   * Puts the outputs of that run out: with the snapshot of this step as the mesh or, where there is
-   * none, the finished one.
+   * Gives the outputs of that run, with the snapshot of this step as the mesh. Without a snapshot it
+   * is the finished mesh.
    */
   void Show(int step, vtkInformationVector* outputs) const;
 
   /** A snapshot as a mesh, whose points are of a vtkAlgorithm::DesiredOutputPrecision. */
   static void Fill(const neuralmesh::GrowthSnapshot& snapshot, int precision, vtkPolyData* output);
 
-  /** Says that the outputs have so many time steps: whole numbers from 0 on. */
+  /** Gives the outputs this number of time steps: whole numbers from 0 on. */
   static void OfferSteps(int count, vtkInformationVector* outputs);
-  /** Which of them is asked for. Without a time the last one is meant. */
+  /** The requested one. Without a time it is the last one. */
   static int StepOf(vtkInformation* request, int count, vtkInformationVector* outputs);
-  /** The time asked for is that of growth: the inputs stay at the beginning of theirs. */
+  /** The requested time is that of growth: the inputs stay at the beginning of theirs. */
   static void HoldTime(vtkInformationVector* inputs);
 
 private:

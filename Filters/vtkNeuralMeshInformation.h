@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkNeuralMeshInformation
- * @brief   tells whether a mesh is sound, and how good its triangles are
+ * @brief   checks whether a mesh is sound, and how good its triangles are
  *
- * vtkNeuralMeshInformation passes a mesh through and adds to its field data what `neuralmesh info` tells of
- * it: a report on the mesh by itself, whatever made it. How far a mesh is from a reference is told by
- * vtkNeuralMeshComparison.
+ * vtkNeuralMeshInformation passes a mesh through and adds the report of `neuralmesh info` to its field
+ * data. Any program may have made the mesh. vtkNeuralMeshComparison measures the distance to a reference.
  *
  * @par Input
- * vtkPolyData of any quality. Polygons are taken as fans of triangles, strips taken apart; lines and
- * vertices are left out. Without cells and points the report has zeros. It is an error if a cell refers to a
- * point that is not there: then the output is empty.
+ * vtkPolyData of any quality. Polygons become fans of triangles, and strips become triangles; lines and
+ * vertices are left out. Without cells and points the report has zeros. It is an error if a cell refers to
+ * a point that does not exist: then the output is empty.
  *
  * @par Output
- * The input, with all its data, and the field data, one value each where nothing else is said:
+ * The input, with all its data, and the field data, one value each unless noted:
  * - `Vertices`, points that triangles use, and `Triangles`;
  * - `RegularRatio` (double, 0 to 1): the share of the vertices with valence 6, or 4 on the boundary;
  * - `Valences` (2 components): a valence, and how many vertices have it;
@@ -23,13 +22,13 @@
  * - `Components`, pieces that edges hold together; `Genus`, the handles of all of them, with the holes taken
  *   as capped; `BoundaryLoops`;
  * - `BoundaryEdges`, of one triangle; `FoldedEdges`, where the surface turns by more than 150 degrees;
- *   `NonManifoldEdges`, `NonManifoldVertices`, `InconsistentEdges`: what is against the answers above;
+ *   `NonManifoldEdges`, `NonManifoldVertices`, `InconsistentEdges`: the counterexamples of the flags above;
  * - `SurfaceArea`, `Volume`, `BoundingBoxDiagonal` (double) in units of the input; the volume is positive if
  *   the normals point outwards;
  * - `DegenerateTriangles`, without area; `UnusedPoints`; `NonFinitePoints`.
  *
- * There is no `Genus` where the mesh is not manifold or cannot be oriented, and no `Volume` where it is not
- * closed or not oriented. Field data of these names that the input has is replaced.
+ * `Genus` is missing if the mesh is not manifold or cannot be oriented, `Volume` if it is not closed or not
+ * oriented. Field data of these names in the input is replaced.
  *
  * @sa vtkNeuralMeshComparison vtkNeuralMesh vtkMeshQuality
  */

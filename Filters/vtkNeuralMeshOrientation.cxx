@@ -61,7 +61,8 @@ std::string TellVectors(const vtkPointCloudCollector& collector)
   {
     list += (list.empty() ? "" : ", ") + name;
   }
-  return list.empty() ? "None has three components." : "Of three components are: " + list + ".";
+  return list.empty() ? "None has three components."
+                      : "Arrays with three components: " + list + ".";
 }
 
 /** A tuple of three components, of a point among all. */

@@ -26,7 +26,7 @@ struct OrientationReport;
 class vtkNeuralMeshOrientation
 {
 public:
-  /** Of an input whose points have been collected; both must outlive it. */
+  /** For an input whose points have been collected; both must outlive it. */
   vtkNeuralMeshOrientation(
     vtkNeuralMeshAlgorithm* filter, vtkDataObject* input, const vtkPointCloudCollector& collector);
 

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkNeuralMeshPLYReader
- * @brief   a .ply with all digits of its coordinates, if it is whole
+ * @brief   reads a .ply with all digits of its coordinates, if the file is complete
  *
- * vtkNeuralMeshPLYReader is vtkPLYReader, but for what that does not see: coordinates that are no
- * floats, and that a file ends early. Large coordinates (UTM, say) written as doubles come out as they
- * are, where vtkPLYReader rounds them to float, which is to half a metre there.
+ * vtkNeuralMeshPLYReader extends vtkPLYReader in two ways: it reads coordinates other than floats, and
+ * notices a file that ends early. Large coordinates, as of UTM, keep all digits of a double.
+ * vtkPLYReader rounds them to float, which is half a metre there.
  *
  * @par File
- * Text or binary of either byte order. It is an error, which nothing comes out of, if the file cannot
- * be opened, is no .ply, has vertices without x, y or z, or ends before all is there that its header
- * announces: in text as a line for each element, in binary as bytes. (A text that is cut within the
- * last number of its last line cannot be told from a whole one.)
+ * Text, or binary of either byte order. It is an error, and the output is empty, if the file cannot
+ * be opened, is no .ply, or has vertices without x, y or z. So it is if the file has less than its
+ * header announces: a line for each element in text, bytes in binary. (A text that is cut within the
+ * last number of its last line looks complete.)
  *
  * @par Output
- * vtkPolyData as of vtkPLYReader; the points are of double precision if a coordinate is of the type
- * double, int or uint, else of single precision. Of a mesh with textures by face, points of double
- * precision are not doubled at seams. A file that vtkNeuralMeshWriter has shifted gives the points
- * where they lay before, in double precision.
+ * vtkPolyData as of vtkPLYReader. The points are of double precision if a coordinate is of the type
+ * double, int or uint, else of single precision. Points of double precision are not duplicated at
+ * seams of a mesh with textures by face. A file that vtkNeuralMeshWriter has shifted gives the
+ * points without the shift, in double precision.
  *
  * @sa vtkNeuralMeshWriter vtkNeuralMeshFileSampler vtkPLYReader
  */

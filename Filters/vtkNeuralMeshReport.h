@@ -43,7 +43,7 @@ public:
   static void AddTuning(const neuralmesh::Tuning& tuning, vtkPolyData* output);
   /** How many vertices the mesh was to have, if that was found, and why. */
   static void AddSize(const neuralmesh::SizeChoice& choice, vtkPolyData* output);
-  /** What was warned of, a sentence each; an empty array if there was nothing. */
+  /** The warnings; an empty array if there are none. */
   static void AddWarnings(const std::vector<std::string>& warnings, vtkPolyData* output);
   /** Removes all that these add: the input may bring the report on an earlier mesh along. */
   static void RemoveFrom(vtkPolyData* output);

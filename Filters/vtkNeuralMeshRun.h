@@ -41,11 +41,11 @@ public:
 
   /** From now on, fractions count within this part of the whole. */
   void EnterPart(double begin, double end);
-  /** How much of the part is done, 0 to 1. Returns false if the filter was told to abort. */
+  /** How much of the part is done, 0 to 1. Returns false if the filter is to abort. */
   bool Report(double fraction);
   /** What the core reports to within this part of the whole; not to be kept longer than this object. */
   neuralmesh::Progress GetPart(double begin, double end);
-  /** Has the filter abort, as another process was told to. */
+  /** Has the filter abort, as another process does. */
   void Abort();
   /** Since the start. */
   double GetSeconds() const;

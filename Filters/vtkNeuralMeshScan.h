@@ -1,39 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkNeuralMeshScan
- * @brief   the point cloud that a scan of a surface might give
+ * @brief   simulates the point cloud of a scan of a surface
  *
- * vtkNeuralMeshScan draws points evenly over the area of a surface, as a scanner might measure them:
- * with noise and outliers, with holes, and, if Occlusion is on, without what cannot be seen from
- * where the scanner stands. To try vtkNeuralMesh on shapes that are known, and to compare the result
- * with them by vtkNeuralMeshComparison.
+ * vtkNeuralMeshScan draws points evenly over the area of a surface, as a scanner measures them: with
+ * noise, outliers and holes. With Occlusion it leaves out what the scanner cannot see. Use it to try
+ * vtkNeuralMesh on known shapes, and vtkNeuralMeshComparison to compare the result with them.
  *
  * @par Input
- * vtkPolyData. Polygons are taken as fans of triangles, strips taken apart. Triangles without area,
+ * vtkPolyData. Polygons become fans of triangles, and strips become triangles. Triangles without area,
  * and those with a corner that is not finite, are left out. Coordinates may be large against the
- * extent (UTM, say).
- * An input without cells and points gives an empty output. It is an error if otherwise no triangle
- * has an area, or a cell refers to a point that is not there.
+ * extent, as in UTM.
+ * An input without cells and points gives an empty output. Otherwise it is an error if no triangle
+ * has an area, or a cell refers to a point that does not exist.
  *
  * @par Output
  * vtkPolyData with the points, of the precision of the input, in random order, and one cell of type
- * vtkPolyVertex with all of them. Lengths are told as fractions of the diagonal of the bounding box
- * of the triangles. In this order: points are drawn, those out of sight are taken away, then those
- * in holes; noise is added to what is left, and outliers come to it. Each step has random numbers of
- * its own: with another noise, say, the points underneath are the same.
+ * vtkPolyVertex with all of them. Lengths are fractions of the diagonal of the bounding box of the
+ * triangles. The steps are, in this order: draw points, remove those out of sight, remove those in
+ * holes, add noise, add outliers. Each step has its own random numbers: another noise, for example,
+ * does not change which points are drawn.
  *
  * The same input and seed give the same bytes.
  *
  * @par Abort
- * SetAbortExecute(1), from an observer of ProgressEvent, say, ends the run and leaves the output
- * empty. The flag is cleared when it has been obeyed.
+ * SetAbortExecute(1), for example from an observer of ProgressEvent, ends the run and leaves the
+ * output empty. The filter then clears the flag.
  *
- * A property out of its range is clamped, with a warning; NaN leaves it as it is.
+ * A property out of its range is clamped, with a warning; NaN does not change it.
  *
- * @par What it does not do
- * It is no model of a certain scanner: points are as dense far from it as near, noise is the same in
- * all directions, and there is no point data. For scans from several places append several.
- * Points without noise, all over a surface, are given by vtkPolyDataPointSampler, too.
+ * @par Limits
+ * It models no particular scanner: the density does not depend on the distance, noise is the same in
+ * all directions, and there is no point data. For scans from several positions, append several.
+ * vtkPolyDataPointSampler gives points without noise all over a surface, too.
  *
  * @sa vtkNeuralMesh vtkNeuralMeshComparison vtkPolyDataPointSampler
  */
@@ -55,7 +54,7 @@ public:
 
   ///@{
   /**
-   * How many points are drawn on the surface, before any are taken away.
+   * Number of points drawn on the surface, before any are removed.
    * Default 200000, range 1 to 100000000.
    */
   vtkNeuralMeshSetClampMacro(NumberOfPoints, vtkIdType, 1, 100000000);
@@ -81,7 +80,7 @@ public:
 
   ///@{
   /**
-   * Outliers, as a fraction of the points that are left; they are spread evenly in the bounding box.
+   * Outliers, as a fraction of the remaining points; they are spread evenly in the bounding box.
    * Default 0, range 0 to 10.
    */
   vtkNeuralMeshSetClampMacro(Outliers, double, 0.0, 10.0);
@@ -90,7 +89,7 @@ public:
 
   ///@{
   /**
-   * The number of holes: balls around random points, in which all points are taken away.
+   * Number of holes: balls around random points, in which all points are removed.
    * Default 0, range 0 to 1000.
    */
   vtkNeuralMeshSetClampMacro(Holes, int, 0, 1000);
@@ -107,8 +106,8 @@ public:
 
   ///@{
   /**
-   * Whether points are taken away that cannot be seen from Viewpoint: those with a triangle in
-   * between, whichever way it is oriented. Default off.
+   * Whether points that cannot be seen from Viewpoint are removed: those with a triangle in between,
+   * of either orientation. Default off.
    */
   vtkNeuralMeshSetClampMacro(Occlusion, vtkTypeBool, 0, 1);
   vtkGetMacro(Occlusion, vtkTypeBool);
@@ -117,8 +116,8 @@ public:
 
   ///@{
   /**
-   * Where the scanner stands, with Occlusion, in coordinates of the input. It is an error if it is
-   * not finite then. Default (0, 0, 0), from where a shape around the origin is seen from inside.
+   * Position of the scanner, with Occlusion, in coordinates of the input. It must be finite. Default
+   * (0, 0, 0), from which a shape around the origin is seen from inside.
    */
   vtkSetVector3Macro(Viewpoint, double);
   vtkGetVector3Macro(Viewpoint, double);

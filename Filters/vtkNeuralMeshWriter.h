@@ -1,38 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkNeuralMeshWriter
- * @brief   a mesh as a file, whole or not at all, with the digits that its coordinates need
+ * @brief   writes a mesh to a file, completely or not at all, with all digits of its coordinates
  *
- * vtkNeuralMeshWriter writes a vtkPolyData in the format that the extension of FileName tells: .vtp,
- * .ply, .obj, .stl, .glb, .off or .vtk (legacy, binary). A .vtp and a .vtk keep all data. A .ply and a .glb
- * keep normals and the active scalars if they are colours (unsigned char, 3 or 4 components), an .off the
- * colours, an .obj the normals. The file is written under another name in the same folder,
- * looked over and then renamed: if anything goes wrong, what was there before stays.
+ * vtkNeuralMeshWriter writes a vtkPolyData in the format of the extension of FileName: .vtp, .ply, .obj,
+ * .stl, .glb, .off or .vtk (legacy, binary). A .vtp and a .vtk keep all data. A .ply and a .glb keep
+ * normals, and the active scalars if they are colours (unsigned char, 3 or 4 components). An .off keeps
+ * the colours, an .obj the normals. The writer writes another file in the same folder, checks it and
+ * renames it. If anything fails, the old file stays.
  *
  * @par .glb
- * Binary glTF 2.0. Coordinates stay as they are, though glTF takes y for up: what is up in a mesh it
- * does not tell. Normals are of length 1; colours, taken for sRGB, are linear of 16 bits. The material is
- * matt, and seen from both sides. What is not finite is an error.
+ * Binary glTF 2.0. Coordinates do not change, although y is up in glTF. Normals are of length 1.
+ * The writer reads colours as sRGB and makes them linear, of 16 bits. The material is matt, and seen from both
+ * sides. Values that are not finite are an error.
  *
  * @par Digits
- * Far from the origin floats are far apart: by 0.5 at 5400000. If points are of double precision, and
- * less than a hundred steps of floats go into an edge at the largest coordinate, floats do not hold
- * the mesh. (An edge is taken for the diagonal of the bounding box by the root of the number of
- * vertices; outliers of a hundredth at each end of each axis do not count.) Such a mesh is written as
- * a .ply of doubles, while others are of floats; .vtp, .vtk, .obj and .off have all digits anyway; as an
- * .stl or a .glb, which know floats only, it is refused: it is an error, and nothing is written.
+ * Far from the origin floats are far apart: by 0.5 at 5400000. Floats cannot resolve a mesh of double
+ * precision if an edge has less than a hundred of their steps at the largest coordinate. (The length of
+ * an edge is estimated as the diagonal of the bounding box over the root of the number of vertices,
+ * without a hundredth of the points at each end of each axis.) Such a mesh is written as a .ply of
+ * doubles; other .ply files are of floats. The formats .vtp, .vtk, .obj and .off have all digits. An
+ * .stl or a .glb has floats only: it is an error, and nothing is written.
  *
  * @par Shift
- * Shift, or one that AutomaticShift chooses, is taken off the coordinates that are written, and is
- * stored in the file: in the field data `Shift` of a .vtp or .vtk, a line `comment shift X Y Z` in the
- * header of a .ply, a line `# shift X Y Z` at the end of an .obj or the beginning of an .off, the title of
- * an .stl, `asset.extras.shift` of a .glb. Added to the coordinates of the file it gives the true ones,
- * which vtkNeuralMeshPLYReader, vtkNeuralMeshReader and UndoShift() do.
- * The input stays as it is. One that has the field data `Shift` already was shifted before: both are
- * stored as one.
+ * Shift, or the one that AutomaticShift chooses, is subtracted from the coordinates and stored in the
+ * file: in the field data `Shift` of a .vtp or .vtk, a line `comment shift X Y Z` in the header of a
+ * .ply, a line `# shift X Y Z` at the end of an .obj or the beginning of an .off, the title of an .stl,
+ * `asset.extras.shift` of a .glb. The coordinates of the file plus the shift are the true ones.
+ * vtkNeuralMeshPLYReader, vtkNeuralMeshReader and UndoShift() add it.
+ * The input does not change. If it already has the field data `Shift`, the sum of both is stored.
  *
- * It is an error if the input has no points, FileName is empty, of another extension, or cannot be
- * written, for which the message names it, or if Shift is not finite.
+ * It is an error if the input has no points, if FileName is empty, has another extension or cannot be
+ * written, or if Shift is not finite.
  *
  * @sa vtkNeuralMesh vtkNeuralMeshPLYReader
  */
@@ -69,7 +68,7 @@ public:
 
   ///@{
   /**
-   * What is taken off the coordinates, in units of the input. Default (0, 0, 0).
+   * Vector that is subtracted from the coordinates, in units of the input. Default (0, 0, 0).
    */
   vtkSetVector3Macro(Shift, double);
   vtkGetVector3Macro(Shift, double);
@@ -77,8 +76,8 @@ public:
 
   ///@{
   /**
-   * Whether the shift is chosen, and Shift does not count: where floats do not hold the mesh, the
-   * middle of it, rounded to a power of ten that is not smaller than its diagonal, else none.
+   * Whether the writer chooses the shift and ignores Shift. If floats cannot resolve the mesh, the
+   * shift is its middle, rounded to a power of ten of at least its diagonal; otherwise zero.
    * Default off.
    */
   vtkSetMacro(AutomaticShift, vtkTypeBool);
@@ -94,15 +93,15 @@ public:
   ///@}
 
   /**
-   * Whether FileName can hold the digits of a mesh of so many vertices where these points lie, by
-   * the shift of this writer; if not, an error says so. To be asked before the mesh is there.
+   * Whether FileName can hold the digits of a mesh of this number of vertices at these points, with
+   * the shift of this writer. If not, there is an error. Call it before the mesh is made.
    */
   bool CheckCoordinates(vtkPointSet* points, vtkIdType numberOfVertices);
 
   /**
-   * Moves points that a reader of VTK has read from a file to where they lay before the file was
-   * written with a shift: adds what the file notes, or the field data `Shift`, which is then removed.
-   * They become of double precision. Where there is no shift nothing is done.
+   * Adds the shift of a file, or of the field data `Shift`, to points that a reader of VTK has read
+   * from it. Removes that field data. The points get double precision. Without a shift nothing
+   * changes.
    */
   static void UndoShift(VTK_FILEPATH const char* fileName, vtkPointSet* points);
 

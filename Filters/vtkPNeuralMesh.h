@@ -1,35 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPNeuralMesh
- * @brief   one triangle mesh from a point cloud that lies on many processes
+ * @brief   one triangle mesh from a point cloud that is distributed over processes
  *
- * vtkPNeuralMesh is vtkNeuralMesh for a cloud of which each process of the Controller has a part, as
- * in pvserver and pvbatch under MPI. Learning needs samples, never the whole cloud: points move only
- * once, and no more than MaximumPoints or so, however large the cloud is. Process 0 learns; the mesh
- * is on process 0, and the outputs of the others are empty. Documentation/Cluster.md tells how it is
- * run, and what is moved.
+ * vtkPNeuralMesh is vtkNeuralMesh for a distributed cloud: each process of the Controller has a part, as
+ * in pvserver and pvbatch under MPI. Learning needs only samples: points move once, and at most about
+ * MaximumPoints of them. Process 0 learns and has the mesh; the outputs of other processes are empty.
+ * See Documentation/Guide/Large.md.
  *
  * @par Selection
- * Of a cloud of more than MaximumPoints points each is taken or not by a random number that follows
- * from Seed and its coordinates alone, so that each has the same chance. Points on the same spot are
- * taken together, but 1000 of them at most. On process 0 they are brought into the order of these
- * numbers; points on the same spot into that of the bytes of their point data. So the same cloud and
- * seed give the same mesh to the byte on any number of processes, however the cloud is divided and
- * in whatever order the points are. The mesh is that of vtkNeuralMesh, too, if all points are taken,
- * there are no weights, and no two points are closer together than a 65536th of the extent; else
- * sums have another order.
+ * If the cloud has more than MaximumPoints points, a random number selects each point. It depends
+ * only on Seed and the coordinates, so that all points have the same chance. Points at the same place
+ * are selected together, but at most 1000 of them. Process 0 sorts the points by these numbers, and
+ * points at the same place by the bytes of their point data. So the same cloud and seed give the same
+ * mesh, byte for byte, with any number of processes, any distribution of the cloud, and any order of
+ * the points. It is also the mesh of vtkNeuralMesh if all points are taken, there are no weights, and
+ * no two points are closer together than a 65536th of the extent; otherwise sums have another order.
  *
  * @par Processes
- * All processes must execute the filter, with the same properties. A process may have no points, or
- * no data arrays then. Point data arrives that all parts with points have, see CarryPointData; the
- * weights must have one type on all, and normals that are named must be on all. The first mesh may
- * lie on one process, or on all in pieces, which are joined where points coincide. An error on one
- * process ends the run on all, with a message on each. SetAbortExecute(1) on any process, from an
- * observer of ProgressEvent, say, ends the run on all, and the mesh learnt so far is on process 0;
- * selecting the points is not cut. Points that are not finite, wherever they are, are among
- * DroppedPoints; of those too far off only the ones that were selected.
+ * All processes must execute the filter, with the same properties. A process may have no points, and
+ * then no data arrays. Point data that all parts with points have is carried over, see
+ * CarryPointData. The weights must have the same type on all processes, and all must have the normals
+ * of SetNormalArrayName(). The first mesh may be on one process, or in pieces on all, which are joined
+ * where points coincide. An error on one process ends the run on all, with a message on each.
+ * SetAbortExecute(1) on any process, for example from an observer of ProgressEvent, ends the run on
+ * all, and the mesh learnt so far is on process 0. The selection of points is not interrupted.
+ * DroppedPoints has all points that are not finite, but only those selected of the ones too far off.
  *
- * With one process it is what has been said, without any communication.
+ * With one process it does the same without communication.
  *
  * @sa vtkNeuralMesh vtkPNeuralMeshEnsemble vtkMultiProcessController
  */
@@ -59,8 +57,8 @@ public:
   ///@}
 
   /**
-   * How many bytes of points and point data the other processes sent to process 0 in the last run;
-   * known there, 0 elsewhere.
+   * Number of bytes of points and point data that the other processes sent to process 0 in the last
+   * run; known there, 0 elsewhere.
    */
   vtkIdType GetMovedBytes() const { return this->MovedBytes; }
 

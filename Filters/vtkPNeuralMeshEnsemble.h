@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPNeuralMeshEnsemble
- * @brief   one mesh by an ensemble, from a point cloud that lies on many processes
+ * @brief   one mesh by an ensemble, from a point cloud that is distributed over processes
  *
- * vtkPNeuralMeshEnsemble is to vtkNeuralMeshEnsemble what vtkPNeuralMesh is to vtkNeuralMesh: see
- * there. Members are shared out to the processes: each gets the points that were selected, learns
- * every so many-th member on its threads, and the votes are added up. The refinement is process 0's.
- * The votes are on all processes, the average mesh is on process 0.
+ * vtkPNeuralMeshEnsemble is vtkNeuralMeshEnsemble for a distributed cloud, as vtkPNeuralMesh is
+ * vtkNeuralMesh for one: see there. The processes share the members: each gets the selected points and
+ * learns its members on its threads, and the votes are added up. Process 0 refines. The votes are on
+ * all processes, the average mesh is on process 0.
  *
  * @sa vtkNeuralMeshEnsemble vtkPNeuralMesh vtkMultiProcessController
  */
@@ -37,8 +37,8 @@ public:
   ///@}
 
   /**
-   * How many bytes of points and point data were sent in the last run, to process 0, and of points
-   * and weights from there to the others; known there, 0 elsewhere.
+   * Number of bytes sent in the last run: of points and point data to process 0, and of points and
+   * weights from there to the others; known there, 0 elsewhere.
    */
   vtkIdType GetMovedBytes() const { return this->MovedBytes; }
 

@@ -3,7 +3,7 @@
  * @class   vtkPointDataCarrier
  * @brief   the point data of a cloud, carried over to the mesh that was made of it
  *
- * Internal to the module. Which arrays arrive, and how, is told in vtkNeuralMesh.
+ * Internal to the module. CarryPointData of vtkNeuralMesh describes which arrays arrive, and how.
  */
 
 #ifndef vtkPointDataCarrier_h

@@ -36,12 +36,12 @@ public:
   /** On process 0 the part becomes that of all processes, in their order. Arrays must agree. */
   void GatherPoints(vtkPolyData* part);
 
-  /** On all processes the part becomes that of process 0, of whose arrays only this one is left. */
+  /** On all processes the part becomes that of process 0, with only this one of its arrays. */
   void HandOut(vtkPolyData* part, vtkDataArray* array);
 
   /**
-   * On process 0, the surface of which each process has a piece, joined where points of several
-   * pieces coincide; null elsewhere.
+   * On process 0, the surface of the pieces of all processes, joined where points of several pieces
+   * coincide; null elsewhere.
    */
   vtkSmartPointer<vtkPolyData> GatherSurface(vtkPolyData* piece);
 

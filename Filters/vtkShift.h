@@ -20,7 +20,7 @@ class vtkPolyData;
 class vtkShift
 {
 public:
-  /** What is stored; zero if nothing is. */
+  /** The stored vector, or zero. */
   static Eigen::Vector3d Stored(vtkPointSet* points);
   /** Stores a vector, or, if it is zero, removes what is stored. */
   static void Store(vtkPointSet* points, const Eigen::Vector3d& shift);

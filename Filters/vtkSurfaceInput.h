@@ -28,8 +28,8 @@ class vtkSurfaceInput
 {
 public:
   /**
-   * Of a vtkPolyData, or a composite dataset of them, which are one surface. Throws
-   * std::runtime_error, with a sentence that tells why, if it is none.
+   * The surface is a vtkPolyData, or a composite dataset of them. Throws std::runtime_error, with the
+   * reason, if it is no surface.
    */
   vtkSurfaceInput(vtkDataObject* data, std::size_t samples, std::uint64_t seed);
 

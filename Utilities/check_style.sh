@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Whether all C++ is formatted as .clang-format says, cppcheck finds nothing in the core, the filters
-# and the command, and clang-tidy finds nothing in what has changed there.
+# and the command, clang-tidy finds nothing in what has changed there, and check_words.sh finds nothing in pages
+# and texts.
 #
 #   Utilities/check_style.sh [--all | COMMIT]
 #
@@ -12,6 +13,7 @@ cd "$(dirname "$0")/.."
 source Utilities/build.sh
 
 install_packages "${build_packages[@]}" clang-format clang-tidy cppcheck git
+bash Utilities/check_words.sh
 folder=build-style
 # Headers that follow from the list of parameters read as if they were written.
 written=$folder/parameters

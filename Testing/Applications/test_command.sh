@@ -237,7 +237,7 @@ for entry in numbers:
     ends = f"from {low} on" if high is None else f"{low} to {high}"
     assert re.search(rf"\b{ends}\b", option), option
     default = entry["default"]
-    assert f"(default {default})" in option or entry["command"] == "--ensemble" and f", {default} say" in option
+    assert f"(default {default})" in option or entry["command"] == "--ensemble" and f", {default} is usual" in option
 PYTHON
 }
 
@@ -359,7 +359,7 @@ test_variants()
   ! grep -aq 'Name="Uncertainty"' plain.vtp || fail "there are error bars unasked"
   cp bars.vtp before.vtp
   expect 2 "$neuralmesh" reconstruct cloud.xyz bars.vtp --vertices 400 --uncertainty --set FitRounds=0
-  grep -q 'Uncertainty is that of the fit' err || fail "the message does not say what error bars need"
+  grep -q 'Error bars need the fit' err || fail "the message does not say what error bars need"
   cmp -s bars.vtp before.vtp || fail "what was there is lost"
   expect 2 "$neuralmesh" reconstruct cloud.xyz bars.ply --vertices 400 --uncertainty
   grep -q 'vtp' err || fail "the message does not name the format that keeps error bars"
@@ -566,7 +566,7 @@ test_columns()
   cmp cloud.xyz.ply other.csv.ply || fail "another mesh with other names"
   [ ! -s named.csv.err ] || { cat named.csv.err; fail "names are warned of"; }
   [ "$(cat other.csv.err)" = "neuralmesh: warning: other.csv: no columns are named x, y and z; \
-the first three are taken for these" ] || { cat other.csv.err; fail "another warning"; }
+the program reads the first three" ] || { cat other.csv.err; fail "another warning"; }
 }
 
 # Promise: a dry run says what it will take, and writes nothing.

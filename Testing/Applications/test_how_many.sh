@@ -14,7 +14,7 @@ test_chosen()
 {
   make_sphere
   expect 0 "$neuralmesh" reconstruct sphere.xyz mesh.ply --vertices auto
-  grep -Eq '^how many   no noise is told' out || { cat out; fail "not why"; }
+  grep -Eq '^how many   no noise was measured' out || { cat out; fail "not why"; }
   grep -Eq '^ +tried: [0-9]+ vertices ' out || { cat out; fail "not what was tried"; }
   grep -Eq '^ +predicted .*, reached ' out || { cat out; fail "not what was reached"; }
   grep -Eq '^ +half as many would give about .*, twice as many about ' out || { cat out; fail "no other numbers"; }
@@ -28,7 +28,7 @@ test_tolerance()
   local length vertices last=1000000
   for length in 0.002 0.3% 0.03; do
     expect 0 "$neuralmesh" reconstruct sphere.xyz mesh.ply --tolerance "$length"
-    grep -Eq '^how many   as few as meet the tolerance of ' out || { cat out; fail "not why"; }
+    grep -Eq '^how many   the fewest vertices that meet the tolerance of ' out || { cat out; fail "not why"; }
     vertices=$(awk '/^vertices/ { print $2 }' out)
     [ "$vertices" -lt "$last" ] || { cat out; fail "$length takes $vertices vertices"; }
     last=$vertices
@@ -53,7 +53,7 @@ test_wrong_use()
     [ -s err ] || fail "$options: no words"
   done
   expect 1 "$neuralmesh" reconstruct sphere.xyz mesh.ply --tolerance 100
-  grep -q 'any mesh would do' err || { cat err; fail "not the reason"; }
+  grep -q 'any mesh meets it' err || { cat err; fail "not the reason"; }
   printf '0 0 0\n1 0 0\n0 1 0\n' > three.xyz
   expect 1 "$neuralmesh" reconstruct three.xyz mesh.ply --vertices auto
   grep -q 'There are 3 points' err || { cat err; fail "not the reason"; }

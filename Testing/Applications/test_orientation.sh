@@ -90,7 +90,7 @@ test_wrong_use()
   expect 1 "$neuralmesh" reconstruct sheet.xyz mesh.obj --viewpoint 0,0,1 --view-array Station
   grep -q 'called Station for the views' err || { cat err; fail "not the reason"; }
   expect 1 "$neuralmesh" reconstruct sheet.ply mesh.obj --normals Directions
-  grep -q 'called Directions for the normals. Of three components are: Normals\.' err ||
+  grep -q 'called Directions for the normals. Arrays with three components: Normals\.' err ||
     { cat err; fail "not the reason"; }
   [ ! -e mesh.obj ] || fail "there is a mesh"
 }

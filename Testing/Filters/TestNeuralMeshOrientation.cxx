@@ -248,7 +248,7 @@ int CheckNormals()
       "Normals", sheet->GetNumberOfPoints(), { useless, useless, useless }));
     const Outcome outcome = Run(sheet);
     CHECK(IsUnknown(outcome) && outcome.Warnings == 1);
-    CHECK(outcome.Text.find("normals of the input tell nothing") != std::string::npos);
+    CHECK(outcome.Text.find("normals of the input determine no side") != std::string::npos);
   }
   const auto sheet = Sheet();
   sheet->GetPointData()->AddArray(Constant<vtkFloatArray>("Normals", 17, { 0, 0, 1 }));
@@ -312,8 +312,9 @@ int CheckNamedNormals()
       Constant<vtkIntArray>("Single", sheet->GetNumberOfPoints(), { 1 }));
     const Outcome single = Run(sheet, [](auto* filter) { filter->SetNormalArrayName("Single"); });
     CHECK(single.Errors == 1 && single.Mesh->GetNumberOfPoints() == 0);
-    CHECK(single.Text.find("called Single for the normals. Of three components are: Directions, "
-                           "Normals.") != std::string::npos);
+    CHECK(
+      single.Text.find("called Single for the normals. Arrays with three components: Directions, "
+                       "Normals.") != std::string::npos);
 
     // Without use, the mesh is that of points without normals, whatever is named.
     for (const char* name : { "", "Directions", "Nothing" })
@@ -379,7 +380,7 @@ int CheckFit()
       Constant<vtkDoubleArray>("Directions", cloud->GetNumberOfPoints(), useless));
     const Outcome outcome = Run(cloud, named);
     CHECK(IsSame(outcome, off) && outcome.Errors == 0 && outcome.Warnings == off.Warnings + 1);
-    CHECK(outcome.Text.find("normals of the input tell nothing") != std::string::npos);
+    CHECK(outcome.Text.find("normals of the input determine no side") != std::string::npos);
   }
   return EXIT_SUCCESS;
 }
@@ -471,7 +472,7 @@ int CheckUselessViewpoints()
   const Outcome outcome =
     Run(Sheet(), [](auto* filter) { filter->SetViewpoint(NotANumber, 0.0, 1.0); });
   CHECK(IsUnknown(outcome) && outcome.Warnings == 1);
-  CHECK(outcome.Text.find("viewpoints tell nothing") != std::string::npos);
+  CHECK(outcome.Text.find("viewpoints determine no side") != std::string::npos);
   const auto sheet = Sheet();
   sheet->GetFieldData()->AddArray(Constant<vtkDoubleArray>("Viewpoints", 3, { 0, 1 }));
   CHECK(IsUnknown(Run(sheet)) && Run(sheet).Warnings == 1);
@@ -513,7 +514,7 @@ int CheckFile()
     messages->Observe(filter);
     filter->Update();
     CHECK(messages->Errors > 0);
-    CHECK(messages->AllText.find("Of three components are: Normals.") != std::string::npos);
+    CHECK(messages->AllText.find("Arrays with three components: Normals.") != std::string::npos);
     std::remove(name);
   }
   return EXIT_SUCCESS;

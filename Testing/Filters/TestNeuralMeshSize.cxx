@@ -120,7 +120,7 @@ int TestNeuralMeshSize(int, char*[])
     { "automatic", [](vtkNeuralMesh* run) { run->AutomaticOn(); } },
     { "levels", [](vtkNeuralMesh* run) { run->AddLevel(100); } },
     { "stopping rule", [](vtkNeuralMesh* run) { run->SetTimeLimit(10.0); } },
-    { "any mesh would do", [](vtkNeuralMesh* run) { run->SetTolerance(200.0); } },
+    { "any mesh meets it", [](vtkNeuralMesh* run) { run->SetTolerance(200.0); } },
     { "There are 3 points",
       [](vtkNeuralMesh* run)
       {

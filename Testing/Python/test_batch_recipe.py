@@ -66,7 +66,7 @@ BAD = {
         'matrix: {"order": "exact", "jump": "area_change"} do not go together',
     ),
     '{"scans": ["a.xyz"], "matrix": {"compute_uncertainty": true, "fit_rounds": [1, 0]}}': (
-        "Uncertainty is that of the fit",
+        "Error bars need the fit",
     ),
 }
 

@@ -104,7 +104,7 @@ class Alone(CommandTest):
             (["reconstruct", "ball.xyz", "b.ply", "--features"], 2, "must be a .vtp or .vtk"),
             (["reconstruct", "ball.xyz", "b.ply", "--uncertainty"], 2, "must be a .vtp or .vtk"),
             (["reconstruct", "ball.xyz", "b.vtp", "--uncertainty", "--set", "FitRounds=0"], 2,
-             "Uncertainty is that of the fit"),
+             "Error bars need the fit"),
             (["reconstruct", "ball.xyz", "ball.xyz", "b"], 2, "no extension of a mesh"),
             (["reconstruct", "none.xyz", "b.ply"], 1, "none.xyz: there is no such file"),
             (["reconstruct", "ball.xyz", "b.doc"], 1, "writable are .vtp .ply"),
@@ -321,7 +321,7 @@ class Beside(CommandTest):
         self.assertEqual(meshes[0], meshes[3])
         found, wanted = self.both("reconstruct", "ball.vtp", "p.stl", "--normals", "Upwards")
         self.assertEqual(found, wanted)
-        self.assertIn("Of three components are: Inwards, Outwards.", found[1])
+        self.assertIn("Arrays with three components: Inwards, Outwards.", found[1])
         self.assertEqual(found[2], 1)
 
     # Promise: text and triangles in .obj are the same, and the triangles of .stl.

@@ -50,7 +50,7 @@ class HowMany(unittest.TestCase):
             (sphere(), {"vertices": 3}, "an integer from 4 to 1000000000, or 0"),
             (sphere(), {"vertices": "many"}, "an integer from 4 to 1000000000, or 0"),
             (sphere(), {"tolerance": -1}, "from 0"),
-            (sphere(), {"tolerance": 100}, "any mesh would do"),
+            (sphere(), {"tolerance": 100}, "any mesh meets it"),
             (sphere(3), {"vertices": "auto"}, "3 points"),
             (sphere(), {"vertices": 0, "time_limit": 5}, "stopping rule"),
             (sphere(), {"vertices": 0, "ensemble": 2}, "ensemble"),

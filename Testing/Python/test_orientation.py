@@ -85,7 +85,7 @@ class Sides(unittest.TestCase):
             for given in ({"normals": "off"}, {"use_normals": False}):
                 mesh = neuralmesh.reconstruct(dataset, 200, **given)
                 self.assertEqual(told_by(mesh), "nothing")
-            message = "called Up for the normals. Of three components are: Normals, Slope."
+            message = "called Up for the normals. Arrays with three components: Normals, Slope."
             with self.assertRaisesRegex(ValueError, message):
                 neuralmesh.reconstruct(dataset, 200, normals="Up")
 
@@ -93,7 +93,7 @@ class Sides(unittest.TestCase):
     def test_warnings(self):
         for given in ({"normals": np.zeros((3000, 3))}, {"viewpoints": (np.nan, 0, 0)},
                       {"viewpoints": [(0, 0, 1)] * 2, "views": np.full(3000, 7)}):
-            with self.assertWarnsRegex(RuntimeWarning, "tell nothing"):
+            with self.assertWarnsRegex(RuntimeWarning, r"determine no side .*\[side-is-unknown\]$"):
                 mesh = neuralmesh.reconstruct(sheet(), 200, **given)
             self.assertEqual(told_by(mesh), "nothing")
         with warnings.catch_warnings():

@@ -198,7 +198,7 @@ class Variants(unittest.TestCase):
         self.assertGreater(bars.GetRange()[0], 0.0)
         mesh.GetPointData().RemoveArray("Uncertainty")
         self.assertEqual(support.arrays_of(mesh), support.arrays_of(plain))
-        with self.assertRaisesRegex(ValueError, "Uncertainty is that of the fit"):
+        with self.assertRaisesRegex(ValueError, "Error bars need the fit"):
             neuralmesh.reconstruct(cloud, 300, compute_uncertainty=True, fit_rounds=0)
 
     # Promise: topology learning and ensembles give a torus its handle; nothing else does.

@@ -111,7 +111,7 @@ class Functions(unittest.TestCase):
             bars = mesh.point_data["Uncertainty"]
         self.assertEqual((bars.dtype, bars.shape), (np.float32, (300,)))
         self.assertGreater(bars.min(), 0)
-        with self.assertRaisesRegex(ValueError, "Uncertainty is that of the fit"):
+        with self.assertRaisesRegex(ValueError, "Error bars need the fit"):
             neuralmesh.reconstruct(ball(), 300, compute_uncertainty=True, fit_rounds=0)
 
     # Promise: what makes one cloud gives one mesh, however the array lies; numbers of 4 bytes stay so.
@@ -236,7 +236,7 @@ class Functions(unittest.TestCase):
         self.assertEqual(learnt(given, "Normals"), learnt(given))
         self.assertEqual(learnt(given, "off"), learnt(cloud))
         self.assertNotEqual(learnt(given), learnt(cloud))
-        message = "called Up for the normals. Of three components are: Normals, Slope."
+        message = "called Up for the normals. Arrays with three components: Normals, Slope."
         with self.assertRaisesRegex(ValueError, message):
             neuralmesh.reconstruct(given, 300, normals="Up")
 
@@ -249,7 +249,7 @@ class Functions(unittest.TestCase):
             self.assertEqual(learnt(path, "off"), learnt(cloud))
             self.assertEqual(learnt(path, "Normals"), learnt(path))
             self.assertNotEqual(learnt(path), learnt(cloud))
-            with self.assertRaisesRegex(ValueError, "Of three components are: Normals."):
+            with self.assertRaisesRegex(ValueError, "Arrays with three components: Normals."):
                 neuralmesh.reconstruct(path, 300, normals="Slope")
             with self.assertRaisesRegex(ValueError, "normals cannot be given for points in a file"):
                 neuralmesh.reconstruct(path, 300, normals=ball())

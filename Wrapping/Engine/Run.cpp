@@ -200,7 +200,7 @@ void Run::learn(Plan plan, Call& call)
   }
   catch (const std::runtime_error& error)
   {
-    throw std::invalid_argument(std::string("Of the checkpoint: ") + error.what() + ".");
+    throw std::invalid_argument(std::string("The checkpoint: ") + error.what() + ".");
   }
   tellWarnings(result_, "", tell);
 }

@@ -76,7 +76,7 @@ FileContents PointTextReader::read()
   }
   if (hasNames_ && columns_.count == 0 && contents_.size() > 0)
   {
-    contents_.remark = "no columns are named x, y and z; the first three are taken for these";
+    contents_.remark = "no columns are named x, y and z; the program reads the first three";
   }
   return std::move(contents_);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/WarningTopic.h"
 #include "learn/ParameterTable.h"
 
 #include <cmath>
@@ -38,10 +39,8 @@ std::vector<std::string> Parameters::errors() const
   std::vector<std::string> errors;
   if (jump != Jump::Constant && order == Order::Exact)
   {
-    errors.push_back(
-      "Jump tells how far winners jump in the activity list, and with exact counters "
-      "there is none. What goes together: any jump with the order list; the order "
-      "exact with the jump constant.");
+    errors.push_back("Jump counts only for the activity list, and exact counters have none. Use "
+                     "any jump with the order list, or the jump constant with the order exact.");
   }
   const double weights = constantWeight + normalWeight + areaWeight + volumeWeight;
   if (jump == Jump::Weighted && weights <= 0.)
@@ -51,35 +50,36 @@ std::vector<std::string> Parameters::errors() const
   }
   if (topologyLearning && variant == Variant::NormalBased)
   {
-    errors.push_back("Topology learning takes large triangles for openings, and the normal-based "
-                     "variant makes them where the surface is flat. What goes together: topology "
-                     "learning with the variants noise_filtering and basic.");
+    errors.push_back("Topology learning removes large triangles, and the normal-based variant "
+                     "makes them where the surface is flat. Use topology learning only with the "
+                     "variants noise_filtering and basic.");
   }
   if (computeUncertainty && fitRounds == 0)
   {
-    errors.push_back(
-      "Uncertainty is that of the fit, and FitRounds is 0: without a fit there is none. What goes "
-      "together: error bars with one round of the fit or more; no fit without error bars.");
+    errors.push_back("Error bars need the fit, and FitRounds is 0. Use at least one round of the "
+                     "fit, or no error bars.");
   }
   return errors;
 }
 
 std::vector<std::string> Parameters::warnings(std::size_t pointCount) const
 {
-  std::vector<std::string> warnings;
+  WarningList warnings;
   // (6.18)
   const double expansion = std::exp(-removalPatience) * samplesPerAddition;
   if (removalPatience <= expansion)
   {
-    warnings.push_back("The mesh may not grow: RemovalPatience (C_ec) should exceed "
-                       "exp(-C_ec) * SamplesPerAddition = " +
-      std::to_string(expansion) + ", as (6.18) demands.");
+    warnings.add(WarningTopic::GrowthStopped,
+      "The mesh may not grow: RemovalPatience (C_ec) must exceed exp(-C_ec) * SamplesPerAddition "
+      "= " +
+        std::to_string(expansion) + " (6.18). Increase it, or decrease SamplesPerAddition.");
   }
   if (numberOfVertices > pointCount)
   {
-    warnings.push_back(std::to_string(numberOfVertices) + " vertices from " +
-      std::to_string(pointCount) + " points: beyond one vertex a point there is nothing to learn.");
+    warnings.add(WarningTopic::FinerThanData,
+      std::to_string(numberOfVertices) + " vertices for " + std::to_string(pointCount) +
+        " points are too many. Use at most one vertex for two points.");
   }
-  return warnings;
+  return warnings.take();
 }
 }

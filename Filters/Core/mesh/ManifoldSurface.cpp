@@ -2,6 +2,7 @@
 #include "mesh/ManifoldSurface.h"
 
 #include "base/DisjointSets.h"
+#include "base/WarningTopic.h"
 
 #include <Eigen/Geometry>
 
@@ -371,22 +372,23 @@ ManifoldSurface manifoldOf(const TriangleMesh& triangles)
 
 std::string warningOfSurface(const ManifoldSurface& surface)
 {
-  std::string text;
+  if (surface.leftOut == 0 && surface.cutEdges == 0)
+  {
+    return "";
+  }
+  std::string text = "The surface is no oriented manifold.";
   if (surface.leftOut > 0)
   {
-    text = "Triangles of the input that use a point twice, use one that is not finite, or are "
-           "there already, were left "
-           "out: " +
+    text += " The program left out triangles that are repeated, use a point twice, or have a point "
+            "that is not finite: " +
       std::to_string(surface.leftOut) + ".";
   }
   if (surface.cutEdges > 0)
   {
-    text += (text.empty() ? "" : " ") +
-      std::string("The input is no oriented manifold: it was cut along edges at which more than "
-                  "two triangles meet, or "
-                  "sides do not agree: ") +
+    text +=
+      " The program cut it along edges where more than two triangles meet or sides disagree: " +
       std::to_string(surface.cutEdges) + ".";
   }
-  return text;
+  return taggedWarning(WarningTopic::SurfaceIsUnsound, text + " Repair it first if this matters.");
 }
 }

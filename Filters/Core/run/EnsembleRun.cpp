@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/EnsembleRun.h"
 
+#include "base/WarningTopic.h"
 #include "run/EnsembleAverage.h"
 
 #include <algorithm>
@@ -132,10 +133,12 @@ std::string warningOf(const EnsembleAverage& average)
   {
     return "";
   }
-  return "The members agree on " + std::to_string(std::lround(100. * average.agreement)) +
-    " % of what they hold only, for the cloud is open, " +
-    (average.mesh ? "thin or of too few points: the topology is left to chance."
-                  : "flat or of too few points: learning starts as Start says.");
+  return taggedWarning(WarningTopic::FirstMesh,
+    "The members of the ensemble agree on only " +
+      std::to_string(std::lround(100. * average.agreement)) + " % of their volume: the cloud is " +
+      (average.mesh ? "open, thin or has too few points. The topology is unreliable."
+                    : "open, flat or has too few points. Learning begins as without an ensemble.") +
+      " Use no ensemble for open clouds.");
 }
 }
 

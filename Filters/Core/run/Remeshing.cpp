@@ -51,24 +51,24 @@ std::string whyNoRemeshing(const Parameters& parameters, const BesideSurface& be
   const bool hasRules = parameters.timeLimit > 0. || parameters.maximumIterations > 0 ||
     parameters.targetSampleDistance > 0. || parameters.targetCloudDistance > 0. ||
     parameters.targetNormalChange > 0.;
-  for (const auto& [isThere, name] : { std::pair(beside.points, "points in a file"),
-         std::pair(beside.firstMesh, "a first mesh or an ensemble"),
-         std::pair(beside.weights, "weights"),
-         std::pair(beside.sides,
-           "what tells the outer side (viewpoints, views, named normals, an up direction)"),
-         std::pair(beside.size, "a number of vertices that is to be found"),
-         std::pair(beside.levels, "levels"), std::pair(beside.checkpoint, "a checkpoint"),
-         std::pair(beside.snapshots, "growth as time"),
-         std::pair(beside.automatic, "the automatic choice of parameters"),
-         std::pair(beside.explanation, "explained points"),
-         std::pair(beside.estimate, "an estimate of the run (--dry-run)"),
-         std::pair(hasRules, "a rule that ends a run early"),
-         std::pair(parameters.start == Start::Tetrahedron, "another start"),
-         std::pair(parameters.topologyLearning, "topology learning"),
-         std::pair(parameters.boundaries == Boundaries::Close, "boundaries that are closed"),
-         std::pair(parameters.closeHolesBelow > 0., "holes that are closed"),
-         std::pair(parameters.computeFeatureStrength, "feature strength"),
-         std::pair(parameters.computeUncertainty, "error bars") })
+  for (const auto& [isThere, name] :
+    { std::pair(beside.points, "points in a file"),
+      std::pair(beside.firstMesh, "a first mesh or an ensemble"),
+      std::pair(beside.weights, "weights"),
+      std::pair(beside.sides, "the outer side (viewpoints, views, named normals, an up direction)"),
+      std::pair(beside.size, "a number of vertices that is to be found"),
+      std::pair(beside.levels, "levels"), std::pair(beside.checkpoint, "a checkpoint"),
+      std::pair(beside.snapshots, "growth as time"),
+      std::pair(beside.automatic, "the automatic choice of parameters"),
+      std::pair(beside.explanation, "explained points"),
+      std::pair(beside.estimate, "an estimate of the run (--dry-run)"),
+      std::pair(hasRules, "a rule that ends a run early"),
+      std::pair(parameters.start == Start::Tetrahedron, "another start"),
+      std::pair(parameters.topologyLearning, "topology learning"),
+      std::pair(parameters.boundaries == Boundaries::Close, "boundaries that are closed"),
+      std::pair(parameters.closeHolesBelow > 0., "holes that are closed"),
+      std::pair(parameters.computeFeatureStrength, "feature strength"),
+      std::pair(parameters.computeUncertainty, "error bars") })
   {
     if (isThere)
     {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/SizeChoice.h"
 
+#include "base/WarningTopic.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -85,16 +87,15 @@ std::string whyNoSizeFor(const PointCloud& cloud, const SizeGoal& goal)
   const std::size_t points = cloud.differentCount();
   if (points < FewestToChooseBy)
   {
-    return "There are " + std::to_string(points) +
-      " points, and a number of vertices is found by " + std::to_string(FewestToChooseBy) +
-      " or more: give the number.";
+    return "There are " + std::to_string(points) + " points. The program needs " +
+      std::to_string(FewestToChooseBy) + " to find a number of vertices: give the number.";
   }
   const double diagonal = cloud.diagonal() * cloud.unit();
   if (goal.lengthFor(cloud) >= diagonal)
   {
     return "The tolerance is " + lengthText(goal.lengthFor(cloud)) +
       ", and the points lie in a box whose diagonal is " + lengthText(diagonal) +
-      ": any mesh would do.";
+      ": any mesh meets it.";
   }
   return {};
 }
@@ -141,13 +142,13 @@ std::vector<std::string> SizeChoice::reasons() const
   if (goal.isAutomatic())
   {
     lines.push_back(noise > 0.
-        ? "as many as the noise of " + lengthText(noise) + " leaves something to tell for"
-        : "no noise is told, so that more would follow single points");
+        ? "as many as the points support with a noise of " + lengthText(noise)
+        : "no noise was measured: more vertices would follow single points");
   }
   else
   {
-    lines.push_back("as few as meet the tolerance of " + lengthText(length) + " (" + of + ")" +
-      (noise > 0. ? ", noise of " + lengthText(noise) + " taken off" : ""));
+    lines.push_back("the fewest vertices that meet the tolerance of " + lengthText(length) + " (" +
+      of + ")" + (noise > 0. ? ", without the noise of " + lengthText(noise) : ""));
   }
   std::string tried;
   for (const SizeTrial& trial : trials)
@@ -163,7 +164,7 @@ std::vector<std::string> SizeChoice::reasons() const
   lines.push_back("predicted " + lengthText(predicted) + ", reached " +
     (isTold
         ? lengthText(reached)
-        : "less than " + lengthText(least) + ", as little as the points tell under their noise"));
+        : "less than " + lengthText(least) + ", the least that can be measured under the noise"));
   const auto half = expectedWith(std::max<std::uint64_t>(1, vertices / 2));
   const auto twice = expectedWith(2 * vertices);
   if (half && twice)
@@ -180,10 +181,12 @@ std::string SizeChoice::warning() const
   {
     return {};
   }
-  const std::string end = "; see the reasons of the choice.";
-  return reached <= least ? "The tolerance of " + lengthText(length) +
-      " is less than can be told under the noise of the points, " + lengthText(least) + end
-                          : "The tolerance of " + lengthText(length) + " is not met: the mesh of " +
-      std::to_string(vertices) + " vertices reaches " + lengthText(reached) + end;
+  const std::string text = reached <= least
+    ? "The tolerance of " + lengthText(length) +
+      " is less than the noise of the points allows to " + "measure, " + lengthText(least) + "."
+    : "The tolerance of " + lengthText(length) + " is not met: the mesh of " +
+      std::to_string(vertices) + " vertices reaches " + lengthText(reached) + ".";
+  return taggedWarning(WarningTopic::NumberNotFound,
+    text + " The field data Choice has the reasons. Use a larger tolerance or more points.");
 }
 }

@@ -178,7 +178,7 @@ private:
       std::all_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh.has_value(); });
     if (!areFinished || probes < LeastProbes)
     {
-      result_.remarks.emplace_back("there are too few points to tell by them what is better");
+      result_.remarks.emplace_back("there are too few points for a comparison");
       return false;
     }
     noise_ = noise;
@@ -200,8 +200,7 @@ private:
       const TuningTrial trial{ "Fidelity", double(before), double(fidelity) };
       if (!hasOtherRounds(before, fidelity))
       {
-        result_.remarks.push_back(
-          inWords(trial) + " was not tried, as under noise it does the same");
+        result_.remarks.push_back(inWords(trial) + " was not tried: under noise it is the same");
         break;
       }
       Parameters tried = result_.parameters;
@@ -237,9 +236,8 @@ private:
     const auto [least, most] = std::minmax_element(smoothness_.begin(), smoothness_.end());
     if (*most > MostSmoothnessOverLeast * *least)
     {
-      result_.remarks.emplace_back("no FitSmoothness was tried, as by the data it is " +
-        text(*least) + " at one place and " + text(*most) +
-        " at another: what is best for them is not for the whole");
+      result_.remarks.emplace_back("no FitSmoothness was tried: the data give " + text(*least) +
+        " at one place and " + text(*most) + " at another, and none of them suits the whole");
       return;
     }
     const double byData = medianOf(smoothness_);
@@ -424,7 +422,7 @@ std::optional<Tuning> tune(const PointCloud& cloud, const Parameters& wanted,
 {
   if (wanted.fitRounds == 0)
   {
-    return Tuning{ wanted, {}, {}, { "without a fit there is nothing to choose" } };
+    return Tuning{ wanted, {}, {}, { "there is no fit, so there is nothing to choose" } };
   }
   return Tuner(cloud, wanted, progress, executor).run();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/Warnings.h"
 
+#include "base/WarningTopic.h"
 #include "run/BareArea.h"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ constexpr std::size_t MostPiecesNamed = 2;
 constexpr std::size_t LeastPointsPerVertex = 2;
 /// Of a closed mesh.
 constexpr std::size_t FewestVertices = 4;
-constexpr std::string_view HowToSee = "ExplainPoints (--explain) shows which.";
+constexpr std::string_view HowToSee = "ExplainPoints (--explain) marks these points.";
 
 std::string counted(std::size_t count, std::string_view one, std::string_view several)
 {
@@ -80,18 +81,10 @@ Fate fateOf(const MissedPiece& piece, double meanEdge)
                                 : Fate::Missing;
 }
 
-void warnOfPieces(const Explanation& explanation, const PointCloud& cloud, Fate fate,
-  std::vector<std::string>& warnings)
+/// How many points are where: the largest pieces by their places, the others by their number.
+std::string piecesText(const std::vector<MissedPiece>& pieces, const PointCloud& cloud)
 {
-  const double meanEdge = explanation.asked.meanEdge * cloud.unit();
-  std::vector<MissedPiece> pieces;
-  std::copy_if(explanation.pieces.begin(), explanation.pieces.end(), std::back_inserter(pieces),
-    [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == fate; });
-  if (pieces.empty())
-  {
-    return;
-  }
-  std::string where;
+  std::string where = "about ";
   for (std::size_t i = 0; i < std::min(pieces.size(), MostPiecesNamed); ++i)
   {
     where += (i == 0 ? "" : ", ") + about(pieces[i].points) + " points around " +
@@ -101,36 +94,65 @@ void warnOfPieces(const Explanation& explanation, const PointCloud& cloud, Fate 
   {
     where += " and " + counted(pieces.size() - MostPiecesNamed, "other place", "other places");
   }
-  constexpr std::array<std::string_view, 3> What{ "A part of the cloud is missing in the mesh",
-    "The mesh ends, or is open, where there are points", "The mesh is coarser than its cloud" };
-  constexpr std::array<std::string_view, 3> WhatHelps{
-    "More vertices reach what is thin or narrow, a first mesh holds what is lost.",
-    "More vertices reach what is thin or narrow, Boundaries close fills openings.",
-    "It is up to half an edge away from them: more vertices show what is narrow or bent there."
-  };
-  warnings.push_back(std::string(What[std::size_t(fate)]) + ": about " + where + ". " +
-    std::string(WhatHelps[std::size_t(fate)]) + " " + std::string(HowToSee));
+  return where + ". ";
 }
 
-void warnOfPoints(
-  const Explanation& explanation, const PointCloud& cloud, std::vector<std::string>& warnings)
+void warnOfPieces(
+  const Explanation& explanation, const PointCloud& cloud, Fate fate, WarningList& warnings)
 {
-  // A mesh that misses the cloud tells nothing of its noise.
+  const double meanEdge = explanation.asked.meanEdge * cloud.unit();
+  std::vector<MissedPiece> pieces;
+  std::copy_if(explanation.pieces.begin(), explanation.pieces.end(), std::back_inserter(pieces),
+    [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == fate; });
+  if (pieces.empty())
+  {
+    return;
+  }
+  const std::string where = piecesText(pieces, cloud), how(HowToSee);
+  switch (fate)
+  {
+    case Fate::Missing:
+      warnings.add(WarningTopic::PartIsMissing,
+        "A part of the cloud is missing in the mesh: " + where +
+          "The triangles are too large for a thin or narrow part. Use more vertices, or a first "
+          "mesh that has the part. " +
+          how);
+      return;
+    case Fate::BeyondBoundary:
+      warnings.add(WarningTopic::OpenWherePointsAre,
+        "The mesh is open where there are points: " + where +
+          "The triangles are too large for a thin or narrow part. Use more vertices, or close "
+          "openings (--boundaries close). " +
+          how);
+      return;
+    case Fate::Coarse:
+      warnings.add(WarningTopic::MeshIsCoarse,
+        "The mesh is coarser than its cloud: " + where +
+          "They lie up to half an edge from the mesh. Use more vertices to resolve narrow or bent "
+          "parts. " +
+          how);
+      return;
+  }
+}
+
+void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
+{
+  // The noise is unknown where the mesh misses the cloud.
   if (explanation.scatteredShare > MostScattered && explanation.unexplainedShare() < MostScattered)
   {
-    warnings.push_back("The cloud has no surface, as far as this mesh can tell: around " +
-      percent(explanation.scatteredShare) +
-      " of its points others lie in all directions, as noise does. The mesh lies somewhere among "
-      "them. Look at the points, and take away what is no surface; where there is one under the "
-      "noise, more points may show it.");
+    warnings.add(WarningTopic::NoSurface,
+      "The cloud has no recognizable surface: around " + percent(explanation.scatteredShare) +
+        " of its points, other points lie in all directions, as in noise. The position of the "
+        "mesh is a guess. Remove points that lie on no surface, or provide more points.");
   }
   if (explanation.unexplainedShare() > MostUnexplained)
   {
-    warnings.push_back(percent(explanation.unexplainedShare()) + " of the points (about " +
-      about(explanation.unexplained()) +
-      ") are unexplained: farther from the mesh than from each other, and no outliers. Look at "
-      "them before you use the mesh. " +
-      std::string(HowToSee));
+    warnings.add(WarningTopic::PointsAreUnexplained,
+      percent(explanation.unexplainedShare()) + " of the points (about " +
+        about(explanation.unexplained()) +
+        ") are unexplained: they lie farther from the mesh than from each other, and they are no "
+        "outliers. Look at them before you use the mesh. " +
+        std::string(HowToSee));
   }
   for (const Fate fate : { Fate::Missing, Fate::BeyondBoundary, Fate::Coarse })
   {
@@ -138,19 +160,19 @@ void warnOfPoints(
   }
 }
 
-void warnOfBareArea(double share, std::vector<std::string>& warnings)
+void warnOfBareArea(double share, WarningList& warnings)
 {
   if (share > MostBare)
   {
-    warnings.push_back(percent(share) +
-      " of the surface has hardly any points: its triangles reach out to stray points, or across "
-      "gaps. Look at it before you use the mesh: where the point data Support is 0. Cut points off "
-      "that do not belong to the scan, and take bodies that are far apart one by one.");
+    warnings.add(WarningTopic::SurfaceWithoutPoints,
+      percent(share) +
+        " of the surface has almost no points: its triangles span gaps or reach out to stray "
+        "points. Look at it before you use the mesh: its point data Support is 0. Remove stray "
+        "points, and reconstruct distant bodies one by one.");
   }
 }
 
-void warnOfGaps(
-  std::vector<SpannedGap> gaps, const PointCloud& cloud, std::vector<std::string>& warnings)
+void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud, WarningList& warnings)
 {
   std::erase_if(gaps, [](const SpannedGap& gap) { return gap.share < LeastGap; });
   if (gaps.empty())
@@ -167,112 +189,118 @@ void warnOfGaps(
   {
     where += " and " + counted(gaps.size() - MostPiecesNamed, "other place", "other places");
   }
-  warnings.push_back("The mesh spans gaps of the cloud: " + where +
-    ", farther from all points than three times as far as these are from each other. There it is "
-    "a guess. Scan what is missing there; if there is nothing, cut it out: where Support is 0.");
+  warnings.add(WarningTopic::GapIsSpanned,
+    "The mesh spans gaps of the cloud: " + where +
+      ". The nearest points are farther away than three times their spacing, so the surface is a "
+      "guess. Scan these places. If there is no surface, remove the triangles whose point data "
+      "Support is 0.");
 }
 
-void warnOfDefects(const Reconstruction& result, std::vector<std::string>& warnings)
+void warnOfDefects(const Reconstruction& result, WarningList& warnings)
 {
   const std::size_t cuts = result.finish ? result.finish->left.intersectingTriangles : 0;
   const std::size_t folds = result.quality->surface.foldedEdges;
   if (cuts > 0)
   {
-    warnings.push_back(counted(cuts, "triangle intersects", "triangles intersect") +
-      " others and could not be repaired: the surface is thinner there than triangles are large, "
-      "or two layers are taken for one. More vertices make triangles smaller; another seed may "
-      "do.");
+    warnings.add(WarningTopic::TrianglesIntersect,
+      counted(cuts, "triangle intersects", "triangles intersect") +
+        " others, and the repair failed. The surface is thinner there than its triangles are "
+        "large, or one layer of the mesh covers two of the cloud. Use more vertices or another "
+        "seed.");
   }
   const double between = result.finish ? result.finish->shareBetweenLayers : 0.;
   if (between > MostBetweenLayers)
   {
-    warnings.push_back("The mesh lies between two layers of points at " + percent(between) +
-      " of its vertices: two sides of a thin part are taken for one, or views of the same surface "
-      "lie "
-      "apart. For a thin part more vertices may do, or a first mesh with both sides; views can be "
-      "registered anew.");
+    warnings.add(WarningTopic::BetweenLayers,
+      "The mesh lies between two layers of points at " + percent(between) +
+        " of its vertices. The layers are two sides of a thin part, or views that are registered "
+        "badly. For a thin part, use more vertices or a first mesh with both sides. For views, "
+        "repeat the registration.");
   }
   if (folds > 0)
   {
-    warnings.push_back("The mesh is folded at " + counted(folds, "edge", "edges") +
-      ", whose triangles turn by more than 150 degrees. More FitRounds, another number of vertices "
-      "or another seed may unfold it.");
+    warnings.add(WarningTopic::Folds,
+      "The mesh is folded at " + counted(folds, "edge", "edges") +
+        ", where it turns by more than 150 degrees. Use more FitRounds, another number of vertices "
+        "or another seed.");
   }
 }
 
-/// Where most of the mesh lies between two layers, that is told already.
-void warnOfSharedNoise(const FinishReport& finish, double unit, std::vector<std::string>& warnings)
+/// Where most of the mesh lies between two layers, another warning has said so.
+void warnOfSharedNoise(const FinishReport& finish, double unit, WarningList& warnings)
 {
   if (finish.sharedNoise > finish.ownNoise && !(finish.shareBetweenLayers > MostBetweenLayers))
   {
     std::ostringstream text;
     text.precision(2);
-    text
-      << "The points of a view are off together by more (about " << finish.sharedNoise * unit
-      << ") than each of them for itself (" << finish.ownNoise * unit
-      << "): views of the same surface lie apart. More points do not average that out; views can "
-         "be registered anew. Depths that are rounded look the same.";
-    warnings.push_back(text.str());
+    text << "The views lie apart: the points of a view share an error of about "
+         << finish.sharedNoise * unit << ", more than their own noise of " << finish.ownNoise * unit
+         << ". More points do not average it out. Repeat the registration of the views. Rounded "
+            "depths have the same effect.";
+    warnings.add(WarningTopic::ViewsLieApart, text.str());
   }
 }
 
-void warnOfMissingBars(const Reconstruction& result, std::vector<std::string>& warnings)
+void warnOfMissingBars(const Reconstruction& result, WarningList& warnings)
 {
   if (result.uncertainties.empty())
   {
-    warnings.push_back("The mesh has no error bars: " +
-      std::string(result.finish
-          ? "all rounds of the fit were taken back, and they are those of the fit."
-          : "the run ended before its fit. More time, or none of the rules that end a run early, "
-            "may help."));
+    warnings.add(WarningTopic::NoErrorBars,
+      "The mesh has no error bars: " +
+        std::string(result.finish
+            ? "the program took all rounds of the fit back, and error bars need a round. Use a "
+              "first mesh that lies closer."
+            : "the run ended before its fit. Allow more time, or remove the rules that end a run "
+              "early."));
   }
 }
 
-/// Without views, what lies between two layers is all that tells it.
-void warnOfShortBars(
-  const Reconstruction& result, const PointCloud& cloud, std::vector<std::string>& warnings)
+/// Without views, a mesh between two layers is the only sign.
+void warnOfShortBars(const Reconstruction& result, const PointCloud& cloud, WarningList& warnings)
 {
   const bool isBetween = result.finish && result.finish->shareBetweenLayers > MostBetweenLayers;
   if (result.disagreeingShare > MostDisagreeing)
   {
-    warnings.push_back("Views lie apart by more than was estimated at " +
-      percent(result.disagreeingShare) + " of the vertices, as around " +
-      placeText(cloud.toInput(result.disagreement), cloud) +
-      ": error bars are too short there. Views can be registered anew.");
+    warnings.add(WarningTopic::ErrorBarsTooShort,
+      "Views lie farther apart than estimated at " + percent(result.disagreeingShare) +
+        " of the vertices, as around " + placeText(cloud.toInput(result.disagreement), cloud) +
+        ". The error bars are too short there. Repeat the registration of the views.");
   }
   else if (isBetween && !result.uncertainties.empty())
   {
-    warnings.push_back("Where the mesh lies between two layers of points, error bars are too "
-                       "short: they take what is between for the surface.");
+    warnings.add(WarningTopic::ErrorBarsTooShort,
+      "The error bars are too short where the mesh lies between two layers of points. They do not "
+      "include the distance of the layers.");
   }
 }
 
-void warnOfSlivers(const SurfaceReport& surface, std::vector<std::string>& warnings)
+void warnOfSlivers(const SurfaceReport& surface, WarningList& warnings)
 {
   const double share =
     double(surface.slivers) / double(std::max<std::size_t>(1, surface.triangles));
   if (share > MostSlivers)
   {
-    warnings.push_back(percent(share) + " of the triangles (" + std::to_string(surface.slivers) +
-      ") are slivers, nearly lines, and could not be taken away: their normals tell nothing. "
-      "Another number of vertices or another seed may do without; where points are far denser "
-      "than elsewhere, thin them there.");
+    warnings.add(WarningTopic::Slivers,
+      percent(share) + " of the triangles (" + std::to_string(surface.slivers) +
+        ") are slivers, nearly lines, and the repair failed. Their normals are unreliable. Use "
+        "another number of vertices or another seed. Where points are much denser than elsewhere, "
+        "thin them out.");
   }
 }
 
-void warnOfTurnedParts(double share, std::vector<std::string>& warnings)
+void warnOfTurnedParts(double share, WarningList& warnings)
 {
   if (share > MostTurned)
   {
-    warnings.push_back(percent(share) +
-      " of the surface is inside out: it hangs on to the rest by the wrong side, as bodies do that "
-      "touch each other. More vertices may part them, and so does a cloud for each body; then an "
-      "up direction (--up) or viewpoints (--viewpoint) turn each of them.");
+    warnings.add(WarningTopic::InsideOut,
+      percent(share) +
+        " of the surface is inside out: it is connected to the rest by the wrong side, as where "
+        "bodies touch. Use more vertices, or a cloud for each body. Then an up direction (--up) or "
+        "viewpoints (--viewpoint) turn each piece.");
   }
 }
 
-void warnOfHandles(
-  const NarrowHandles& handles, const PointCloud& cloud, std::vector<std::string>& warnings)
+void warnOfHandles(const NarrowHandles& handles, const PointCloud& cloud, WarningList& warnings)
 {
   if (handles.count == 0)
   {
@@ -281,79 +309,85 @@ void warnOfHandles(
   std::string where;
   for (const Vector4 place : handles.places)
   {
-    where += (where.empty() ? ": around " : ", ") + placeText(cloud.toInput(place), cloud);
+    where += (where.empty() ? " around " : ", ") + placeText(cloud.toInput(place), cloud);
   }
   if (handles.count > handles.places.size() && !where.empty())
   {
     where +=
       " and " + counted(handles.count - handles.places.size(), "other place", "other places");
   }
-  warnings.push_back("A loop of " + std::to_string(NarrowLoop) +
-    " edges at most leads around at least " + counted(handles.count, "handle", "handles") + where +
-    ". Unless the shape is as narrow there, layers have grown together. A denser scan or fewer "
-    "vertices may help.");
+  warnings.add(WarningTopic::NarrowHandles,
+    "The mesh has at least " + counted(handles.count, "narrow handle", "narrow handles") + where +
+      ": a loop of at most " + std::to_string(NarrowLoop) +
+      " edges leads around it. If the shape has no handle there, layers have grown together. Use a "
+      "denser scan or fewer vertices.");
 }
 
-void warnOfVertices(
-  const Reconstruction& result, const PointCloud& cloud, std::vector<std::string>& warnings)
+void warnOfVertices(const Reconstruction& result, const PointCloud& cloud, WarningList& warnings)
 {
   const std::size_t vertices = result.mesh.points.size(), points = cloud.differentCount();
   if (result.stopReason == StopReason::Stalled)
   {
-    warnings.push_back("The mesh has stopped growing, at " + std::to_string(vertices) +
-      " vertices: as many are removed as are added. More RemovalPatience or less "
-      "SamplesPerAddition may help.");
+    warnings.add(WarningTopic::GrowthStopped,
+      "The mesh stopped growing at " + std::to_string(vertices) +
+        " vertices: the program removes as many vertices as it adds. Increase RemovalPatience or "
+        "decrease SamplesPerAddition.");
   }
   const std::size_t enough = std::max(points / LeastPointsPerVertex, FewestVertices);
   if (vertices > enough && vertices <= cloud.points().size())
   {
-    warnings.push_back("The mesh is finer than its data: " + std::to_string(vertices) +
-      " vertices for " + std::to_string(points) +
-      " different points. It shows no more of the surface than with " + std::to_string(enough) +
-      ".");
+    warnings.add(WarningTopic::FinerThanData,
+      "The mesh is finer than its data: " + std::to_string(vertices) + " vertices for " +
+        std::to_string(points) + " different points. A mesh of " + std::to_string(enough) +
+        " vertices shows as much of the surface.");
   }
   if (result.finish && result.finish->roundsTakenBack > 0)
   {
-    warnings.push_back(counted(std::size_t(result.finish->roundsTakenBack), "round", "rounds") +
-      " of the fit made the residual larger, lost points or made triangles intersect, and were "
-      "taken back. Fewer vertices, or a first mesh that lies closer, may help.");
+    warnings.add(WarningTopic::FitTakenBack,
+      "The program took " +
+        counted(std::size_t(result.finish->roundsTakenBack), "round", "rounds") +
+        " of the fit back: the residual grew, points were lost, or triangles intersected. Use "
+        "fewer vertices, or a first mesh that lies closer.");
   }
 }
 
-/// Before the fit, gaps are spanned, and parts may face each other that do not hang together.
-void warnOfSides(const OrientationReport& sides, bool isFitted, const PointCloud& cloud,
-  std::vector<std::string>& warnings)
+/// Before the fit, gaps are spanned, and parts may face each other that are not connected.
+void warnOfSides(
+  const OrientationReport& sides, bool isFitted, const PointCloud& cloud, WarningList& warnings)
 {
   if (isFitted && sides.contradiction)
   {
-    warnings.push_back("Parts of the surface that face each other across openings look to opposite "
-                       "sides, as around " +
-      placeText(cloud.toInput(*sides.contradiction), cloud) +
-      ": some are inside out, and nothing tells which. An up direction (--up) or viewpoints "
-      "(--viewpoint) turn pieces; what hangs on to its piece by the wrong side takes more "
-      "vertices, or a cloud of its own.");
+    warnings.add(WarningTopic::InsideOut,
+      "Parts of the surface that face each other across openings look to opposite sides, as "
+      "around " +
+        placeText(cloud.toInput(*sides.contradiction), cloud) +
+        ": some parts are inside out. An up direction (--up) or viewpoints (--viewpoint) turn "
+        "separate pieces. If a part is connected by the wrong side, use more vertices or a cloud "
+        "for each body.");
   }
   if (sides.hasToldNothing(SideEvidence::Viewpoints))
   {
-    warnings.push_back("The viewpoints tell nothing of the sides of the surface: they are not "
-                       "finite, see as much of either side, or are those of no point.");
+    warnings.add(WarningTopic::SideIsUnknown,
+      "The viewpoints determine no side of the surface: they are not finite, see both sides "
+      "equally, or belong to no point. Check them.");
   }
   if (sides.hasToldNothing(SideEvidence::Normals))
   {
-    warnings.push_back(
-      "The normals of the input tell nothing of the sides of the surface: they are "
-      "zero, not finite, or point to either side.");
+    warnings.add(WarningTopic::SideIsUnknown,
+      "The normals of the input determine no side of the surface: they are zero, not finite, or "
+      "point to both sides. Check them.");
   }
-  // One piece agrees with itself, and with those that follow it: as a whole it has two sides that are
-  // as right.
+  // One piece agrees with itself and with the pieces that follow it: as a whole, it has two sides that
+  // are equally right.
   const bool isOne = sides.unknownPieces == 1 &&
     sides.unknownShare() + sides.share(SideEvidence::Neighbors) > WholeArea;
   if (sides.unknownShare() > LeastUnknownSide && !isOne)
   {
-    warnings.push_back("Which side of the surface is the outer one is unknown for " +
-      counted(sides.unknownPieces, "piece", "pieces") + " with " + percent(sides.unknownShare()) +
-      " of the area: give viewpoints (--viewpoint, where the scanner stood), an up direction "
-      "(--up), or points with normals.");
+    warnings.add(WarningTopic::SideIsUnknown,
+      "The outer side is unknown for " + counted(sides.unknownPieces, "piece", "pieces") +
+        " with " + percent(sides.unknownShare()) +
+        " of the area. Give viewpoints (--viewpoint, where the scanner stood), an up direction "
+        "(--up), or points with normals.");
   }
 }
 }
@@ -361,7 +395,7 @@ void warnOfSides(const OrientationReport& sides, bool isFitted, const PointCloud
 std::vector<std::string> warningsOf(
   const Reconstruction& result, const PointCloud& cloud, const Parameters& parameters)
 {
-  std::vector<std::string> warnings;
+  WarningList warnings;
   if (result.explanation)
   {
     warnOfPoints(*result.explanation, cloud, warnings);
@@ -389,27 +423,28 @@ std::vector<std::string> warningsOf(
     warnOfSharedNoise(*result.finish, cloud.unit(), warnings);
   }
   warnOfSides(result.orientation, result.finish.has_value(), cloud, warnings);
-  return warnings;
+  return warnings.take();
 }
 
 std::vector<std::string> warningsOfSurface(
   const Reconstruction& result, const Parameters& parameters)
 {
-  std::vector<std::string> warnings;
-  const std::size_t vertices = result.mesh.points.size();
   if (!result.quality)
   {
-    return warnings;
+    return {};
   }
+  WarningList warnings;
+  const std::size_t vertices = result.mesh.points.size();
   warnOfDefects(result, warnings);
   warnOfSlivers(result.quality->surface, warnings);
   if (vertices != parameters.numberOfVertices)
   {
-    warnings.push_back("The mesh has " + std::to_string(vertices) + " vertices, not " +
-      std::to_string(parameters.numberOfVertices) +
-      ": its pieces, handles and boundaries need so many.");
+    warnings.add(WarningTopic::OtherNumberOfVertices,
+      "The mesh has " + std::to_string(vertices) + " vertices, not " +
+        std::to_string(parameters.numberOfVertices) +
+        ": its pieces, handles and boundaries need them.");
   }
-  return warnings;
+  return warnings.take();
 }
 
 std::string warningOfFirst(const Mesh& first, const Parameters& parameters)
@@ -418,9 +453,10 @@ std::string warningOfFirst(const Mesh& first, const Parameters& parameters)
   {
     return "";
   }
-  return "The mesh to start from has " + std::to_string(first.vertexCount()) +
-    " vertices, more than " + std::to_string(parameters.numberOfVertices) +
-    (parameters.fitRounds > 0 ? ": it is fitted, but grows no further."
-                              : ": it comes out as it is.");
+  return taggedWarning(WarningTopic::FirstMesh,
+    "The first mesh has " + std::to_string(first.vertexCount()) + " vertices, more than " +
+      std::to_string(parameters.numberOfVertices) +
+      (parameters.fitRounds > 0 ? ": the program fits it, but adds no vertices."
+                                : ": it is the output, unchanged."));
 }
 }

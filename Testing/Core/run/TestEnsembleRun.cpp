@@ -234,6 +234,6 @@ TEST(EnsembleRun, PlanesAreWarnedOf)
   const EnsembleStart start = started(PointCloud(plane));
   EXPECT_TRUE(start.votes);
   EXPECT_FALSE(start.mesh);
-  EXPECT_NE(start.warning.find("learning starts as Start says"), std::string::npos);
+  EXPECT_NE(start.warning.find("Learning begins as without an ensemble"), std::string::npos);
 }
 }

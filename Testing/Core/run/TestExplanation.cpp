@@ -282,14 +282,14 @@ TEST(Warnings, Sides)
   {
     point.z() = 0.;
   }
-  EXPECT_FALSE(hasWarning(reconstructed(PointCloud(sheet), 500), "Which side"));
+  EXPECT_FALSE(hasWarning(reconstructed(PointCloud(sheet), 500), "The outer side is unknown for"));
   OrientationReport sides;
   sides.pieces = sides.unknownPieces = 2;
   sides.shares[0] = 1.;
   Reconstruction result;
   result.orientation = sides;
   result.warnings = warningsOf(result, PointCloud(sheet));
-  EXPECT_TRUE(hasWarning(result, "Which side"));
+  EXPECT_TRUE(hasWarning(result, "The outer side is unknown for"));
   EXPECT_TRUE(hasWarning(result, "--viewpoint"));
 }
 
@@ -397,14 +397,14 @@ TEST(Warnings, SharedNoise)
   result.finish->ownNoise = 0.01 / cloud.unit();
   result.finish->sharedNoise = 0.02 / cloud.unit();
   result.warnings = warningsOf(result, cloud);
-  EXPECT_TRUE(hasWarning(result, "are off together by more (about 0.02) than"));
+  EXPECT_TRUE(hasWarning(result, "share an error of about 0.02, more than"));
   result.finish->shareBetweenLayers = 0.4;
   result.warnings = warningsOf(result, cloud);
-  EXPECT_FALSE(hasWarning(result, "are off together"));
+  EXPECT_FALSE(hasWarning(result, "share an error"));
   result.finish->shareBetweenLayers = 0.;
   result.finish->sharedNoise = 0.009 / cloud.unit();
   result.warnings = warningsOf(result, cloud);
-  EXPECT_FALSE(hasWarning(result, "are off together"));
+  EXPECT_FALSE(hasWarning(result, "share an error"));
 }
 
 // Promise: a mesh between two layers of points is told.
@@ -447,7 +447,7 @@ TEST(Warnings, BareArea)
   const Reconstruction bare = made(0., {});
   ASSERT_EQ(bare.warnings.size(), 1u);
   EXPECT_NEAR(std::stod(bare.warnings.front()), 22., 3.);
-  EXPECT_TRUE(hasWarning(bare, "hardly any points"));
+  EXPECT_TRUE(hasWarning(bare, "almost no points"));
   EXPECT_TRUE(made(0.05, {}).warnings.empty());
   EXPECT_TRUE(made(0., closing).warnings.empty());
   EXPECT_TRUE(made(0., filling).warnings.empty());

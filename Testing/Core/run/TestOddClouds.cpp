@@ -265,7 +265,7 @@ TEST(OddClouds, NoiseIsABody)
     EXPECT_EQ(run.report.components, 1u);
     EXPECT_EQ(run.report.genus(), 0);
     EXPECT_GT(volumeOf(run.result.mesh), 1.);
-    EXPECT_TRUE(run.warnsOf("has no surface"));
+    EXPECT_TRUE(run.warnsOf("has no recognizable surface"));
   }
 }
 
@@ -373,7 +373,7 @@ TEST(OddClouds, NormalsThatTellNothing)
     OrientationHints hints;
     hints.normalOf = [&](std::uint32_t point) { return Eigen::Vector3d(length * anywhere[point]); };
     const OddRun run = runOn(points, 500, hints);
-    EXPECT_TRUE(run.warnsOf("normals of the input tell nothing"));
+    EXPECT_TRUE(run.warnsOf("normals of the input determine no side"));
     EXPECT_EQ(run.result.mesh.triangles, without.result.mesh.triangles);
     EXPECT_EQ(run.result.mesh.points, without.result.mesh.points);
   }

@@ -154,7 +154,7 @@ TEST(Tuning, FidelityStaysUnderNoise)
   EXPECT_TRUE(std::none_of(tuning.trials.begin(), tuning.trials.end(),
     [](const TuningTrial& trial) { return trial.parameter == "Fidelity"; }));
   EXPECT_EQ(std::count(tuning.remarks.begin(), tuning.remarks.end(),
-              "Fidelity high instead of default was not tried, as under noise it does the same"),
+              "Fidelity high instead of default was not tried: under noise it is the same"),
     1);
   const Reconstruction usual = reconstruct(cloud, wanted, goOn);
   wanted.fidelity = Fidelity::High;

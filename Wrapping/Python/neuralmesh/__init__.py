@@ -4,11 +4,12 @@
 >>> import neuralmesh
 >>> mesh = neuralmesh.reconstruct(points, vertices=20000)
 
-reconstruct() does it in one call, remesh() makes other triangles of a surface, stream() while points arrive, compare() tells how far a mesh is
-from a reference, explain() what it leaves of the points, info() whether it is sound. The VTK classes,
-vtkNeuralMesh and its sisters, are here for pipelines. The methods of a mesh and of all VTK objects are
-those of the package vtkmodules. Where this package was built with a VTK, VTK_VERSION, vtkmodules must be of that very one.
-What pip installs was built without: there any VTK will do, or none, and a mesh is a neuralmesh.Mesh then.
+reconstruct() makes a mesh in one call, remesh() makes other triangles of a surface, and stream() learns while
+points arrive. compare() measures the distance of a mesh from a reference, explain() finds the points that it
+leaves out, info() checks whether it is sound. Pipelines use the VTK classes, such as vtkNeuralMesh. Meshes and
+other VTK objects have the methods of the package vtkmodules. If this package was built with a VTK, VTK_VERSION,
+vtkmodules must be of the same version. The package from PyPI was built without VTK: it works with any VTK. Without
+VTK, a mesh is a neuralmesh.Mesh.
 """
 
 from ._build import VERSION as __version__, VTK_VERSION

@@ -31,7 +31,7 @@ def as_points(points: object) -> np.ndarray:
 def values_of_points(
     values: object, count: int, parameter: str, shape: tuple[int, ...]
 ) -> np.ndarray:
-    """What a parameter gives for each of so many points; of one number, or of such a shape. ValueError for
+    """The values of a parameter for `count` points, each a number or of the given shape. ValueError for
     anything else.
     """
     array = np.asarray(values)

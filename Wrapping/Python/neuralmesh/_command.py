@@ -35,7 +35,7 @@ def _say(message: object, status: int) -> int:
 
 
 def add_processes_option(parser: argparse.ArgumentParser, what: str) -> None:
-    """Add --processes, with which so many of `what` (jobs, runs) are done at a time."""
+    """Add --processes: the number of `what` (jobs, runs) that are done at a time."""
     parser.add_argument(
         "--processes",
         type=_count,

@@ -18,9 +18,9 @@ def compare(
 ) -> dict[str, dict[str, float]]:
     """Measure how far a mesh is from a reference, over the surfaces and both ways.
 
-    Points are drawn evenly over the area of each surface, and the distance of each to the nearest
-    point of the other surface is taken. Nothing is aligned. The distances of single points, for
-    colouring, are the outputs of vtkNeuralMeshComparison.
+    Points are drawn evenly over the area of each surface. Their distances to the nearest points of the
+    other surface are measured. The surfaces are not aligned. For the distances of single points, use
+    vtkNeuralMeshComparison.
 
     Args:
         reference: The surface as it should be: a vtkPolyData with triangles, polygons or strips.
@@ -30,8 +30,8 @@ def compare(
             same figures.
 
     Returns:
-        A dict with the keys `reference_to_result`, which tells of what the result misses, and
-        `result_to_reference`, which tells of what it has too much. Each is a dict of floats:
+        A dict with the keys `reference_to_result`, which shows what the result misses, and
+        `result_to_reference`, which shows what is superfluous in it. Each is a dict of floats:
         `mean`, `rms`, `percentile_99` and `maximum` of the distances, in the unit of the input; the
         same with `_percent` behind, in percent of the diagonal of the bounding box of the
         reference; `normal_angle`, the mean angle between the normals of both surfaces, in degrees
@@ -41,7 +41,7 @@ def compare(
         sharp edges and `edge_to_surface` from the whole of the other surface, these also with
         `_percent`.
 
-        The key `both_ways` has a dict of what is told of both directions together: `chamfer`, half
+        The key `both_ways` has a dict of the figures of both directions together: `chamfer`, half
         of the sum of both means (Mescheder et al. 2019); `chamfer_squared`, the sum of both mean
         squares (Fan et al. 2017); `precision_0_1`, `recall_0_1` and `f_score_0_1`, the parts, 0 to
         1, of the result and of the reference that are nearer to the other surface than 0.1 % of

@@ -24,10 +24,10 @@ Result = TypeVar("Result")
 def execute(algorithm: vtkAlgorithm, progress: Progress | None = None) -> None:
     """Update the filter; VTK prints nothing.
 
-    progress is called with fractions from 0 to 1; if it returns False, the filter is told to end.
-    What it raises, or what a handler of Ctrl-C raises, ends the filter and is raised again. What
-    the filter says to be wrong, which is about its input, is a ValueError, and any other error of
-    the pipeline a RuntimeError. Warnings are RuntimeWarnings.
+    progress is called with fractions from 0 to 1; if it returns False, the filter ends.
+    What it raises, or what a handler of Ctrl-C raises, ends the filter and is raised again. Errors
+    of the filter, which concern its input, are ValueErrors; other errors of the pipeline are
+    RuntimeErrors. Warnings are RuntimeWarnings.
     """
     execution = _Execution(algorithm, progress)
     with execution.observed(), _guarded_interrupts(execution.call):
@@ -41,7 +41,7 @@ def observed_call(
     function: Callable[..., Result],
     *arguments: object,
 ) -> Result:
-    """Call a method of one of our filters that reports as an update does; its result."""
+    """Call a method of a filter of this package that reports as an update does; its result."""
     execution = _Execution(algorithm, progress)
     with execution.observed(), _guarded_interrupts(execution.call):
         result = function(*arguments)
@@ -50,7 +50,7 @@ def observed_call(
 
 
 def check_parameters(algorithm: vtkNeuralMeshAlgorithm) -> None:
-    """Raise ValueError if the properties of one of our filters do not go together."""
+    """Raise ValueError if the properties of a filter of this package exclude each other."""
     execution = _Execution(algorithm, None)
     # What a handler of Ctrl-C raises in an observer would end the process.
     with execution.observed(), _guarded_interrupts(execution.call):
@@ -59,7 +59,7 @@ def check_parameters(algorithm: vtkNeuralMeshAlgorithm) -> None:
 
 
 class _Execution:
-    """What is seen of a filter while it runs. No exception may pass through VTK."""
+    """Observes a filter while it runs. No exception may pass through VTK."""
 
     def __init__(self, algorithm: vtkAlgorithm, progress: Progress | None):
         self._algorithm = algorithm

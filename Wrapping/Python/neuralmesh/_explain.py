@@ -24,22 +24,22 @@ def explain(
     *,
     progress: Progress | None = None,
 ) -> MadeMesh:
-    """Tell of each point of a cloud how far it is from a mesh, whatever made that, and why.
+    """Distance from a mesh for each point of a cloud, and the reason why the mesh leaves it out.
 
-    A point is away from the mesh if it is farther from it than three of its own mean distances to its
-    six nearest neighbours, and than eight times the median distance of all points.
+    Any program may have made the mesh. A point is away from it if its distance exceeds two limits: three
+    times its mean distance to its six nearest neighbours, and eight times the median distance of all.
 
     Args:
         points: The cloud, as that of reconstruct(), but no path.
         mesh: Triangles, polygons or strips in the coordinates of the points.
-        smallest_piece: Points that are away, and fewer than this part of all, are a small piece; from 0
-            to 1.
+        smallest_piece: Part of all points below which points that are away are a small piece; from 0 to
+            1.
         progress: As that of reconstruct(). If it returns False, the result has no points.
 
     Returns:
         vtkPolyData with the points in their order, and the point data `Distance`, in the unit of the
         input, NaN for points that are not finite; and `Reason`: 0 explained, 1 outlier, 2 small piece,
-        3 unreachable, 4 dropped, of which the field data `ReasonNames` has the names. Further field
+        3 unreachable, 4 dropped. The field data `ReasonNames` has these names. Further field
         data: `OutlierPoints`, `SmallPiecePoints`, `UnreachablePoints`, `UnexplainedPoints`,
         `UnexplainedShare`, `MissedPieceCenters` and `MissedPiecePoints`.
 

@@ -17,7 +17,7 @@ FIGURES = (
 
 
 def info(mesh: vtkPolyData | Mesh) -> dict[str, Any]:
-    """Tell whether a mesh is sound, and how good its triangles are, whatever made it.
+    """Check whether a mesh of any program is sound, and how good its triangles are.
 
     Args:
         mesh: A vtkPolyData with triangles, polygons or strips, of any quality. Polygons are taken as fans

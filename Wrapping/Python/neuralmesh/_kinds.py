@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What was given to a function, and what it gives back for that."""
+"""The kinds of input of a function, and the results that belong to them."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ def require_engine(version: str) -> None:
     if _engine.version != version:
         raise ImportError(
             f"neuralmesh {version} found an engine of version {_engine.version}, {_engine.__file__}: "
-            "two versions lie in one folder. Remove it, and install neuralmesh anew."
+            "two versions lie in one folder. Remove it, and install neuralmesh again."
         )
 
 
@@ -47,7 +47,7 @@ def vtk_class(name: str) -> Any:
         from .engine import vtk_filters
     except ImportError as error:
         raise ImportError(
-            f"neuralmesh.{name} needs VTK ({error}): pip install vtk. The functions of neuralmesh do "
-            "without."
+            f"neuralmesh.{name} needs VTK ({error}): pip install vtk. The functions of neuralmesh "
+            "work without it."
         ) from error
     return getattr(vtk_filters, name)

@@ -121,7 +121,7 @@ Parameter = Number | Switch | Choice
 
 @functools.lru_cache(maxsize=None)
 def parameters_of(vtk_class: type) -> dict[str, Parameter]:
-    """The parameters that our classes add to those of VTK: names in snake case."""
+    """The parameters that the classes of this package add to those of VTK: names in snake case."""
     found = {}
     for method in _own_methods(vtk_class):
         name = method[len("Set") :]
@@ -155,7 +155,7 @@ def refuse_unknown(function: Callable[..., Any], names: Any, known: Any) -> None
 
 
 def _named(function: Callable[..., Any]) -> list[str]:
-    """The names of its arguments, but for that which takes all others."""
+    """The names of its arguments, except for the one that takes all others."""
     parameters = inspect.signature(function).parameters.values()
     return [
         parameter.name for parameter in parameters if parameter.kind is not parameter.VAR_KEYWORD
@@ -163,8 +163,8 @@ def _named(function: Callable[..., Any]) -> list[str]:
 
 
 def hint(name: str, known: Any) -> str:
-    """A question for those of the known names that are like this one, or that stand for what others call
-    so; empty if there are none.
+    """A question with the known names that are similar to this one, or are other words for it. Empty if
+    there are none.
     """
     word = name.lower().replace("_", "")
     if word in _WORDS_FOR_TRIANGLES and "vertices" in known:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Properties of our classes, and the methods by which VTK has them."""
+"""Properties of the classes of this package, and their methods as in VTK."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Property:
     text: str = ""
 
     def clamped(self, value: Any, before: int | float | None = None) -> int | float:
-        """What SetX makes of a value. What is no number is what was there before."""
+        """The value that SetX sets. NaN does not change it."""
         if self.kind == "double":
             number: int | float = float(value)
             if number != number:
@@ -43,7 +43,7 @@ class Property:
         return min(max(number, int(self.low)), int(self.high))
 
     def warning(self, value: Any, used: int | float) -> str:
-        """What is said where a value is not the one that is used; empty where it is."""
+        """The warning if another value than the given one is used; empty if it is used."""
         if value == used:
             return ""
         shown = "%g" if self.kind == "double" else "%d"

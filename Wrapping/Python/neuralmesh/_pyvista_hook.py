@@ -50,7 +50,7 @@ class _Finder:
 
 
 def _register() -> None:
-    """What is wrong with it is warned of: it is to be in nobody's way who wants PyVista alone."""
+    """An error only gives a warning: users of PyVista alone are not disturbed."""
     try:
         importlib.import_module(".pyvista_accessor", __package__)
     except Exception as error:  # of a version of PyVista that we do not know

@@ -62,95 +62,87 @@ def reconstruct(
     """Make a triangle mesh from a point cloud.
 
         Args:
-            points: The cloud: an array of shape (N, 3) of floats or integers of any kind and layout, a
-                row for a point, in any unit of length; or a vtkPointSet, of which points and point
-                data count; or a vtkCompositeDataSet, of which all point sets are taken as one cloud. No
-                normals are needed. Points with NaN or infinity are dropped. Or the path of a binary .ply,
-                or of a .vtp appended raw, from which maximum_points are drawn where they lie: it may be
-                larger than the memory.
-            vertices: The number of vertices of the mesh, from 4 to 1000000000; or "auto", which is 0: as
-                many as the points have something to tell for. With a tolerance it does not count. Field
-                data `Choice` of the mesh says in words why it has as many as it has.
-            seed: Seed of the random numbers, from 0 to 2147483647. The same points and seed give the
-                same bytes; another seed gives another mesh of the same quality.
-            variant: "noise_filtering", by which points far from the mesh pull less; "basic"; or
+            points: The cloud: an array of shape (N, 3) of floats or integers of any kind and layout, in any
+                unit of length. Or a vtkPointSet, whose points and point data count. Or a vtkCompositeDataSet,
+                whose point sets are one cloud. Or the path of a binary .ply or of a .vtp with appended raw
+                data, which may be larger than the memory: maximum_points are drawn from it. Points with NaN
+                or infinity are dropped. No normals are needed.
+            vertices: The number of vertices of the mesh, from 4 to 1000000000. Or "auto", which is 0: as
+                many as the points support. A tolerance replaces it. Field data `Choice` of the mesh has the
+                reasons.
+            seed: Seed of the random numbers, from 0 to 2147483647. The same points and seed give the same
+                bytes. Another seed gives another mesh of the same quality.
+            variant: "noise_filtering", in which points far from the mesh move vertices less; "basic"; or
                 "normal_based", dense where the surface bends. Names may be shortened.
-            order: How it is known where to grow: "exact" by counters, or "list" by the activity list.
-            preset: "default", what measures best; or "thesis", the values of the thesis.
-            first_mesh: Triangles to start from, instead of what `start` says, in the coordinates of the
-                points: an oriented 2-manifold, with or without boundary, whose topology the result then
-                has. One of as many vertices as are asked for, or more, comes out as it is.
-            ensemble: The number of members, from 1 to 255, to start from the average of so many coarse
-                meshes, as vtkNeuralMeshEnsemble does: for shapes with handles. Topology is learnt then,
-                unless topology_learning is False. Its other properties are parameters, too.
-            weights: How much each point is trusted: an array of shape (N,), or the name of a point
-                array of the dataset. Numbers from 0 on, of which only the ratios count; 0, what is
-                negative and what is not finite leave the point out. An array arrives on the mesh as
-                `Weights`.
-            viewpoints: Where the scanner stood: numbers of shape (3,), or (V, 3) for several places. The
-                surface is turned to look there.
-            views: Which of the viewpoints each point was seen from: an array of shape (N,) of numbers from
-                0 on, or the name of a point array of the dataset. Without it, what nothing hides from a
-                viewpoint was seen from there. An array arrives on the mesh as `View`.
-            normals: Normals of the points, of shape (N, 3), if the dataset has none, or the name of a point
-                array that has them in place of the active ones. They may be noisy: they tell which side of
-                the surface is the outer one, and of noisy points the fit uses them. "off", which is
-                use_normals=False, has those of a dataset or a file count for nothing.
-            up: Where up is, three numbers: most of an open surface looks there.
-            checkpoint: The path of a file in which the run leaves its state, every checkpoint_interval
-                seconds and when it is ended early. If the file exists, the run goes on from there: the
-                same call ends with the same bytes, however often it was killed. Once the mesh is done,
-                the file is removed, unless keep_checkpoint is True.
-            explain: Whether the points are explained: then the result is the mesh and, as a second
-                vtkPolyData, the points with `Distance` and `Reason` as the run decided them, see
-                neuralmesh.explain(). It has no points if progress ended the run.
-            feature_lines: Whether the edges of the shape that are sharper than feature_angle, and that the
-                points confirm, are found: then they are one more result, the last one, as a vtkPolyData of
-                lines and corners, and the mesh has the point data `Crease`. It has no points if progress
-                ended the run.
-            levels: Levels of detail: numbers of vertices, in ascending order, in place of `vertices`. Then
-                the meshes of all, in that order, are a list in place of the mesh, made in one run that takes
-                up to twice as long as that of the largest. If progress ended the run, the list ends with the
-                mesh learnt so far. What explain and feature_lines give is that of the largest.
-            progress: A function that is called now and then with the fraction that is done, from 0 to
-                1. If it returns False, the mesh learnt so far is the result. An exception that it
-                raises ends the run and comes out of this function.
+            order: How the program measures where to grow: "exact" by counters, or "list" by the activity
+                list.
+            preset: "default", the values with the best measured results; or "thesis", those of the thesis.
+            first_mesh: Triangles from which learning starts, instead of `start`, in the coordinates of the
+                points: an oriented 2-manifold, with or without boundary. The result has its topology. A mesh
+                with at least the given number of vertices is fitted, but does not grow.
+            ensemble: The number of coarse meshes, from 1 to 255, whose average is the start, as in
+                vtkNeuralMeshEnsemble: for shapes with handles. Topology is learnt then, unless
+                topology_learning is False. Its other properties are parameters, too.
+            weights: The weight of each point: an array of shape (N,), or the name of a point array of the
+                dataset. Weights are from 0 on; only their ratios count. Points whose weight is 0, negative or
+                not finite are left out. The mesh gets an array as `Weights`.
+            viewpoints: Positions of the scanner: numbers of shape (3,), or (V, 3) for several. The surface is
+                turned to look there.
+            views: The number of the viewpoint of each point, from 0 on: an array of shape (N,), or the name
+                of a point array of the dataset. Without it, a viewpoint sees what nothing hides. The mesh
+                gets an array as `View`.
+            normals: Normals of the points, of shape (N, 3), or the name of the point array that has them.
+                They determine the outer side, and help to fit noisy points. They may be noisy. "off", which
+                is use_normals=False, ignores those of a dataset or a file.
+            up: The up direction, three numbers: most of an open surface looks there.
+            checkpoint: The path of a file to which the run saves its state, every checkpoint_interval seconds
+                and when it is ended early. If the file exists, the run resumes from it. The mesh is the same,
+                byte for byte, however often the call was killed. The file is removed after the run, unless
+                keep_checkpoint is True.
+            explain: Whether the result is the mesh and, as a second vtkPolyData, the points with `Distance`
+                and `Reason`, see neuralmesh.explain(). It has no points if progress ended the run.
+            feature_lines: Whether there is one more result, the last one: the edges of the shape that are
+                sharper than feature_angle and that the points confirm. It is a vtkPolyData of lines and
+                corners, and the mesh has the point data `Crease`. It has no points if progress ended the run.
+            levels: Levels of detail: numbers of vertices, in ascending order, instead of `vertices`. The
+                result is a list of meshes in that order. It takes up to twice as long as the largest mesh. If
+                progress ended the run, the list ends with the mesh learnt so far. explain and feature_lines
+                are for the largest.
+            progress: A function that is called with the fraction that is done, from 0 to 1. If it returns
+                False, the mesh learnt so far is the result. An exception that it raises ends the run and
+                leaves this function.
             **parameters: Any other property of vtkNeuralMesh, in snake case: winner_rate=0.1 for
-                SetWinnerRate(0.1). Each is described there. Names, defaults and ranges:
+                SetWinnerRate(0.1). Names, defaults and ranges:
 
     {table}
 
         Returns:
-            vtkPolyData with triangles, in the units of the input: an oriented 2-manifold without
-            unused points. The type of the points is that of the input: 4-byte floats stay so, anything
-            else in an array becomes 8-byte floats. Point data: `Normals`, float of shape (M, 3), of
-            length 1; `Activity`, double of shape (M,), in wins, or the place in the list, up to 1; and
-            the point data of a dataset, unless carry_point_data is False. Field data, one value each:
-            `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`, `DroppedPoints`, and the report on
-            the quality: `Residual`, `Noise`, `SharedNoise`, `OutlierShare`, `RegularRatio`, `TriangleQuality`,
-            `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`,
-            `IntersectingTriangles`, `NarrowHandles`, `FitRoundsTakenBack`. How the surface came to its
-            outer side is told by `OrientedBy`, `UnorientedPieces`, `UnorientedShare` and `GuessedShare`; what was left
-            out by `OutlierPoints`, `SmallPiecePoints`, `UnreachablePoints`, `UnexplainedPoints` and
-            `UnexplainedShare`. `Warnings` has a string for each thing that was warned of. No pipeline is
-            behind it.
+            vtkPolyData with triangles, in the units of the input: an oriented 2-manifold without unused
+            points. Points of 4-byte floats give 4-byte floats, other arrays 8-byte floats. Point data:
+            `Normals`, float of shape (M, 3), of length 1; `Activity`, double of shape (M,), in wins, or the
+            place in the list, up to 1; and the point data of a dataset, unless carry_point_data is False.
+            Field data, one value each: `NumberOfVertices`, `Iterations`, `Seed`, `StopReason`,
+            `DroppedPoints`. The report on the quality: `Residual`, `Noise`, `SharedNoise`, `OutlierShare`,
+            `RegularRatio`, `TriangleQuality`, `Components`, `Genus`, `BoundaryLoops`, `FoldedEdges`,
+            `IntersectingTriangles`, `NarrowHandles`, `FitRoundsTakenBack`. The outer side: `OrientedBy`,
+            `UnorientedPieces`, `UnorientedShare` and `GuessedShare`. Points that are left out:
+            `OutlierPoints`, `SmallPiecePoints`, `UnreachablePoints`, `UnexplainedPoints` and
+            `UnexplainedShare`. `Warnings` has a string for each warning.
 
         Raises:
-            ValueError: A parameter is out of its range, which the message names; parameters do not go
-                together, and the message tells what does; or there are no
-                points, none that is finite, or none that differs from the others; or first_mesh is no
-                vtkPolyData, or its triangles are no oriented manifold: the message names the points; or
-                the checkpoint cannot be written, or is damaged, or that of another run: then the message
-                tells what differs.
+            ValueError: A parameter is out of its range, or parameters cannot be used together. There are no
+                points, no finite ones, or all coincide. first_mesh is no vtkPolyData or no oriented manifold.
+                The checkpoint cannot be written, is damaged, or belongs to another run. The message names
+                the parameter, the points or the difference.
             TypeError: There is no such parameter.
             RuntimeError: Anything else that VTK finds wrong.
             KeyboardInterrupt: Ctrl-C was pressed. To keep the mesh learnt so far, cancel by progress,
                 or set time_limit.
 
         Warns:
-            RuntimeWarning: What must be known of the mesh, each with what can be done: parts of the cloud
-                that it misses, triangles that intersect, more vertices than points, and so on. The strings
-                of `Warnings`.
+            RuntimeWarning: For each string of `Warnings`. It says what is wrong with the mesh, where, why,
+                and what helps. It ends with a tag in brackets: a heading of
+                Documentation/Guide/Failures.md.
 
         Example:
             >>> points = numpy.loadtxt("scan.xyz")[:, :3]
@@ -234,7 +226,7 @@ def _add_level(mesh: Any, level: object) -> None:
 
 
 def set_outer_side(mesh: Any, viewpoints: ArrayLike | None, up: ArrayLike | None) -> None:
-    """Tell a filter which side of the surface is the outer one, as reconstruct() is told."""
+    """Set the outer side of a filter, as the arguments of reconstruct() do."""
     for place in places(viewpoints, "viewpoints") if viewpoints is not None else ():
         mesh.AddViewpoint(place)
     if up is not None:
@@ -242,7 +234,7 @@ def set_outer_side(mesh: Any, viewpoints: ArrayLike | None, up: ArrayLike | None
 
 
 def require_one_start(ensemble: object, first_mesh: object) -> None:
-    """Raise ValueError if both say what learning starts from."""
+    """Raise ValueError if both are given as the start."""
     if ensemble is not None and first_mesh is not None:
         raise ValueError("ensemble and first_mesh exclude each other: it makes its first mesh")
 
@@ -254,8 +246,8 @@ def take_input(
     views: ArrayLike | str | None = None,
     normals: ArrayLike | str | None = None,
 ) -> Any:
-    """The points with what is known of each, as reconstruct() takes them; None for those in a file, which
-    the filter is told.
+    """The points with their properties, as reconstruct() takes them. None for points in a file: the filter
+    gets its name.
     """
     if isinstance(normals, str):
         if normals == "off":

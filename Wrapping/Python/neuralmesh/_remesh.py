@@ -25,28 +25,27 @@ def remesh(
         surface: Triangles or other polygons, which may be any: a vtkPolyData, as those of PyVista; a
             vtkCompositeDataSet of them, which are one surface; a neuralmesh.Mesh; or a pair of arrays, points
             of shape (N, 3) and triangles of shape (T, 3), numbers of points from 0 on.
-        vertices: The number of vertices of the mesh, from 4 to 1000000000. Where pieces, handles and
-            boundaries need more, there are more.
+        vertices: The number of vertices of the mesh, from 4 to 1000000000. There are more if pieces, handles
+            and boundaries need them.
         seed: Seed of the random numbers, from 0 to 2147483647. The same surface and seed give the same bytes.
-        feature_lines: Whether the edges that are sharper than feature_angle are found: then the result is the
-            mesh and, as a second one, these lines, as reconstruct() gives them.
-        progress: A function that is called now and then with the fraction that is done, from 0 to 1. If it
-            returns False, the mesh as it is then is the result.
-        **parameters: Other properties of vtkNeuralMesh, as of reconstruct(). Of use are fidelity, fit_rounds,
+        feature_lines: Whether there is a second result: the edges that are sharper than feature_angle, as of
+            reconstruct().
+        progress: A function that is called with the fraction that is done, from 0 to 1. If it returns False,
+            the present mesh is the result.
+        **parameters: Other properties of vtkNeuralMesh, as of reconstruct(): fidelity, fit_rounds,
             fit_samples, number_of_threads, carry_point_data, output_points_precision and feature_angle.
 
     Returns:
-        The mesh, as reconstruct() gives it: its boundaries, pieces and sides are those of the surface, and it has
-        the point data of that.
+        The mesh, as of reconstruct(), with the boundaries, pieces, sides and point data of the surface.
 
     Raises:
-        ValueError: The surface has no triangles, or these have no area, or a parameter is out of its range, or
-            is one that a surface excludes: the message names it.
+        ValueError: The surface has no triangles, or these have no area. A parameter is out of its range, or
+            is for clouds only: the message names it.
         TypeError: There is no such parameter.
 
     Warns:
-        RuntimeWarning: What must be known of the mesh: that the surface was cut, as it was no manifold, that
-            triangles intersect, and so on. The strings of `Warnings`.
+        RuntimeWarning: For each string of `Warnings`: the surface was cut because it was no manifold,
+            triangles intersect, and others. See reconstruct().
 
     Example:
         >>> smaller = neuralmesh.remesh(mesh, 5000)

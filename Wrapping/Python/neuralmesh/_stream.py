@@ -53,7 +53,7 @@ class Stream:
                 proportion to the reservoir.
             viewpoint: Where the scanner stood that saw these points, of shape (3,): the surface is
                 turned to look there.
-            normals: As in reconstruct(), of these points; what of both tells is the viewpoint.
+            normals: As in reconstruct(), of these points. A viewpoint replaces them.
 
         Raises:
             ValueError: points, viewpoint or normals are something else.
@@ -80,9 +80,9 @@ class Stream:
         """Learn, and return the number of samples that were learnt.
 
         Args:
-            samples: How many to learn, an integer; the default, or None, stands for 60 for each vertex
-                and 150000 more, which lets a mesh grow to all its vertices.
-            seconds: How long to learn instead, about; the mesh then depends on the machine.
+            samples: Number of samples, an integer. The default, None, is 60 for each vertex and 150000
+                more, with which a mesh grows to all its vertices.
+            seconds: Approximate time of learning, instead. The mesh then depends on the machine.
             progress: As in reconstruct(); if it returns False, learning ends.
 
         Raises:
@@ -102,38 +102,38 @@ class Stream:
         return _world.learn_samples(self._algorithm, int(samples), progress)
 
     def mesh(self, finish: bool = True, *, progress: Progress | None = None) -> MadeMesh:
-        """The mesh learnt so far; the stream goes on afterwards.
+        """The mesh learnt so far. The stream does not change.
 
         Args:
-            finish: Whether it is fitted to the points, as reconstruct() does in the end. False is for
-                looking on: that takes no time.
-            progress: As in reconstruct(); if it returns False, the mesh is fitted in part only.
+            finish: Whether the mesh is fitted to the points, as in reconstruct(). False takes no time: use
+                it to watch the mesh.
+            progress: As in reconstruct(). If it returns False, the fit ends early.
 
         Returns:
-            vtkPolyData as from reconstruct(), in 8-byte floats, without data of the input points; without
-            points as long as there are too few for a mesh. Field data as in vtkNeuralMeshStream.
+            vtkPolyData as from reconstruct(), in 8-byte floats, without data of the input points. It has no
+            points while there are too few for a mesh. Field data as in vtkNeuralMeshStream.
         """
         self._algorithm.SetFinishOutput(bool(finish))
         return _world.learnt_mesh(self._algorithm, progress, self._given)
 
     @property
     def points(self) -> int:
-        """How many points came and are finite."""
+        """Number of finite points that have arrived."""
         return self._algorithm.GetNumberOfAddedPoints()
 
     @property
     def samples(self) -> int:
-        """How many samples were learnt."""
+        """Number of samples learnt."""
         return self._algorithm.GetNumberOfLearntSamples()
 
     @property
     def vertices(self) -> int:
-        """How many vertices the mesh has now."""
+        """Number of vertices of the mesh."""
         return self._algorithm.GetNumberOfLearntVertices()
 
     @property
     def beginnings(self) -> int:
-        """How often the mesh was begun: anew where points came that it did not reach."""
+        """Number of beginnings: the mesh begins again when points arrive that it does not reach."""
         return self._algorithm.GetNumberOfBeginnings()
 
 
@@ -149,15 +149,15 @@ def stream(
     up: ArrayLike | None = None,
     **parameters: float | bool | str,
 ) -> Stream:
-    """Begin a mesh that is learnt while points arrive, from a scanner, say.
+    """Begin a mesh that is learnt while points arrive, for example from a scanner.
 
         The same calls give the same bytes. See Documentation/Guide/Large.md.
 
         Args:
             vertices: The number of vertices of the mesh, from 4 to 1000000000.
             seed: Seed of the random numbers, from 0 to 2147483647.
-            reservoir: How many points are kept to learn from, from 100 to 4294967295, of any number that
-                come, each with the same chance. About 130 bytes each.
+            reservoir: Number of points kept as samples, from 100 to 4294967295. All points that arrive have
+                the same chance. Each takes about 130 bytes.
             up: As in reconstruct().
             **parameters: Any other property of vtkNeuralMeshStream that counts for a stream, in snake
                 case. Names, defaults and ranges:

@@ -120,8 +120,8 @@ def learnt_mesh(stream: NeuralMeshStream, progress: Progress | None, given: obje
 def compare(
     comparison: NeuralMeshComparison, reference: vtkPolyData, result: vtkPolyData
 ) -> tuple[dict[str, list[Any]], dict[str, float]]:
-    """Columns of a row for each direction, and what is told of both ways; nothing where both surfaces are
-    empty.
+    """Columns with a row for each direction, and the figures of both directions together; empty if both
+    surfaces are empty.
     """
     comparison.SetReferenceData(reference)
     comparison.SetInputData(result)
@@ -153,7 +153,7 @@ def report(mesh: vtkPolyData) -> dict[str, Any]:
 
 
 def _figure(array: Any) -> Any:
-    """Of a vtkDataArray: a number, whether something holds, or what belongs to each number."""
+    """The figure in a vtkDataArray: a number, a flag, or a dict of numbers."""
     if array.GetNumberOfComponents() == 2:
         pairs = [array.GetTuple2(i) for i in range(array.GetNumberOfTuples())]
         return {int(number): int(count) for number, count in pairs}

@@ -22,18 +22,18 @@ def watch(
 ) -> None:
     """Bring a mesh up to date, and show each snapshot of its growth in a view meanwhile.
 
-    In the end the finished mesh is in the view, the same as without being watched. It has
+    At the end the view shows the finished mesh, the same as without watch(). It has
     NumberOfSnapshots snapshots. If it is up to date already there is nothing to be seen.
 
     Args:
         mesh: A source made by paraview.simple.NeuralMesh() or NeuralMeshEnsemble().
         view: A render view; the active one if there is none, or a new one. Where nothing is to be
             seen in it, the camera turns to the points.
-        after_each: Called with each snapshot once it is shown, to save a picture, say. What it
-            raises ends the run and is raised again.
+        after_each: Called with each snapshot once it is shown, for example to save a picture. What
+            it raises ends the run and is raised again.
 
     Raises:
-        RuntimeError: The filter runs on a server, where nobody sees its snapshots: play its growth
+        RuntimeError: The filter runs on a server, which does not show its snapshots: play its growth
             afterwards (GrowthAsTime).
         TypeError: It is no such filter.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command neuralmesh paraview: where ParaView finds the plugin, and how it is started with it."""
+"""The command neuralmesh paraview: where the plugin for ParaView is, and how ParaView loads it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ._build import VTK_VERSION
 _PLUGIN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "paraview_plugin.py")
 _COMPILED = """\
 This package belongs to the compiled plugin, NeuralMesh.so: the Debian package has it, and ParaView loads
-it by itself. Documentation/Guide/ParaView.md tells of others.
+it by itself. See Documentation/Guide/ParaView.md for others.
 """
 _PYTHON = """\
 The plugin for ParaView is this file:
@@ -27,7 +27,7 @@ Plugins > Load New, choose the file, and check Auto Load to have it from then on
     from paraview.simple import *
     LoadPlugin({plugin!r}, ns=globals())
 
-Nothing need be set for that. A script that imports neuralmesh itself finds it by
+This needs no settings. A script that imports neuralmesh itself finds it by
 
     PYTHONPATH={folder} pvpython script.py
 """

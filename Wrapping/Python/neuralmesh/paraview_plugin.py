@@ -95,7 +95,7 @@ def _make_proxies():
         with open(_PROXIES, encoding="utf-8") as file:
             return _Proxies(file.read())
     except OSError as error:
-        raise _Unusable(f"the package is not whole ({error}): install it anew.") from error
+        raise _Unusable(f"the package is incomplete ({error}): install it again.") from error
 
 
 try:

@@ -57,9 +57,7 @@ def _without_argument(documentation: str | None, name: str) -> str | None:
 
 
 class CloudAccessor:
-    """What NeuralMesh does with points of PyVista; all is told by the functions of the package
-    neuralmesh. Results are pyvista.PolyData.
-    """
+    """The functions of the package neuralmesh for points of PyVista. Results are pyvista.PolyData."""
 
     def __init__(self, dataset: Any) -> None:
         self._dataset = dataset
@@ -82,7 +80,7 @@ class CloudAccessor:
 
 
 class SurfaceAccessor(CloudAccessor):
-    """What it does with meshes, too; their points are a cloud."""
+    """The functions for meshes; their points are a cloud, too."""
 
     @_told_as(compare, "result")
     def compare(
@@ -100,7 +98,7 @@ class SurfaceAccessor(CloudAccessor):
 
 
 class _Attached:
-    """Gives each dataset an accessor of its own, where PyVista has no register_dataset_accessor()."""
+    """Gives each dataset its accessor, if PyVista has no register_dataset_accessor()."""
 
     def __init__(self, accessor: type[CloudAccessor]) -> None:
         self._accessor = accessor

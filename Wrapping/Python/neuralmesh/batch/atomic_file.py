@@ -34,14 +34,14 @@ def write_json(path: Path, content: Any) -> None:
 
 
 def remove_unfinished(folder: Path) -> None:
-    """Remove what processes that were killed have left, for which nobody else may be writing."""
+    """Remove the remains of processes that were killed. No other process may be writing."""
     for path in folder.glob(f".*{_MARK}*"):
         path.unlink(missing_ok=True)
 
 
 @contextlib.contextmanager
 def alone_in(folder: Path, work: str) -> Iterator[None]:
-    """Refuse to work where another one does. Nothing half is left, whoever began it."""
+    """Refuse to work where another process works. Remove half-written files of any process."""
     with open(folder / ".lock", "w", encoding="ascii") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)

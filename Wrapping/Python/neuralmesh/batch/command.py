@@ -18,7 +18,7 @@ from .running import run_jobs
 from .atomic_file import alone_in
 
 _EPILOG = f"""\
-A recipe is JSON; of its keys only `scans` must be there:
+A recipe is JSON. Only its key `scans` is required:
 
   {{
     "scans": ["scans/*.ply", "bunny.obj"],
@@ -31,38 +31,39 @@ A recipe is JSON; of its keys only `scans` must be there:
 
 scans    files of points, relative to the recipe, with wildcards or without:
          .ply .obj .stl .off .pcd .ptx .pwn .xyz .pts .txt .csv .asc, with VTK .vtp .vtk .vtu
-matrix   parameters of neuralmesh.reconstruct(), except progress; a list holds the values to try,
-         and all lists are crossed; first_mesh is a path, relative to the recipe
+matrix   parameters of neuralmesh.reconstruct(), except progress. A list holds the values to try, and
+         all lists are crossed. first_mesh is a path, relative to the recipe
 format   of the meshes: vtp (default with VTK), ply (default without), obj, stl, glb, off or vtk
-shift    what is taken off their coordinates, and noted in them: [X, Y, Z], or "auto" for a round
-         vector where they are too large for floats (default: none)
+shift    vector that is subtracted from their coordinates and stored in them: [X, Y, Z], or "auto" for
+         a round vector if they are too large for floats (default: none)
 time_limit
-         seconds after which a job is ended, and has failed (default: none); in the matrix it is
-         another one, which ends learning and keeps the mesh
-gallery  whether there is one (default: true)
-strict   whether warnings count: then the command ends with status 3 if a mesh has any (default: false);
-         meshes are written all the same
-view     of the pictures: which axis points upwards, and from where one looks, in degrees
+         seconds after which a job is ended and has failed (default: none). In the matrix it ends
+         learning, and the mesh is kept
+gallery  whether there is a gallery (default: true)
+strict   whether the command ends with status 3 if a mesh has warnings (default: false). Meshes are
+         written in any case
+view     of the pictures: the axis that points upwards, and the direction of view in degrees
 
-The folder gets for each job a mesh and a report (.json), for all of them summary.csv and the
-gallery, index.html. A job is not run again while its result is there, and its scan (by size and
-time of modification), its parameters, the format and the version of NeuralMesh are the same. What
-was left by jobs that are no longer in the recipe stays where it is.
+The folder gets a mesh and a report (.json) for each job, and summary.csv and the gallery, index.html,
+for all. A job does not run again if its result exists and nothing has changed: its scan (size and time
+of modification), its parameters, the format, and the version of NeuralMesh. Results of jobs that are
+no longer in the recipe stay.
+Each warning ends with a tag in brackets: a heading of Documentation/Guide/Failures.md.
 
 Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 3 all are done, some
-with warnings, and the recipe is strict, 130 after Ctrl-C. What is done by then stays, and the same
+with warnings, and the recipe is strict, 130 after Ctrl-C. Finished results stay, and the same
 command does the rest."""
 _SUMMARY = "reconstruct many scans by one recipe"
 _TEXTS: dict[str, Any] = {
-    "description": "Reconstruct many scans by one recipe: each with each set of parameters, in "
-    "processes of their own.",
+    "description": "Reconstruct many scans by one recipe: each with each set of parameters, each in "
+    "its own process.",
     "epilog": _EPILOG,
     "formatter_class": argparse.RawDescriptionHelpFormatter,
 }
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run python3 -m neuralmesh where batch is all that it does; the exit status."""
+    """Run python3 -m neuralmesh, whose only command is batch; the exit status."""
     parser = argparse.ArgumentParser(
         prog="python3 -m neuralmesh", description="The commands of NeuralMesh that are Python."
     )
@@ -85,7 +86,7 @@ def _add_arguments(batch: argparse.ArgumentParser) -> None:
         "--output",
         type=Path,
         metavar="FOLDER",
-        help="where the results go (default: jobs-results beside jobs.json)",
+        help="folder of the results (default: jobs-results beside jobs.json)",
     )
     add_processes_option(batch, "jobs")
 

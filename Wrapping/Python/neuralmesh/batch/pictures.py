@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of meshes, all drawn by one process, if need be on a screen that nobody sees."""
+"""Pictures of meshes, drawn by one process, on a virtual screen if necessary."""
 
 from __future__ import annotations
 

@@ -30,15 +30,15 @@ _KNOWN = {*_NAMED, *_OF_INPUT, *PARAMETERS, *ENSEMBLE_PARAMETERS}
 
 
 class RecipeError(ValueError):
-    """What is wrong with a recipe; the message begins with the place."""
+    """An error of a recipe; the message begins with the place."""
 
 
 @dataclass(frozen=True, eq=False)
 class Job:
     """One scan and one set of parameters. The name is that of its files, unique in the recipe.
 
-    first_mesh is where the mesh lies that the parameter of that name means, if any does; shift is
-    what is taken off the coordinates of the mesh: "auto", three numbers, or None.
+    first_mesh is the path of the first mesh, if there is one. shift is subtracted from the coordinates
+    of the mesh: "auto", three numbers, or None.
     """
 
     name: str
@@ -190,7 +190,7 @@ def _check_combination(parameters: dict[str, Any]) -> None:
 
 
 def _names(scans: list[Path]) -> list[str]:
-    """Of each its name without the extension, or as much around it as tells them apart."""
+    """The name of each without the extension, with enough folders to make all different."""
     depth = max(len(scan.parts) for scan in scans)
     candidates = [[scan.stem for scan in scans]]
     candidates += [["-".join(scan.parts[-count:]) for scan in scans] for count in range(1, depth)]
@@ -198,7 +198,7 @@ def _names(scans: list[Path]) -> list[str]:
         names = [_in_name(name) for name in names]
         if len(set(names)) == len(names):
             return names
-    raise RecipeError("scans: their names cannot be told apart")
+    raise RecipeError("scans: their names are equal")
 
 
 def _in_name(value: Any) -> str:

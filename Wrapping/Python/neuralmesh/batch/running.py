@@ -29,7 +29,7 @@ def run_jobs(
     time_limit: float | None,
     on_end: Callable[[Job, str], None],
 ) -> None:
-    """Run all jobs, so many at a time; on_end is called with what went wrong, or "".
+    """Run all jobs, `processes` at a time; on_end is called with the error, or "".
 
     A process that fails, crashes, or takes more than time_limit is a failure of its job alone:
     there is a report on it, and no result. However this function is left, no process is.

@@ -131,7 +131,7 @@ def require_digits(points: vtkPointSet, vertices: int, path: Path, shift: Any = 
 
 
 def write_mesh(mesh: vtkPolyData, path: Path, shift: Any = None) -> list[float]:
-    """Write a mesh, whole or not at all; what was taken off the coordinates.
+    """Write a mesh, completely or not at all. Returns the shift.
 
     The format is that of the extension; shift is None, "auto" or three numbers.
     """

@@ -25,19 +25,19 @@ _FIGURES = {
 }  # fmt: skip
 _LENGTHS = ("Mean", "RMS", "Percentile99", "Maximum")
 _FOOTER = (
-    "Points are drawn evenly over the area of both surfaces. Of each, the distance to the nearest\n"
-    "point of the other surface is taken: from the result to the reference it is large where the\n"
-    "result has something that is not there, from the reference to the result where it misses\n"
-    "something. Printed are mean, root mean square, the distance that 99 % do not exceed, and the\n"
-    "maximum, in units of the files and in percent of the diagonal of the reference's bounding\n"
-    "box; and the mean angle, 0 to 90 degrees, between the normals at a point and at its nearest\n"
-    "point. Nothing is aligned.\n"
+    "Points are drawn evenly over the area of both surfaces, and their distances to the nearest\n"
+    "points of the other surface are measured. Distances from the result to the reference show\n"
+    "what is superfluous in the result, those from the reference to the result show what it\n"
+    "misses. The figures are mean, root mean square, the distance that 99 % do not exceed, and the\n"
+    "maximum, in units of the files and in percent of the diagonal of the bounding box of the\n"
+    "reference. The mean angle, 0 to 90 degrees, is that between the normals at a point and at its\n"
+    "nearest point. The surfaces are not aligned.\n"
     "\n"
-    "Sharp edges are those where a surface turns by more than 30 degrees. Printed are their\n"
-    "length, and the mean distance of points on them from the sharp edges of the other surface,\n"
-    "and from that surface as a whole; nan where there are none.\n"
+    "At a sharp edge a surface turns by more than 30 degrees. The figures are the length of these\n"
+    "edges, and the mean distances of points on them from the sharp edges of the other surface and\n"
+    "from the whole of it. They are nan without sharp edges.\n"
     "\n"
-    "Of both directions together:\n"
+    "Figures of both directions together:\n"
     "  F-score             precision P and recall R are the parts of the result and of the\n"
     "                      reference that are nearer to the other surface than 0.1 or 0.5 %\n"
     "                      of the diagonal, the F-score is 2 P R / (P + R)\n"
@@ -52,7 +52,7 @@ _FOOTER = (
 
 
 def run(arguments: Sequence[str]) -> int:
-    """Tell how far a mesh is from a reference; the exit status."""
+    """Measure the distance of a mesh from a reference; the exit status."""
     options = _parser().parse(arguments)
     reference, result = read_mesh(options.reference), read_mesh(options.result)
     comparison: Any = NeuralMeshComparison()
@@ -141,7 +141,7 @@ def _print_both_ways(found: Comparison) -> None:
 
 def _parser() -> Parser:
     result = Parser(
-        "compare", "Tell how far a mesh is from a reference", "REFERENCE RESULT", _FOOTER
+        "compare", "Measure the distance of a mesh from a reference", "REFERENCE RESULT", _FOOTER
     )
     result.add_argument("reference", metavar="REFERENCE", help=f"The true surface: {MESHES}")
     result.add_argument(
@@ -162,5 +162,5 @@ def _parser() -> Parser:
         metavar="N",
         help=f"Seed of the random numbers, from 0 on (default {_SEED.default})",
     )
-    result.add_flag("--json", "Print a JSON object in place of the table")
+    result.add_flag("--json", "Print a JSON object instead of the table")
     return result

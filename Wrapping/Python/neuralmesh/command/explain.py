@@ -17,16 +17,17 @@ from .run_report import print_reasons
 _MOST_PIECES = 10  # more are not printed
 _PIECE = NeuralMeshExplanation.PROPERTIES["SmallestPiece"]
 _FOOTER = (
-    "A point is away from the mesh if it is farther than three of its own mean distances to its six\n"
-    "nearest neighbours, and than eight times the median distance of all points. Reason is 0\n"
-    "(explained: not away), 1 (outlier: away, and apart from other points), 2 (small piece: away,\n"
-    "with few others), 3 (unreachable: away, with many others) or 4 (dropped: no coordinates).\n"
+    "A point is away from the mesh if its distance exceeds two limits: three times its mean\n"
+    "distance to its six nearest neighbours, and eight times the median distance of all points.\n"
+    "Reason is 0 (explained: not away), 1 (outlier: away, and apart from other points), 2 (small\n"
+    "piece: away, with few others), 3 (unreachable: away, with many others) or 4 (dropped: no\n"
+    "finite coordinates).\n"
     "\nExit status: 0 done, 1 failed (the message is on stderr), 2 wrong use."
 )
 
 
 def run(arguments: Sequence[str]) -> int:
-    """Tell of each point how far it is from a mesh, and why; the exit status."""
+    """Measure the distance of each point from a mesh, and give the reason; the exit status."""
     options = _parser().parse(arguments)
     require_distinct(
         [
@@ -63,13 +64,13 @@ def _print_pieces(fields: dict[str, Any]) -> None:
 def _parser() -> Parser:
     result = Parser(
         "explain",
-        "Tell of each point how far it is from a mesh, and why",
+        "Measure the distance of each point from a mesh, and give the reason",
         "INPUT MESH OUTPUT",
         _FOOTER,
     )
     result.add_argument("input", metavar="INPUT", help=POINTS)
     result.add_argument(
-        "mesh", metavar="MESH", help=f"Any mesh of them, in the same coordinates: {MESHES}"
+        "mesh", metavar="MESH", help=f"A mesh of any program, in the same coordinates: {MESHES}"
     )
     result.add_argument(
         "output", metavar="OUTPUT", help="The points with Distance and Reason: .vtp, by VTK"
@@ -79,7 +80,7 @@ def _parser() -> Parser:
         type=number_from(_PIECE.low, _PIECE.high, False),
         default=_PIECE.default,
         metavar="PART",
-        help="Missed points that are less than this part of all are a small piece, "
+        help="Part of all points below which missed points are a small piece, "
         f"{plain(_PIECE.low)} to {plain(_PIECE.high)} (default {plain(_PIECE.default)})",
     )
     return result

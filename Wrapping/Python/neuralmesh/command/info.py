@@ -21,11 +21,11 @@ _KEYS = (
 _FOOTER = (
     "regular vertices   have six edges, or four on the boundary\n"
     "triangle quality   twice the radius of the inscribed over that of the circumscribed circle\n"
-    "closed             every edge has two triangles at least\n"
-    "manifold           an edge has at most two triangles, those at a vertex hang together\n"
-    "oriented           neighbouring triangles have the same side in front\n"
-    "components         pieces that edges hold together\n"
-    "genus              handles of all components, with the holes taken as capped\n"
+    "closed             every edge has at least two triangles\n"
+    "manifold           an edge has at most two triangles, and those at a vertex are connected\n"
+    "oriented           neighbouring triangles have their fronts on the same side\n"
+    "components         pieces connected by edges\n"
+    "genus              handles of all components, as if the holes were capped\n"
     "boundary loops     outlines and holes\n"
     "folded edges       where the surface turns by more than 150 degrees\n"
     "volume             positive if the normals point outwards\n"
@@ -36,7 +36,7 @@ _FOOTER = (
 
 
 def run(arguments: Sequence[str]) -> int:
-    """Tell whether meshes are sound, and how good they are; the exit status."""
+    """Check whether meshes are sound, and how good they are; the exit status."""
     options = _parser().parse(arguments)
     status = 0
     for path in options.meshes:
@@ -114,8 +114,8 @@ def _valences(found: dict[str, Any]) -> str:
 
 def _parser() -> Parser:
     result = Parser(
-        "info", "Tell whether meshes are sound, and how good they are", "MESH...", _FOOTER
+        "info", "Check whether meshes are sound, and how good they are", "MESH...", _FOOTER
     )
     result.add_argument("meshes", nargs="+", metavar="MESH", help=f"Meshes: {MESHES}")
-    result.add_flag("--json", "Print a JSON object for each mesh, on a line of its own")
+    result.add_flag("--json", "Print a JSON object for each mesh, one per line")
     return result

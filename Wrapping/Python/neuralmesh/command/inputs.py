@@ -15,12 +15,12 @@ _NO_VIEW = 2**32 - 1
 
 
 def read_inputs(paths: list[str], given_viewpoints: int, view_array: str) -> Mesh:
-    """The points of all files one behind the other, with the arrays that all have.
+    """The points of all files one after the other, with the arrays that all have.
 
-    The viewpoints of all files are the field data `Viewpoints`; `View` tells for each point which is
-    its own. Where options give viewpoints, those of files do not count: as many as there are files,
-    or scans in a single one, are one for each; otherwise no point is told apart, unless an array is
-    named for that, or all files have `View` and no viewpoints of their own.
+    The viewpoints of all files are the field data `Viewpoints`, and `View` is the number of the viewpoint
+    of each point. Viewpoints of options replace those of files: as many as there are files, or scans in
+    a single one, are one for each. Otherwise points have no number, unless an option names an array, or
+    all files have `View` and no viewpoints.
     """
     parts = [read_points(path) for path in paths]
     seen = [_views_of(part) for part in parts]

@@ -18,10 +18,10 @@ _INTERRUPTED = 128 + signal.SIGINT
 
 _SUBCOMMANDS = {
     "reconstruct": "Make a triangle mesh from a point cloud",
-    "tune": "Choose the parameters for a point cloud, and say why",
-    "compare": "Tell how far a mesh is from a reference",
-    "explain": "Tell of each point how far it is from a mesh, and why",
-    "info": "Tell whether meshes are sound, and how good they are",
+    "tune": "Choose the parameters for a point cloud, with reasons",
+    "compare": "Measure the distance of a mesh from a reference",
+    "explain": "Measure the distance of each point from a mesh, and give the reason",
+    "info": "Check whether meshes are sound, and how good they are",
     "batch": "Reconstruct many scans by one recipe",
     "paraview": "Make ParaView know the filters of NeuralMesh",
 }

@@ -44,7 +44,7 @@ class Parser(argparse.ArgumentParser):
         )
 
     def parse(self, arguments: Sequence[str]) -> argparse.Namespace:
-        """What is typed; names and options may stand in any order."""
+        """The arguments; names and options may be in any order."""
         return self.parse_intermixed_args(self._joined(arguments))
 
     def _joined(self, arguments: Sequence[str]) -> list[str]:

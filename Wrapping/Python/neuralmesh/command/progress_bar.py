@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is seen of a run while it lasts."""
+"""The progress bar of a run."""
 
 from __future__ import annotations
 

@@ -104,8 +104,7 @@ def _require_sound_size(options: argparse.Namespace, mesh: Any) -> None:
         raise UsageError(f"{'--tolerance' if options.tolerance else '--vertices auto'}: {problem}")
     if options.dry_run:
         raise UsageError(
-            "--dry-run: how long a run takes is told for a number of vertices, not for one that is to be "
-            "found"
+            "--dry-run: the program estimates a run only for a given number of vertices"
         )
 
 

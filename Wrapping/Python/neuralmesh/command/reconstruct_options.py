@@ -14,25 +14,25 @@ from .parsing import (
 )  # fmt: skip
 
 _METHODS = {
-    "basic": "every sample pulls alike",
-    "noise": "samples that are far off pull less",
+    "basic": "all samples move vertices alike",
+    "noise": "distant samples move vertices less",
     "normal": "dense where the surface bends, sparse where it is flat",
 }
 _PRESETS = {
-    "default": "what measures best",
-    "thesis": "Saleem's values of 2004, and nothing that he lacks",
+    "default": "the values with the best measured results",
+    "thesis": "the values of Saleem's thesis, without later additions",
 }
 _ORDERS = {"exact": "counters", "list": "the activity list"}
-_BOUNDARIES = {"keep": "the mesh ends where the data ends", "close": "it is watertight"}
+_BOUNDARIES = {"keep": "the mesh ends where the points end", "close": "the mesh is watertight"}
 _FIDELITIES = {
-    "draft": "the first rounds of the fit alone",
-    "default": "creases, tips and noise, too",
-    "high": "until hardly anything is gained",
+    "draft": "only the first rounds of the fit",
+    "default": "also creases, tips and noise",
+    "high": "more rounds, until they gain almost nothing",
 }
 _AUTO = "auto"
 _MEASURES = {
     "rms": "the root of the mean square",
-    "99": "the one that 99 %% do not exceed",
+    "99": "the distance that 99 %% do not exceed",
     "largest": "",
 }
 _TOPOLOGIES = {
@@ -41,7 +41,8 @@ _TOPOLOGIES = {
 }
 _FOOTER = (
     "For example: neuralmesh reconstruct scan.ply mesh.ply --vertices 20000\n"
-    "Ctrl-C ends the learning, and the mesh learnt so far is written.\n"
+    "Ctrl-C ends the learning and writes the mesh learnt so far.\nEach warning ends with a tag in brackets: "
+    "a heading of Documentation/Guide/Failures.md.\n"
     "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 3 done with a warning\n"
     "and --strict, 130 after Ctrl-C."
 )
@@ -124,28 +125,27 @@ def parser() -> Parser:
         nargs="*",
         metavar="INPUT... OUTPUT",
         help=f"{POINTS}; several files are one cloud. The last name is the mesh: {' '.join(OUTPUTS)} "
-        "(.vtp .vtk by VTK); another file than all others",
+        "(.vtp .vtk by VTK). It must differ from all other files",
     )
     result.add_argument(
         "--vertices",
         type=_vertices_of,
         metavar=f"N|{_AUTO}",
-        help=f"Vertices of the mesh, {described('NumberOfVertices')}; {_AUTO}: as many as INPUT has "
-        "something to tell for",
+        help=f"Vertices of the mesh, {described('NumberOfVertices')}; {_AUTO}: as many as the points support",
     )
     result.add_argument(
         "--levels",
         type=_levels_of,
         metavar="N1,N2,...",
-        help="Levels of detail: meshes of N1, N2, ... vertices in one run, in place of --vertices; the "
-        "largest is OUTPUT, the others lie beside it, such as OUTPUT_1000.vtp",
+        help="Levels of detail: meshes of N1, N2, ... vertices in one run, instead of --vertices. The "
+        "largest is OUTPUT. The others are beside it, such as OUTPUT_1000.vtp",
     )
     result.add_argument(
         "--tolerance",
         type=_tolerance_of,
         metavar="LENGTH[%]",
-        help="As few vertices as bring held-out points so close to the mesh, noise taken off: in units of "
-        "INPUT, or with %% behind it in percent of the diagonal of its bounding box",
+        help="Choose the fewest vertices with this distance to held-out points, without their noise. In "
+        "units of INPUT, or with %% in percent of the diagonal of its bounding box",
     )
     result.add_choice(
         "--tolerance-of", list(_MEASURES), None,
@@ -153,8 +153,8 @@ def parser() -> Parser:
     )  # fmt: skip
     result.add_flag(
         "--remesh",
-        "INPUT is a surface, of triangles or other polygons: make other, more even triangles of it, as many as "
-        f"--vertices tell; {MESHES}",
+        "INPUT is a surface of triangles or other polygons: remesh it with the number of "
+        f"--vertices; {MESHES}",
     )
     result.add_number(
         "--seed", "Seed",
@@ -166,29 +166,29 @@ def parser() -> Parser:
         type=number_from(members.low, members.high, True),
         default=0,
         metavar="MEMBERS",
-        help=f"Start from the average of so many coarse meshes, {range_text(members)}, "
-        f"{plain(members.default)} say: handles come out right",
+        help=f"Number of coarse meshes whose average is the start, {range_text(members)}, "
+        f"{plain(members.default)} is usual: makes handles more reliable",
     )
     for option, name, texts, before in (
         ("--method", "Variant", _METHODS, ""),
         ("--preset", "", _PRESETS, ""),
-        ("--order", "Order", _ORDERS, "How it is known where to grow; "),
+        ("--order", "Order", _ORDERS, "How the program measures where to grow; "),
     ):
         default = int(property_of(name).default) if name else 0
         words = list(texts)
         result.add_choice(option, words, default, before + described_words(texts, words[default]))
     result.add_text(
         "--weights",
-        "Trust the points by this point array of INPUT: weights from 0 on, of which ratios count",
+        "Weight the points by this point array of INPUT: weights from 0 on. Only ratios count",
         "ARRAY",
     )
     _add_sides(result)
     jumps = words_of("Jump")
     result.add_text(
         "--jump",
-        "With --order list: how far winners jump; FRACTION of the vertices (default "
+        "With --order list: how far winners jump. FRACTION of the vertices (default "
         f"{settings.shown(property_of('JumpFraction').default, property_of('JumpFraction'))}) times 1 "
-        "(constant) or the change by the move over the mean change; default "
+        "(constant) or the change by the move over the mean change. Default "
         f"{jumps[int(property_of('Jump').default)]}",
         f"{'|'.join(jumps)}[=FRACTION]",
     )
@@ -198,8 +198,8 @@ def parser() -> Parser:
     )  # fmt: skip
     result.add_text(
         "--shift",
-        "Take this off the coordinates of OUTPUT, and note it there; auto: a round vector, where they "
-        "are too large for floats",
+        "Subtract this from the coordinates of OUTPUT, and store it there. auto: a round vector if they are "
+        "too large for floats",
         "auto|X,Y,Z",
     )
     result.add_choice(
@@ -213,79 +213,78 @@ def parser() -> Parser:
 def _add_sides(result: Parser) -> None:
     result.add_text(
         "--viewpoint",
-        "Where the scanner stood: the surface looks there; may be given several times, and counts "
-        "instead of what INPUT tells; as many as there are INPUTs are one for each",
+        "Position of the scanner: the surface looks there. May be given several times, and replaces the "
+        "viewpoints of INPUT. As many as INPUTs: one for each",
         "X,Y,Z", action="append", default=[],
     )  # fmt: skip
     result.add_text(
         "--views",
-        "The places of the scanner, one for each view, as the points of this file; else as --viewpoint",
+        "The positions of the scanner, one for each view, as the points of this file. Excludes --viewpoint",
         "FILE",
     )
     result.add_text(
         "--view-array",
-        "With --views: the point array of INPUT that names the view of each point, from 0 on (default "
-        "View, if there is one; without one, what nothing hides was seen)",
+        "With --views: the point array of INPUT with the number of the view of each point, from 0 on. "
+        "Default: View. Without it, a view sees what nothing hides",
         "ARRAY",
     )
     result.add_text(
         "--normals",
-        "The point array of INPUT that has the normals (default the active ones, or Normals: nx, ny, nz of "
-        "a .ply); off: none count",
+        "The point array of INPUT with the normals; off: ignore normals. Default: the active ones, or "
+        "Normals (nx, ny, nz of a .ply)",
         "ARRAY|off",
     )
     result.add_text(
-        "--up", "Where up is: most of an open surface looks there; --viewpoint tells more", "X,Y,Z"
+        "--up", "The up direction: most of an open surface looks there. --viewpoint is more reliable", "X,Y,Z"
     )
 
 
 def _add_run(result: Parser) -> None:
     result.add_choice(
         "--fidelity", list(_FIDELITIES), int(property_of("Fidelity").default),
-        "How much is done to come close to the points; "
+        "How much work brings the mesh close to the points; "
         + described_words(_FIDELITIES, "default"),
     )  # fmt: skip
     result.add_number(
         "--close-holes-below", "CloseHolesBelow",
-        "Fill holes whose outline, the sum of its edges, is shorter than LENGTH, in units of INPUT; "
+        "Fill holes with an outline, the sum of the edges, shorter than LENGTH, in units of INPUT; "
         + described("CloseHolesBelow"), "LENGTH",
     )  # fmt: skip
     result.add_number(
         "--keep-pieces", "KeepPieces",
-        f"Drop pieces of the surface with less than this part of its area, {described('KeepPieces')}; "
+        f"Drop pieces with less than this part of the area of the surface, {described('KeepPieces')}; "
         "0 keeps all", "PART",
     )  # fmt: skip
     result.add_text(
         "--set",
-        "Set a parameter of learning, see below; as often as there are some to set",
+        "Set a parameter of learning, see below. May be given several times",
         "NAME=VALUE", action="append", default=[],
     )  # fmt: skip
     result.add_flag(
         "--automatic",
-        "Choose Fidelity and FitSmoothness for INPUT by some seconds of short runs",
+        "Choose Fidelity and FitSmoothness for INPUT by short runs of some seconds",
     )
     result.add_flag(
         "--features",
-        "Give each vertex its FeatureStrength, high at edges and corners; OUTPUT must be .vtp or .vtk",
+        "Add FeatureStrength, which is high at edges and corners. OUTPUT must be .vtp or .vtk",
     )
     result.add_flag(
         "--uncertainty",
-        "Give each vertex its Uncertainty, how far it may be off, in units of INPUT; OUTPUT must be .vtp or "
-        ".vtk",
+        "Add Uncertainty, the error bar of each vertex, in units of INPUT. OUTPUT must be .vtp or .vtk",
     )
     result.add_number(
         "--time-limit", "TimeLimit",
-        f"Learn for so many seconds at most, {described('TimeLimit')}, and write the mesh learnt so "
-        "far; 0: as long as it takes", "SECONDS",
+        f"Largest time of learning in seconds, {described('TimeLimit')}; the mesh learnt so far is written; "
+        "0: no limit", "SECONDS",
     )  # fmt: skip
     result.add_flag(
         "--in-place",
-        "Do not read INPUT, which may be larger than the memory, but draw as many points from it as "
-        "the vertices need: binary .ply, .vtp appended raw",
+        "Draw points from INPUT, which may be larger than the memory, instead of reading it. INPUT is a "
+        "binary .ply or a .vtp with appended raw data",
     )
     result.add_choice(
         "--raw", ["float", "double"], None,
-        "INPUT is x y z in binary, of 4 or 8 bytes each, little-endian; drawn as with --in-place",
+        "INPUT is x y z in binary, of 4 or 8 bytes each, little-endian. Draw points as with --in-place",
     )  # fmt: skip
     result.add_argument(
         "--skip",
@@ -296,31 +295,31 @@ def _add_run(result: Parser) -> None:
     )
     result.add_number(
         "--threads", "NumberOfThreads",
-        f"Work on so many threads at most, {described('NumberOfThreads')}; 0: on as many as the machine "
-        "runs at once; the mesh is the same with any number", "N",
+        f"Largest number of threads, {described('NumberOfThreads')}; 0: as many as the machine runs at "
+        "once; the mesh is the same with any number", "N",
     )  # fmt: skip
     result.add_text(
-        "--statistics", "Write how the run went, step by step, to this .csv file", "FILE"
+        "--statistics", "Write the learning curve to this .csv file", "FILE"
     )
     result.add_text(
         "--explain",
-        "Write the points of INPUT to this .vtp file (by VTK), each with its Distance to the mesh and "
-        "the Reason why it lies there; takes some seconds for millions of points",
+        "Write the points of INPUT to this .vtp file (by VTK), each with its Distance to the mesh and a "
+        "Reason. This takes some seconds for millions of points",
         "FILE",
     )
     result.add_text(
         "--feature-lines",
-        "Write the edges of the shape that are sharper than FeatureAngle (30 degrees), and that the points "
-        "confirm, to this .vtp or .vtk file (by VTK), as lines with corners; OUTPUT gets the array Crease",
+        "Write edges sharper than FeatureAngle (30 degrees) that the points confirm to this .vtp or .vtk "
+        "file (by VTK), as lines with corners. OUTPUT gets the array Crease",
         "FILE",
     )
     result.add_flag(
-        "--strict", "Exit with status 3 if there was a warning; the mesh is written all the same"
+        "--strict", "Exit with status 3 if there was a warning. The mesh is written in any case"
     )
     result.add_text(
         "--checkpoint",
-        "Leave the state of the run in this file while it lasts, and go on from there if it exists: the "
-        "same command ends with the same bytes, however often it was killed",
+        "Save the state of the run to this file, and resume from it if it exists. The mesh is the same, "
+        "byte for byte, however often the command was killed",
         "FILE",
     )
     interval = property_of("CheckpointInterval")
@@ -328,10 +327,10 @@ def _add_run(result: Parser) -> None:
         "--checkpoint-interval",
         type=number_from(interval.low, interval.high, False),
         metavar="SECONDS",
-        help=f"Seconds from one checkpoint to the next, {described('CheckpointInterval')}; "
+        help=f"Seconds between two checkpoints, {described('CheckpointInterval')}; "
         "with --checkpoint",
     )
     result.add_flag(
-        "--dry-run", "Write nothing; print how much memory and time the run will take, roughly"
+        "--dry-run", "Write nothing, and print estimates of the memory and the time of the run"
     )
-    result.add_flag("--quiet", "Print nothing but errors and warnings")
+    result.add_flag("--quiet", "Print only errors and warnings")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is printed of a run."""
+"""The printed report of a run."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..engine.mesh import Mesh
 
 @dataclass
 class Seconds:
-    """Of the clock."""
+    """Wall-clock times."""
 
     reading: float
     learning: float
@@ -116,7 +116,7 @@ def _print_sides(fields: dict[str, Any]) -> None:
         text += f", {unknown:.2g} % of the area unknown"
     if unknown > 50.0 or guessed > 50.0:
         text += ", most looks up, along z;" if unknown > 50.0 else ";"
-        text += " --viewpoint or --up tells"
+        text += " --viewpoint or --up determines them"
     print(f"sides      {text}")
 
 

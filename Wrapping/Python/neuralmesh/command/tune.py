@@ -12,7 +12,7 @@ from .names import POINTS, read_points
 from .parsing import Parser, described
 
 _FOOTER = (
-    "Takes seconds, however large the cloud is; writes nothing.\n"
+    "Takes some seconds for a cloud of any size, and writes nothing.\n"
     "reconstruct --automatic does the same before it learns.\n"
     "For example: neuralmesh tune scan.ply --vertices 20000\n"
     "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use."
@@ -70,19 +70,18 @@ def _text(value: float | str) -> str:
 
 def _parser() -> Parser:
     result = Parser(
-        "tune", "Choose the parameters for a point cloud, and say why", "INPUT", _FOOTER
+        "tune", "Choose the parameters for a point cloud, with reasons", "INPUT", _FOOTER
     )
     result.add_argument("input", metavar="INPUT", help=POINTS)
     result.add_number(
         "--vertices", "NumberOfVertices",
-        f"Vertices that the mesh is to have, {described('NumberOfVertices')}", "N",
+        f"Vertices of the mesh, {described('NumberOfVertices')}", "N",
     )  # fmt: skip
     result.add_number("--seed", "Seed", f"Seed of the random numbers, {described('Seed')}", "N")
-    result.add_flag("--close", "The mesh is to be closed where the scan has gaps")
+    result.add_flag("--close", "The mesh shall be watertight, although the scan has gaps")
     result.add_number(
         "--threads", "NumberOfThreads",
-        f"Work on so many threads at most, {described('NumberOfThreads')}; 0: on as many as the machine "
-        "runs at once", "N",
+        f"Largest number of threads, {described('NumberOfThreads')}; 0: as many as the machine runs at once", "N",
     )  # fmt: skip
     result.add_flag("--json", "Print JSON")
     return result

@@ -45,7 +45,7 @@ class NeuralMeshAlgorithm:
         self._up_direction = (0.0, 0.0, 0.0)
 
     def Modified(self) -> None:
-        """Called when a property changes. Of the classes for pipelines it is that of VTK."""
+        """Called when a property changes. The classes for pipelines have that of VTK."""
 
     def _warn(self, text: str) -> None:
         """Called with a warning about a property."""
@@ -146,7 +146,7 @@ class NeuralMeshAlgorithm:
         return {name: value for name, value in self._values.items() if self.PROPERTIES[name].engine}
 
     def _tells_sides(self) -> bool:
-        """Whether the outer side is told, or normals are not to tell it."""
+        """Whether the caller gives the outer side, or turns normals off."""
         names = self._view_array_name or self._normal_array_name
         return bool(
             self._viewpoints or names or any(self._up_direction) or not self._values["UseNormals"]

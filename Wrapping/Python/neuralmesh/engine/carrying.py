@@ -22,8 +22,8 @@ def carry(
     mesh: Mesh,
     progress: Callable[[float], "bool | None"] | None,
 ) -> bool:
-    """Add arrays of the cloud to the mesh. Floats and colours are fitted; of anything else each vertex takes
-    what most of its points have. Returns False, with some of them only, if progress ended it.
+    """Add arrays of the cloud to the mesh. Floats and colours are fitted; other arrays get the most frequent
+    value of the points of a vertex. Returns False, with only some of the arrays, if progress ended it.
     """
     is_done = run.find_places(_BEGIN, _FOUND, progress)
     for i, (name, values) in enumerate(arrays.items()):

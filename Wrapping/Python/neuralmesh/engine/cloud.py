@@ -135,7 +135,7 @@ def _tell_vectors(blocks: list[Block]) -> str:
     }
     if not names:
         return "None has three components."
-    return f"Of three components are: {', '.join(sorted(names))}."
+    return f"Arrays with three components: {', '.join(sorted(names))}."
 
 
 def _are_odd(arrays: list[np.ndarray | None]) -> bool:

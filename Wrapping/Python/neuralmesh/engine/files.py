@@ -72,14 +72,14 @@ def read(path: str | os.PathLike[str]) -> Mesh:
 def write_mesh(
     mesh: Mesh, path: str | os.PathLike[str], shift: Any = None
 ) -> tuple[float, float, float]:
-    """Write a mesh, whole or not at all; what is taken off its coordinates in the file.
+    """Write a mesh, completely or not at all. Returns the shift.
 
     Args:
-        mesh: What is written: of point data all in .vtp and .vtk, else normals and colours.
-        path: Where to. The extension tells the format: .ply .stl .obj .off .glb, .xyz and .npy for
-            the points alone; .vtp and .vtk where VTK is installed.
-        shift: What is taken off the coordinates, and noted in the file: None, three numbers, or "auto"
-            for a round vector where floats do not hold the coordinates.
+        mesh: The mesh. A .vtp or a .vtk gets all its point data, others normals and colours.
+        path: The file. Its extension is the format: .ply .stl .obj .off .glb, .xyz and .npy for only the
+            points; .vtp and .vtk with VTK.
+        shift: Vector that is subtracted from the coordinates and stored in the file: None, three
+            numbers, or "auto" for a round vector if floats cannot resolve the mesh.
 
     Raises:
         ValueError: The format is another one, has no room for the digits of the coordinates, or takes
@@ -133,7 +133,7 @@ def require_writable(path: str) -> None:
 
 
 def require_digits(points: np.ndarray, vertices: int, path: str, shift: Any = None) -> None:
-    """ValueError if the format cannot hold the digits of a mesh of so many vertices of these points."""
+    """ValueError if the format cannot hold the digits of a mesh of this number of vertices."""
     if shift != "auto" and len(points) > 0:
         _engine.require_digits(path, as_points(points), vertices, _three(shift))
 

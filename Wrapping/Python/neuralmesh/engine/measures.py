@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is told of meshes that are there, as vtkNeuralMeshComparison and vtkNeuralMeshExplanation do it,
-without VTK.
-"""
+"""Measures of given meshes, as of vtkNeuralMeshComparison and vtkNeuralMeshExplanation, without VTK."""
 
 from __future__ import annotations
 
@@ -33,7 +31,7 @@ class Measure:
         self._values = new_values(type(self))
 
     def Modified(self) -> None:
-        """Called when a property changes. Of the classes for pipelines it is that of VTK."""
+        """Called when a property changes. The classes for pipelines have that of VTK."""
 
     def _warn(self, text: str) -> None:
         """Called with a warning about a property."""

@@ -21,8 +21,8 @@ class Mesh:
     """Triangles, or lines, or points alone, as NumPy arrays.
 
     Attributes:
-        points: Of shape (N, 3), 4- or 8-byte floats.
-        triangles: Of shape (T, 3), 8-byte integers: the points of each, counter-clockwise as seen from
+        points: Shape (N, 3), 4- or 8-byte floats.
+        triangles: Shape (T, 3), 8-byte integers: the points of each, counter-clockwise as seen from
             outside.
         point_data: An array of N rows for each name.
         field_data: A number, a text, a list of texts, or an array for each name.

@@ -101,13 +101,13 @@ class NeuralMesh(NeuralMeshAlgorithm):
         return self._values["Tolerance"] > 0 or self._vertices_of_largest() == 0
 
     def why_no_size(self, has_first_mesh: bool, has_checkpoint: bool) -> str:
-        """What a number of vertices that is to be found excludes, as a sentence; empty if nothing."""
+        """A sentence that says what excludes a search for the number of vertices; empty if nothing does."""
         return _engine.why_no_size(
             self._engine_values(), has_first_mesh, has_checkpoint, bool(self._values["Automatic"])
         )
 
     def most_vertices(self, points: int) -> int:
-        """Of the largest mesh that there may be of so many points."""
+        """Number of vertices of the largest possible mesh of this number of points."""
         return max(4, points // 2) if self.is_size_to_be_found() else self._vertices_of_largest()
 
     def SetWeightArrayName(self, name: str | None) -> None:

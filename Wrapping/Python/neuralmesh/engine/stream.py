@@ -51,7 +51,7 @@ class NeuralMeshStream(NeuralMeshAlgorithm):
         return problems
 
     def learn(self, samples: int, progress: Progress | None = None) -> int:
-        """Learn so many samples; how many they were."""
+        """Learn this number of samples. Returns the number learnt."""
         learnt = self.prepare().learn(max(0, int(samples)), progress)
         self.Modified()
         return learnt

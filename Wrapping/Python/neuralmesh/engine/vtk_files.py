@@ -135,7 +135,7 @@ def _has_sound_cells(data: Any) -> bool:
 
 
 def _are_sound(cells: Any, fewest: int, points: int) -> bool:
-    """Whether all cells have so many corners or more, which are among the points."""
+    """Whether all cells have at least `fewest` corners, which are among the points."""
     if not cells or cells.GetNumberOfCells() == 0:
         return True
     offsets = to_numpy(cells.GetOffsetsArray()).astype(np.int64)
@@ -156,7 +156,7 @@ def _field_of(array: Any) -> Any:
 
 
 def _with_shift(mesh: Mesh) -> Mesh:
-    """The mesh where it was before a shift was taken off."""
+    """The mesh without its shift."""
     shift = mesh.field_data.pop(_NOTE, None)
     if shift is None:
         return mesh

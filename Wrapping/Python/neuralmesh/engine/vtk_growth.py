@@ -50,7 +50,7 @@ class Growth:
 
 
 def offer_steps(count: int, outputs: Any) -> None:
-    """Say that the outputs have so many time steps: whole numbers from 0 on."""
+    """Give the outputs this number of time steps: whole numbers from 0 on."""
     steps = [float(step) for step in range(count)]
     for port in range(outputs.GetNumberOfInformationObjects()):
         output = outputs.GetInformationObject(port)

@@ -53,11 +53,11 @@ class vtkNeuralMeshAlgorithm(vtkEngineAlgorithm, NeuralMeshAlgorithm):
 
 
 class vtkNeuralMesh(vtkNeuralMeshAlgorithm, NeuralMesh):
-    """Triangle mesh of a wanted size from a raw point cloud, by learning.
+    """Triangle mesh with a given number of vertices from a raw point cloud, by learning.
 
-    Input port 0 takes a vtkPointSet, or a composite dataset, of which all point sets are one cloud; port 1,
-    optional, the triangles to start from. Outputs are the mesh, the learning curve as a vtkTable, the
-    explained points, the feature lines, and the levels as a vtkMultiBlockDataSet. Documentation/Filters.md of the project tells of all.
+    Input port 0 takes a vtkPointSet, or a composite dataset whose point sets are one cloud. Port 1, optional,
+    takes the first mesh. Outputs are the mesh, the learning curve as a vtkTable, the explained points, the
+    feature lines, and the levels as a vtkMultiBlockDataSet.
     """
 
     _INPUTS: tuple[tuple[str, ...], ...] = (_POINT_SETS, ("vtkPolyData",))

@@ -31,8 +31,8 @@ class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
     """How far a mesh is from a reference, over the surfaces and both ways.
 
     Input port 0 takes the mesh, port 1 the reference. Outputs are both with the point data `Distance`,
-    and a vtkTable of the figures, a row for each direction; what is told of both directions together is
-    its field data.
+    and a vtkTable of the figures, a row for each direction. Its field data are the figures of both
+    directions together.
     """
 
     _INPUTS = (("vtkPolyData",), ("vtkPolyData",))
@@ -104,7 +104,7 @@ class vtkNeuralMeshComparison(vtkEngineAlgorithm, NeuralMeshComparison):
         return self._figure("NormalConsistency", direction)
 
     def GetEdgeLength(self, direction: int) -> float:
-        """Of the sharp edges of the surface from which the direction sets out."""
+        """Length of the sharp edges of the surface from which the direction starts."""
         return self._figure("EdgeLength", direction)
 
     def GetEdgeMean(self, direction: int) -> float:

@@ -53,7 +53,7 @@ class vtkNeuralMeshStream(vtkNeuralMeshAlgorithm, NeuralMeshStream):
             self._warn(text)
 
     def Learn(self, samples: int) -> int:
-        """Learn so many samples. Returns how many they were."""
+        """Learn this number of samples. Returns the number learnt."""
         if not self._is_ready():
             return 0
         learnt = self.learn(samples, self._progress())

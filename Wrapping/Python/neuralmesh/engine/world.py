@@ -143,8 +143,8 @@ def learnt_mesh(stream: NeuralMeshStream, progress: Progress | None, given: obje
 def compare(
     comparison: NeuralMeshComparison, reference: Mesh, result: Mesh
 ) -> tuple[dict[str, list[Any]], dict[str, float]]:
-    """Columns of a row for each direction, and what is told of both ways; nothing where both surfaces are
-    empty.
+    """Columns with a row for each direction, and the figures of both directions together; empty if both
+    surfaces are empty.
     """
     found = comparison.compare(reference, result)
     return (found.table, found.both_ways) if found else ({}, {})
