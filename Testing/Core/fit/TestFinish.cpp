@@ -315,8 +315,8 @@ TEST(Finish, ManySmallPiecesStay)
       }
     }
     Mesh mesh = buildMesh(std::move(triangles), cloud);
-    EXPECT_EQ(dropPieces(mesh, 0.0005), count == 1 ? 1u : 0u);
-    EXPECT_EQ(dropPieces(mesh, 0.1), count == 1 ? 0u : 20u);
+    EXPECT_EQ(dropPieces(mesh, 0.0005, 1.), count == 1 ? 1u : 0u);
+    EXPECT_EQ(dropPieces(mesh, 0.1, 1.), count == 1 ? 0u : 20u);
   }
 }
 
