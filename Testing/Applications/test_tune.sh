@@ -8,7 +8,7 @@ source "$(dirname "$0")/command_testing.sh"
 test_table()
 {
   expect 0 "$neuralmesh" tune noisy.xyz --vertices 4500
-  grep -q '^  Fidelity high instead of default was not tried, as under noise' out ||
+  grep -q '^  Fidelity high instead of default was not tried: under noise' out ||
     { cat out; fail "no word of Fidelity"; }
   check_line noisy.xyz
   expect 0 "$neuralmesh" tune cloud.xyz --vertices 4500
@@ -48,7 +48,7 @@ test_json()
   json 'len(lines[0]["reasons"]) >= len(lines[0]["trials"])'
   expect 0 "$neuralmesh" tune noisy.xyz --vertices 4500 --json
   python3 -c 'import json; print(json.dumps(json.load(open("out"))))' > line && mv line out
-  json 'any("not tried, as under noise" in reason for reason in lines[0]["reasons"])'
+  json 'any("not tried: under noise" in reason for reason in lines[0]["reasons"])'
   json 'all(trial["error"] > 0 and trial["standard_error"] > 0 for trial in lines[0]["trials"])'
 }
 
@@ -58,7 +58,7 @@ test_automatic()
   expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 4500 --automatic
   grep -Eq '^chosen +Fidelity=high' out || { cat out; fail "the choice is not told"; }
   expect 0 "$neuralmesh" reconstruct noisy.xyz mesh.ply --vertices 4500 --automatic
-  grep -q 'was not tried, as under noise' out || { cat out; fail "the reason is not told"; }
+  grep -q 'was not tried: under noise' out || { cat out; fail "the reason is not told"; }
   expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 4500
   ! grep -q 'chosen' out || { cat out; fail "something was chosen unasked"; }
 }
