@@ -50,6 +50,12 @@ Parameters parametersFor(std::uint64_t vertices, const RunRequest& request)
 }
 }
 
+RunRequest requestWith(const RunRequest& request, const Parameters& parameters)
+{
+  return { request.cloud, parameters, request.first, request.executor, request.hints,
+    request.explainsAll };
+}
+
 Run::Run(const RunRequest& request, const Progress& progress)
   : request_(request)
   , progress_([this, &progress](double fraction)

@@ -30,6 +30,9 @@ struct RunRequest
   bool explainsAll = false;
 };
 
+/// The same with other parameters, which must outlive it.
+RunRequest requestWith(const RunRequest& request, const Parameters& parameters);
+
 /// A mesh that has learnt all, and what its run knows so far.
 struct LearntRun
 {

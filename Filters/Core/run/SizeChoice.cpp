@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/SizeChoice.h"
 
+#include "learn/StoppingRules.h"
+#include "run/Exclusions.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,24 +63,11 @@ std::optional<SizeGoal> sizeGoalOf(
 
 std::string whyNoSize(const Parameters& parameters, const BesideSize& beside)
 {
-  const bool hasRules = parameters.timeLimit > 0. || parameters.maximumIterations > 0 ||
-    parameters.targetSampleDistance > 0. || parameters.targetCloudDistance > 0. ||
-    parameters.targetNormalChange > 0.;
-  for (const auto& [isThere, name] :
-    { std::pair(beside.firstMesh, "a first mesh or an ensemble"),
-      std::pair(beside.checkpoint, "a checkpoint"), std::pair(beside.snapshots, "growth as time"),
-      std::pair(beside.automatic, "the automatic choice of parameters"),
-      std::pair(beside.levels, "levels"),
-      std::pair(hasRules, "a stopping rule other than the number of vertices") })
-  {
-    if (isThere)
-    {
-      return std::string(
-               "A number of vertices that is to be found, by itself or by a tolerance, and ") +
-        name + " exclude each other.";
-    }
-  }
-  return {};
+  return whyExcluded("A number of vertices that is to be found, by itself or by a tolerance,",
+    { { beside.firstMesh, "a first mesh or an ensemble" }, { beside.checkpoint, "a checkpoint" },
+      { beside.snapshots, "growth as time" },
+      { beside.automatic, "the automatic choice of parameters" }, { beside.levels, "levels" },
+      { mayEndBeforeVertices(parameters), "a stopping rule other than the number of vertices" } });
 }
 
 std::string whyNoSizeFor(const PointCloud& cloud, const SizeGoal& goal)

@@ -115,8 +115,8 @@ private:
   {
     // Smaller ones are simplified from as many as are learnt at least.
     const Parameters fewest = parametersWith(FewestToAsk);
-    std::uint64_t vertices = std::max(
-      { FewestTried, points_ / PointsPerVertexOfGuess, verticesToLearn(requestWith(fewest)) });
+    std::uint64_t vertices = std::max({ FewestTried, points_ / PointsPerVertexOfGuess,
+      verticesToLearn(requestWith(request_, fewest)) });
     double wanted = 4. * double(vertices);
     for (std::size_t trial = 0; trial < MostTrials; ++trial)
     {
@@ -322,12 +322,6 @@ private:
     return parameters;
   }
 
-  RunRequest requestWith(const Parameters& parameters) const
-  {
-    return { request_.cloud, parameters, request_.first, request_.executor, request_.hints,
-      request_.explainsAll };
-  }
-
   /// Where what comes next ends, of the whole progress.
   ProgressPart next(double part)
   {
@@ -366,7 +360,7 @@ private:
   {
     const double middle = part.begin + 0.2 * (part.end - part.begin);
     const Parameters parameters = parametersWith(vertices);
-    const std::uint64_t learnt = verticesToLearn(requestWith(parameters));
+    const std::uint64_t learnt = verticesToLearn(requestWith(request_, parameters));
     Beginning beginning = beginningFor(learnt, largest, { part.begin, middle });
     LearntRun run = run_.learn(learnt, std::move(beginning), { middle, part.end }, none_);
     // A first surface that has more vertices than are asked for is simplified, and learns nothing.
@@ -408,7 +402,7 @@ private:
     const double middle = part.begin + PartOfGrowthOfTrial * (part.end - part.begin);
     const Parameters parameters = parametersWith(vertices);
     LearntRun learnt = learn(vertices, vertices, { part.begin, middle });
-    const RunRequest request = requestWith(parameters);
+    const RunRequest request = requestWith(request_, parameters);
     const Progress atTheEnd = partOf(progress_, part.end, part.end);
     return runWithThinParts(
       betterRun(run_.finish(std::move(learnt), vertices, { middle, part.end }), request, atTheEnd),

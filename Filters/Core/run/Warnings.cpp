@@ -172,16 +172,24 @@ void warnOfGaps(
     "a guess. Scan what is missing there; if there is nothing, cut it out: where Support is 0.");
 }
 
-void warnOfDefects(const Reconstruction& result, std::vector<std::string>& warnings)
+/// Why triangles intersect, and what helps.
+constexpr std::string_view CutsOfCloud =
+  "could not be repaired: the surface is thinner there than triangles are large, or two layers are "
+  "taken for one. More vertices make triangles smaller; another seed may do.";
+constexpr std::string_view CutsOfSurface =
+  "could not be repaired: parts of the surface touch or cut each other there, or lie closer than "
+  "triangles are large. Remesh parts that touch or cut each other one by one; where they only lie "
+  "close, more vertices make triangles smaller.";
+
+void warnOfDefects(
+  const Reconstruction& result, std::string_view whyCut, std::vector<std::string>& warnings)
 {
   const std::size_t cuts = result.finish ? result.finish->left.intersectingTriangles : 0;
   const std::size_t folds = result.quality->surface.foldedEdges;
   if (cuts > 0)
   {
     warnings.push_back(counted(cuts, "triangle intersects", "triangles intersect") +
-      " others and could not be repaired: the surface is thinner there than triangles are large, "
-      "or two layers are taken for one. More vertices make triangles smaller; another seed may "
-      "do.");
+      " others and " + std::string(whyCut));
   }
   const double between = result.finish ? result.finish->shareBetweenLayers : 0.;
   if (between > MostBetweenLayers)
@@ -373,7 +381,7 @@ std::vector<std::string> warningsOf(
   }
   if (result.quality)
   {
-    warnOfDefects(result, warnings);
+    warnOfDefects(result, CutsOfCloud, warnings);
     warnOfSlivers(result.quality->surface, warnings);
     warnOfTurnedParts(result.quality->turnedShare, warnings);
     warnOfHandles(result.quality->narrowHandles, cloud, warnings);
@@ -401,7 +409,7 @@ std::vector<std::string> warningsOfSurface(
   {
     return warnings;
   }
-  warnOfDefects(result, warnings);
+  warnOfDefects(result, CutsOfSurface, warnings);
   warnOfSlivers(result.quality->surface, warnings);
   if (vertices != parameters.numberOfVertices)
   {

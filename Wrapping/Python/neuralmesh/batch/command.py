@@ -32,7 +32,8 @@ A recipe is JSON; of its keys only `scans` must be there:
 scans    files of points, relative to the recipe, with wildcards or without:
          .ply .obj .stl .off .pcd .ptx .pwn .xyz .pts .txt .csv .asc, with VTK .vtp .vtk .vtu
 matrix   parameters of neuralmesh.reconstruct(), except progress; a list holds the values to try,
-         and all lists are crossed; first_mesh is a path, relative to the recipe
+         and all lists are crossed; first_mesh is a path, relative to the recipe; levels are
+         numbers in a list, or a list of such lists to try
 format   of the meshes: vtp (default with VTK), ply (default without), obj, stl, glb, off or vtk
 shift    what is taken off their coordinates, and noted in them: [X, Y, Z], or "auto" for a round
          vector where they are too large for floats (default: none)
@@ -44,7 +45,8 @@ strict   whether warnings count: then the command ends with status 3 if a mesh h
          meshes are written all the same
 view     of the pictures: which axis points upwards, and from where one looks, in degrees
 
-The folder gets for each job a mesh and a report (.json), for all of them summary.csv and the
+The folder gets for each job a mesh, which is the largest level, the others beside it (JOB_1000.vtp),
+and a report (.json), for all of them summary.csv and the
 gallery, index.html. A job is not run again while its result is there, and its scan (by size and
 time of modification), its parameters, the format and the version of NeuralMesh are the same. What
 was left by jobs that are no longer in the recipe stays where it is.
