@@ -29,6 +29,9 @@ constexpr double DensityExponentIfOpen = 0.25;
 /// With fewer vertices, claws and ears are no wider than edges, and would be lost while the mesh grows.
 constexpr std::uint64_t FewestDistributedLater = 10000;
 
+/// Where a mesh is finished that was finished before, with a few more vertices: more rounds bring hardly anything.
+constexpr int FidelityRoundsAgain = 2;
+
 /// Points that are explained where only their numbers are wanted: as many as are fitted, for what is lost may have
 /// a handful.
 constexpr std::size_t FewestExplained = 10000;
@@ -74,11 +77,31 @@ PointViews viewsOf(const PointCloud& cloud, const OrientationHints& hints)
                                                   : PointViews();
 }
 
+/// What a finish is planned to do with parameters.
+FinishPlan finishPlan(const Parameters& parameters)
+{
+  return { .rounds = parameters.fitRounds,
+    .fidelity = parameters.fidelity,
+    .keepsPlaces = parameters.computeFeatureStrength,
+    .smoothness = parameters.fitSmoothness,
+    .tellsSmoothness = parameters.computeUncertainty,
+    .samplesPerVertex = parameters.fitSamples,
+    .gaps = {} };
+}
+
 /// Of length 1; 0 if it tells nothing.
 Vector4 givenDirection(const Eigen::Vector3d& vector)
 {
   const double length = vector.stableNorm();
   return length > 0. && vector.allFinite() ? Vector4(Eigen::Vector3d(vector / length)) : Vector4();
+}
+
+/// Likewise those that came with them.
+PointNormals normalsOf(const PointCloud& cloud, const OrientationHints& hints)
+{
+  return hints.normalOf && !cloud.origins().empty() ? [&](std::size_t point)
+  { return givenDirection(hints.normalOf(cloud.origins()[point])); }
+                                                    : PointNormals();
 }
 }
 
@@ -143,15 +166,10 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Parameters& parameters, const std::optional<GapPlan>& gaps, std::size_t vertexCount,
   const Progress& progress, const Executor& executor, const OrientationHints& hints)
 {
-  FinishPlan plan{ .rounds = parameters.fitRounds,
-    .fidelity = parameters.fidelity,
-    .keepsPlaces = parameters.computeFeatureStrength,
-    .smoothness = parameters.fitSmoothness,
-    .tellsSmoothness = parameters.computeUncertainty,
-    .samplesPerVertex = parameters.fitSamples,
-    .gaps = gaps,
-    .closedOutline = parameters.closeHolesBelow / cloud.unit(),
-    .vertexCount = std::max(vertexCount, learnt.mesh.vertexCount()) };
+  FinishPlan plan = finishPlan(parameters);
+  plan.gaps = gaps;
+  plan.closedOutline = parameters.closeHolesBelow / cloud.unit();
+  plan.vertexCount = std::max(vertexCount, learnt.mesh.vertexCount());
   dropPieces(learnt.mesh, parameters.keepPieces);
   const bool isSimplified = plan.vertexCount > vertexCount;
   if (isSimplified)
@@ -165,9 +183,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const double endOfFirst = isSimplified ? 0.5 : 1.;
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
   const PointCloud& fitted = once ? *once : cloud;
-  const PointNormals normalOf = hints.normalOf && !fitted.origins().empty() ? [&](std::size_t point)
-  { return givenDirection(hints.normalOf(fitted.origins()[point])); }
-                                                                            : PointNormals();
+  const PointNormals normalOf = normalsOf(fitted, hints);
   const PointViews viewOf = viewsOf(fitted, hints);
   Finish finish(fitted, learnt.mesh, plan, executor, normalOf, viewOf);
   if (!finish.run(partOf(progress, 0., endOfFirst)))
@@ -193,6 +209,33 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   report.left = finishSimplified.report().left;
   report.heldVertices = finishSimplified.report().heldVertices;
   report.smoothnessOfVertices = finishSimplified.report().smoothnessOfVertices;
+  return report;
+}
+
+std::optional<FinishReport> finishAgain(LearntMesh& learnt, const FinishReport& before,
+  const PointCloud& cloud, const Parameters& parameters, std::size_t vertexCount,
+  const Progress& progress, const Executor& executor, const OrientationHints& hints)
+{
+  FinishPlan plan = finishPlan(parameters);
+  plan.rounds = std::min(plan.rounds, 1);
+  plan.mostFidelityRounds = FidelityRoundsAgain;
+  if (learnt.mesh.vertexCount() > vertexCount)
+  {
+    // Vertices are where they are needed already.
+    simplifyByQuadrics(learnt.mesh, vertexCount);
+    plan.fidelity = Fidelity::Draft;
+  }
+  plan.vertexCount = std::max(vertexCount, learnt.mesh.vertexCount());
+  const std::optional<PointCloud> once = withoutRepetitions(cloud);
+  const PointCloud& fitted = once ? *once : cloud;
+  Finish finish(
+    fitted, learnt.mesh, plan, executor, normalsOf(fitted, hints), viewsOf(fitted, hints));
+  if (!finish.run(progress))
+  {
+    return {};
+  }
+  FinishReport report = finish.report();
+  report.gapTriangles = before.gapTriangles;
   return report;
 }
 
