@@ -104,7 +104,13 @@ public:
       });
     for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
     {
-      pushCollapsesOf(v);
+      for (const VertexIndex neighbor : mesh.ring(v))
+      {
+        if (v < neighbor)
+        {
+          pushBothWays(v, neighbor);
+        }
+      }
     }
   }
 
@@ -154,12 +160,16 @@ private:
       .leastPlace(0.5f * (mesh_.position(removed) + mesh_.position(kept)));
   }
 
-  /// Never, where it may not be, or a triangle would turn over.
+  /// Never, where it may not be, or a triangle would turn over. Either way costs as much, if it may be.
   double costOf(VertexIndex removed, VertexIndex kept) const
   {
+    return mesh_.canCollapse(removed, kept) ? costEitherWay(removed, kept) : Never;
+  }
+
+  double costEitherWay(VertexIndex removed, VertexIndex kept) const
+  {
     const Vector4 place = placeOf(removed, kept);
-    if (!mesh_.canCollapse(removed, kept) || turnsOver(removed, kept, place) ||
-      turnsOver(kept, removed, place))
+    if (turnsOver(removed, kept, place) || turnsOver(kept, removed, place))
     {
       return Never;
     }
@@ -225,19 +235,34 @@ private:
     quadrics_[kept].add(quadrics_[removed]);
     mesh_.collapse(removed, kept);
     mesh_.setPosition(kept, place);
-    pushCollapsesOf(kept);
-    for (const VertexIndex neighbor : mesh_.ring(kept))
+    pushAround(kept);
+  }
+
+  /// All edges of a vertex and of its neighbours, each once.
+  void pushAround(VertexIndex v)
+  {
+    const Ring& ring = mesh_.ring(v);
+    for (const VertexIndex neighbor : ring)
     {
-      pushCollapsesOf(neighbor);
+      pushBothWays(v, neighbor);
+      for (const VertexIndex other : mesh_.ring(neighbor))
+      {
+        if (other != v && (neighbor < other || !ring.contains(other)))
+        {
+          pushBothWays(neighbor, other);
+        }
+      }
     }
   }
 
-  void pushCollapsesOf(VertexIndex v)
+  void pushBothWays(VertexIndex a, VertexIndex b)
   {
-    for (const VertexIndex neighbor : mesh_.ring(v))
+    const bool isToB = mesh_.canCollapse(a, b), isToA = mesh_.canCollapse(b, a);
+    if (isToB || isToA)
     {
-      push(costOf(v, neighbor), v, neighbor);
-      push(costOf(neighbor, v), neighbor, v);
+      const double cost = costEitherWay(a, b);
+      push(isToB ? cost : Never, a, b);
+      push(isToA ? cost : Never, b, a);
     }
   }
 
