@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -120,6 +122,11 @@ public:
     {
       const auto [cost, removed, kept] = edges_.top();
       edges_.pop();
+      const auto waiting = waiting_.find(keyOf(removed, kept));
+      if (waiting != waiting_.end() && waiting->second == cost)
+      {
+        waiting_.erase(waiting);
+      }
       if (mesh_.isAlive(removed) && mesh_.ring(removed).contains(kept))
       {
         collapse(removed, kept, cost);
@@ -266,12 +273,22 @@ private:
     }
   }
 
+  /// Most edges around a collapse cost what they did before, and wait already.
   void push(double cost, VertexIndex removed, VertexIndex kept)
   {
     if (cost < Never)
     {
-      edges_.push({ cost, removed, kept });
+      const auto [waiting, isNew] = waiting_.try_emplace(keyOf(removed, kept), cost);
+      if (isNew || std::exchange(waiting->second, cost) != cost)
+      {
+        edges_.push({ cost, removed, kept });
+      }
     }
+  }
+
+  static std::uint64_t keyOf(VertexIndex removed, VertexIndex kept)
+  {
+    return std::uint64_t(removed) << 32 | kept;
   }
 
   Mesh& mesh_;
@@ -279,6 +296,8 @@ private:
   float leastShape_;
   std::vector<Quadric> quadrics_;
   EdgeQueue<double> edges_; ///< that vanish with their first vertex
+  /// What an edge has cost that was pushed last, if that waits.
+  std::unordered_map<std::uint64_t, double> waiting_;
 };
 
 void simplifyBy(Mesh& mesh, std::size_t count, double evenness, float leastShape)
