@@ -55,11 +55,11 @@ constexpr double MostTimesRefined = 1.3;
 constexpr double MostTimesForGain = 1.2, PartWithGain = 0.93;
 /// Errors vary from run to run: so many times the vertices that are expected to be just enough are made, and every trial
 /// that misses the tolerance adds as much.
-constexpr double TimesEnough = 1.02;
-/// A mesh is taken that has up to so many times the vertices that are just enough. One that was made again is fitted more
-/// closely than what any run makes of as many.
-constexpr double TimesTaken = 1.06, TimesTakenAgain = 1.2;
-constexpr double LeastExponent = 0.15, UsualExponent = 0.85, MostExponent = 2.5;
+constexpr double TimesEnough = 1.04;
+/// A mesh is taken that has up to so many times the vertices that are just enough; and one that was made again with so
+/// many as were expected to be, for it is fitted more closely than what any run makes of as many.
+constexpr double TimesTaken = 1.06;
+constexpr double LeastExponent = 0.15, UsualExponent = 0.78, MostExponent = 2.5;
 
 /// Whether what neighbours do not have in common is noise: more than the shape would make of it. The sparser the points
 /// are at the vertices, the more that is.
@@ -124,7 +124,7 @@ private:
   {
     LearntRun run;
     HeldOutError error;
-    bool isMadeAgain = false;
+    bool isMadeAgain = false; ///< with so many as were expected to be enough
 
     std::uint64_t vertices() const { return run.learnt.mesh.vertexCount(); }
   };
@@ -168,13 +168,12 @@ private:
     {
       return tooFew_->vertices() >= mostVertices();
     }
-    const double times = enough_->isMadeAgain ? TimesTakenAgain : TimesTaken;
     const double least = std::max(enough(), tooFew_ ? double(tooFew_->vertices()) : 0.);
-    return isLeast_ || double(enough_->vertices()) <= times * least;
+    return isLeast_ || enough_->isMadeAgain || double(enough_->vertices()) <= TimesTaken * least;
   }
 
   /// A little more than are just enough, by the trials; between those that are known to be too few and enough.
-  std::uint64_t nextSize() const
+  std::uint64_t nextSize()
   {
     double size = (1. + (TimesEnough - 1.) * double(1 + missed_)) * enough();
     if (!enough_ && canMakeAgain() && !tooFew_->isMadeAgain &&
@@ -196,6 +195,7 @@ private:
     {
       least = std::max(least, LeastTimesMore * double(tooFew_->vertices()) + 1.);
     }
+    isAimed_ = least <= std::ceil(size);
     return std::uint64_t(std::max(least, std::min(most, std::ceil(size))));
   }
 
@@ -234,8 +234,8 @@ private:
     }
     const bool isMet = meets(error);
     isLeast_ = isMet && source && made.learnt.mesh.vertexCount() >= source->vertices();
-    missed_ += isMet ? 0 : 1;
-    (isMet ? enough_ : tooFew_).emplace(Made{ std::move(made), error, source != nullptr });
+    missed_ += source && !isMet ? 1 : 0;
+    (isMet ? enough_ : tooFew_).emplace(Made{ std::move(made), error, source && isAimed_ });
     return true;
   }
 
@@ -520,8 +520,9 @@ private:
   std::optional<Reconstruction> ended_;
   // For a tolerance: the smallest that meets it, and the largest that does not.
   std::optional<Made> enough_, tooFew_;
+  bool isAimed_ = false;   ///< whether so many are made as are expected to be enough
   bool isLeast_ = false;   ///< the shape needs so many
-  std::size_t missed_ = 0; ///< trials that did not meet it
+  std::size_t missed_ = 0; ///< trials that were made again, and did not meet it
 };
 }
 

@@ -219,11 +219,12 @@ std::optional<FinishReport> finishAgain(LearntMesh& learnt, const FinishReport& 
   FinishPlan plan = finishPlan(parameters);
   plan.rounds = std::min(plan.rounds, 1);
   plan.mostFidelityRounds = FidelityRoundsAgain;
-  if (learnt.mesh.vertexCount() > vertexCount)
+  const bool isSimplified = learnt.mesh.vertexCount() > vertexCount;
+  if (isSimplified)
   {
-    // Vertices are where they are needed already.
     simplifyByQuadrics(learnt.mesh, vertexCount);
-    plan.fidelity = Fidelity::Draft;
+    // Of a clean cloud vertices are where they are needed already.
+    plan.fidelity = before.isClean ? Fidelity::Draft : plan.fidelity;
   }
   plan.vertexCount = std::max(vertexCount, learnt.mesh.vertexCount());
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
@@ -234,8 +235,14 @@ std::optional<FinishReport> finishAgain(LearntMesh& learnt, const FinishReport& 
   {
     return {};
   }
-  FinishReport report = finish.report();
+  // What the fit tells is that of the finer mesh.
+  const bool isTold = !isSimplified && finish.report().roundsTakenBack == 0;
+  FinishReport report = isTold ? finish.report() : before;
   report.gapTriangles = before.gapTriangles;
+  report.repaired = finish.report().repaired;
+  report.left = finish.report().left;
+  report.heldVertices = finish.report().heldVertices;
+  report.smoothnessOfVertices = finish.report().smoothnessOfVertices;
   return report;
 }
 
