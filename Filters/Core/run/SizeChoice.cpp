@@ -101,7 +101,7 @@ std::optional<double> SizeChoice::expectedWith(std::uint64_t wanted) const
     return byNoise->errorWith(wanted);
   }
   // What is too near in size tells no power of it.
-  constexpr double TimesApart = 1.5;
+  constexpr double TimesApart = 1.3;
   std::vector<SizeTrial> known;
   for (const SizeTrial& trial : trials)
   {
@@ -110,11 +110,15 @@ std::optional<double> SizeChoice::expectedWith(std::uint64_t wanted) const
       known.push_back(trial);
     }
   }
-  if (known.empty() || !(reached > least))
+  const auto larger = std::ranges::find_if(trials,
+    [&](const SizeTrial& trial)
+    { return double(trial.vertices) >= TimesApart * double(vertices); });
+  if ((known.empty() && larger == trials.end()) || !(reached > least))
   {
     return {};
   }
-  double exponent = exponentOf(known.back(), { vertices, reached });
+  const SizeTrial own{ vertices, reached };
+  double exponent = known.empty() ? exponentOf(own, *larger) : exponentOf(known.back(), own);
   if (wanted > vertices && known.size() > 1)
   {
     // It falls: what noise and edges leave cannot be had by vertices.

@@ -250,6 +250,11 @@ private:
   {
     const ProgressPart part = next(PartOfResult);
     const std::uint64_t vertices = made.vertices();
+    // Error bars take time, and tell of it.
+    if (!request_.parameters.computeUncertainty && !progress_(part.end))
+    {
+      made.run.result.stopReason = StopReason::Cancelled;
+    }
     const Parameters parameters = parametersWith(vertices);
     const RunRequest request = requestWith(request_, parameters);
     const Progress atTheEnd = partOf(progress_, part.end, part.end);
@@ -487,12 +492,15 @@ private:
       return result;
     }
     limitNoise(result);
+    choice_.vertices = result.surface.vertexCount();
     for (const Measured& one : measured_)
     {
-      choice_.trials.push_back({ one.vertices, errorOf(one.error) });
+      if (one.vertices != choice_.vertices)
+      {
+        choice_.trials.push_back({ one.vertices, errorOf(one.error) });
+      }
     }
     const HeldOutError error = heldOutError(request_.cloud, result.surface, request_.executor);
-    choice_.vertices = result.surface.vertexCount();
     choice_.reached = errorOf(error);
     choice_.least = leastTold(error, noise_) * request_.cloud.unit();
     if (const std::string warning = choice_.warning(); !warning.empty())
