@@ -142,7 +142,7 @@ def assign(
     """
     parameter = parameters_of(vtk_object.__class__)[name]
     if not parameter.accepts(value):
-        other = f' or "{or_else}"' if or_else else ""
+        other = f', or "{or_else}"' if or_else else ""
         raise ValueError(f"{shown_name or name} must be {parameter}{other}, not {value!r}")
     parameter.assign(vtk_object, value)
 
