@@ -55,12 +55,10 @@ void AddLevelsOption(
     ->excludes("--vertices");
 }
 
-void RequireSoundLevels(
-  const std::vector<vtkIdType>& levels, double timeLimit, const neuralmesh::BesideLevels& beside)
+void RequireSoundLevels(const std::vector<vtkIdType>& levels,
+  const neuralmesh::Parameters& parameters, const neuralmesh::BesideLevels& beside)
 {
   const std::vector<std::uint64_t> sizes(levels.begin(), levels.end());
-  neuralmesh::Parameters parameters;
-  parameters.timeLimit = timeLimit;
   const std::string problem = neuralmesh::whyNoLevels(sizes, parameters, beside);
   if (!sizes.empty() && !problem.empty())
   {

@@ -20,9 +20,9 @@ class App;
 void AddLevelsOption(
   CLI::App* command, std::vector<vtkIdType>& levels, vtkIdType fewest, vtkIdType most);
 
-/** Throws UsageError if there are levels, and no run with them. A time limit of 0 is none. */
-void RequireSoundLevels(
-  const std::vector<vtkIdType>& levels, double timeLimit, const neuralmesh::BesideLevels& beside);
+/** Throws UsageError if there are levels, and no run with them. */
+void RequireSoundLevels(const std::vector<vtkIdType>& levels,
+  const neuralmesh::Parameters& parameters, const neuralmesh::BesideLevels& beside);
 
 /** The files of all levels but the largest, which is OUTPUT itself: with _N before its extension. */
 std::vector<std::string> SmallerLevelPaths(

@@ -90,13 +90,8 @@ void SizeOptions::Apply(vtkNeuralMesh* filter) const
 void SizeOptions::RequireSound(
   vtkNeuralMesh* filter, neuralmesh::BesideSize beside, bool isEstimated) const
 {
-  neuralmesh::Parameters parameters;
-  parameters.timeLimit = filter->GetTimeLimit();
-  parameters.maximumIterations = static_cast<std::uint64_t>(filter->GetMaximumIterations());
-  parameters.targetSampleDistance = filter->GetTargetSampleDistance();
-  parameters.targetCloudDistance = filter->GetTargetCloudDistance();
-  parameters.targetNormalChange = filter->GetTargetNormalChange();
-  RequireSoundLevels(this->Levels, parameters.timeLimit,
+  const neuralmesh::Parameters parameters = filter->GetRunParameters();
+  RequireSoundLevels(this->Levels, parameters,
     { .firstMesh = beside.firstMesh,
       .checkpoint = beside.checkpoint,
       .automatic = beside.automatic });

@@ -20,23 +20,7 @@ void AddRemeshOption(CLI::App* command, bool& remeshes)
 void PrepareRemeshing(vtkNeuralMesh* filter, const neuralmesh::BesideSurface& beside,
   const std::vector<std::string>& inputs)
 {
-  neuralmesh::Parameters parameters;
-  parameters.timeLimit = filter->GetTimeLimit();
-  parameters.maximumIterations = static_cast<std::uint64_t>(filter->GetMaximumIterations());
-  parameters.targetSampleDistance = filter->GetTargetSampleDistance();
-  parameters.targetCloudDistance = filter->GetTargetCloudDistance();
-  parameters.targetNormalChange = filter->GetTargetNormalChange();
-  parameters.start = filter->GetStart() == vtkNeuralMesh::TETRAHEDRON
-    ? neuralmesh::Start::Tetrahedron
-    : neuralmesh::Start::OccupiedSpace;
-  parameters.boundaries = filter->GetBoundaries() == vtkNeuralMesh::CLOSE
-    ? neuralmesh::Boundaries::Close
-    : neuralmesh::Boundaries::Keep;
-  parameters.closeHolesBelow = filter->GetCloseHolesBelow();
-  parameters.topologyLearning = filter->GetTopologyLearning() != 0;
-  parameters.computeFeatureStrength = filter->GetComputeFeatureStrength() != 0;
-  parameters.computeUncertainty = filter->GetComputeUncertainty() != 0;
-  const std::string problem = neuralmesh::whyNoRemeshing(parameters, beside);
+  const std::string problem = neuralmesh::whyNoRemeshing(filter->GetRunParameters(), beside);
   if (!problem.empty())
   {
     throw UsageError("--remesh: " + problem);

@@ -2,18 +2,11 @@
 # test_how_many.sh COMMAND CASE: what the command promises where a number of vertices is to be found.
 source "$(dirname "$0")/command_testing.sh"
 
-# A sphere.
-make_sphere()
-{
-  awk 'BEGIN { n = 5000; for (i = 0; i < n; ++i) { z = 1 - (2 * i + 1) / n; r = sqrt(1 - z * z); a = 2.399963 * i
-    print r * cos(a), r * sin(a), z } }' > sphere.xyz
-}
-
 # Promise: the report says why the mesh has as many vertices as it has, and what other numbers would give.
 test_chosen()
 {
-  make_sphere
-  expect 0 "$neuralmesh" reconstruct sphere.xyz mesh.ply --vertices auto
+  make_cloud 5000
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices auto
   grep -Eq '^how many   no noise was measured' out || { cat out; fail "not why"; }
   grep -Eq '^ +tried: [0-9]+ vertices ' out || { cat out; fail "not what was tried"; }
   grep -Eq '^ +predicted .*, reached ' out || { cat out; fail "not what was reached"; }
@@ -24,23 +17,23 @@ test_chosen()
 # Promise: a tolerance is met, in units of the input and in percent, by fewer vertices the larger it is.
 test_tolerance()
 {
-  make_sphere
+  make_cloud 5000
   local length vertices last=1000000
   for length in 0.002 0.3% 0.03; do
-    expect 0 "$neuralmesh" reconstruct sphere.xyz mesh.ply --tolerance "$length"
+    expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --tolerance "$length"
     grep -Eq '^how many   the fewest vertices that meet the tolerance of ' out || { cat out; fail "not why"; }
     vertices=$(awk '/^vertices/ { print $2 }' out)
     [ "$vertices" -lt "$last" ] || { cat out; fail "$length takes $vertices vertices"; }
     last=$vertices
   done
-  expect 0 "$neuralmesh" reconstruct sphere.xyz mesh.ply --tolerance 0.03 --tolerance-of largest
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --tolerance 0.03 --tolerance-of largest
   [ "$(awk '/^vertices/ { print $2 }' out)" -ge "$last" ] || { cat out; fail "the largest takes fewer"; }
 }
 
 # Promise: wrong use is told before anything is done, and a cloud that tells nothing in words; nothing is written.
 test_wrong_use()
 {
-  make_sphere
+  make_cloud 5000
   local options
   for options in "--vertices automatic" "--vertices 3" "--tolerance 0" "--tolerance 0%" "--tolerance -1" \
     "--tolerance wide" "--tolerance nan" "--tolerance 1 --vertices 100" "--tolerance 1 --levels 100,200" \
@@ -49,10 +42,10 @@ test_wrong_use()
     "--vertices auto --dry-run"; do
     # Options are words.
     # shellcheck disable=SC2086
-    expect 2 "$neuralmesh" reconstruct sphere.xyz mesh.ply $options
+    expect 2 "$neuralmesh" reconstruct cloud.xyz mesh.ply $options
     [ -s err ] || fail "$options: no words"
   done
-  expect 1 "$neuralmesh" reconstruct sphere.xyz mesh.ply --tolerance 100
+  expect 1 "$neuralmesh" reconstruct cloud.xyz mesh.ply --tolerance 100
   grep -q 'any mesh meets it' err || { cat err; fail "not the reason"; }
   printf '0 0 0\n1 0 0\n0 1 0\n' > three.xyz
   expect 1 "$neuralmesh" reconstruct three.xyz mesh.ply --vertices auto

@@ -13,10 +13,12 @@
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkPolyDataAlgorithm.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <initializer_list>
 #include <iostream>
@@ -177,6 +179,18 @@ public:
   std::string LastText;
   std::string AllText;
 };
+
+/** Updates a filter that cannot do what is wanted of it: one error has these words, and there is no mesh. */
+inline int CheckRefusal(vtkPolyDataAlgorithm* filter, const char* words)
+{
+  vtkNew<MessageCounter> messages;
+  messages->Observe(filter);
+  filter->Update();
+  CHECK(messages->Errors == 1);
+  CHECK(messages->AllText.find(words) != std::string::npos);
+  CHECK(filter->GetOutput()->GetNumberOfPoints() == 0);
+  return EXIT_SUCCESS;
+}
 }
 
 #endif

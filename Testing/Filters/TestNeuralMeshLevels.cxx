@@ -49,13 +49,7 @@ int CheckError(
   filter->AddLevel(100);
   filter->AddLevel(200);
   prepare(filter);
-  vtkNew<MessageCounter> messages;
-  messages->Observe(filter);
-  filter->Update();
-  CHECK(messages->Errors == 1);
-  CHECK(messages->AllText.find(words) != std::string::npos);
-  CHECK(filter->GetOutput()->GetNumberOfPoints() == 0);
-  return EXIT_SUCCESS;
+  return CheckRefusal(filter, words);
 }
 
 /** A torus whose points have the array Trust. */

@@ -47,13 +47,7 @@ int CheckError(
   filter->SetTolerance(0.5);
   filter->ToleranceIsPercentOn();
   prepare(filter);
-  vtkNew<MessageCounter> messages;
-  messages->Observe(filter);
-  filter->Update();
-  CHECK(messages->Errors == 1);
-  CHECK(messages->AllText.find(words) != std::string::npos);
-  CHECK(filter->GetOutput()->GetNumberOfPoints() == 0);
-  return EXIT_SUCCESS;
+  return CheckRefusal(filter, words);
 }
 
 /** 0 is kept, what is between it and the range is not. */

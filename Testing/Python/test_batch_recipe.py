@@ -47,7 +47,7 @@ BAD = {
     ),
     '{"scans": ["a.xyz"], "matrix": {"vertices": []}}': ("matrix.vertices: the list is empty",),
     '{"scans": ["a.xyz"], "matrix": {"vertices": [100, 3]}}': (
-        "matrix.vertices[1]: vertices must be an integer from 4 to 1000000000, or 0, not 3",
+        'matrix.vertices[1]: vertices must be an integer from 4 to 1000000000, or 0, or "auto", not 3',
     ),
     '{"scans": ["a.xyz"], "matrix": {"vertices": "many"}}': ("matrix.vertices: vertices must be",),
     '{"scans": ["a.xyz"], "matrix": {"vertices": [[100]]}}': ("matrix.vertices[0]: vertices",),

@@ -48,7 +48,7 @@ class HowMany(unittest.TestCase):
     def test_wrong_use(self):
         for points, more, words in (
             (sphere(), {"vertices": 3}, "an integer from 4 to 1000000000, or 0"),
-            (sphere(), {"vertices": "many"}, "an integer from 4 to 1000000000, or 0"),
+            (sphere(), {"vertices": "AUTO"}, 'an integer from 4 to 1000000000, or 0, or "auto", not'),
             (sphere(), {"tolerance": -1}, "from 0"),
             (sphere(), {"tolerance": 100}, "any mesh meets it"),
             (sphere(3), {"vertices": "auto"}, "3 points"),

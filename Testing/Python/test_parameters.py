@@ -109,8 +109,8 @@ class Errors(unittest.TestCase):
     def test_messages(self):
         messages = {
             "winner_rate must be a number from 0 to 1, not 2": {"winner_rate": 2},
-            "vertices must be an integer from 4 to 1000000000, or 0, not 3": {"vertices": 3},
-            "vertices must be an integer from 4 to 1000000000, or 0, not 50.5": {"vertices": 50.5},
+            'vertices must be an integer from 4 to 1000000000, or 0, or "auto", not 3': {"vertices": 3},
+            'vertices must be an integer from 4 to 1000000000, or 0, or "auto", not 50.5': {"vertices": 50.5},
             "seed must be an integer from 0 to 2147483647, not -1": {"seed": -1},
             "edge_flips must be True or False, not 2": {"edge_flips": 2},
             "variant must be 'basic' or 'noise_filtering' or 'normal_based', not 'noisy'": {"variant": "noisy"},

@@ -51,12 +51,18 @@ class Remesh(unittest.TestCase):
             ((points, triangles[:0]), {}, "no triangles"),
             ((points * (1, 0, 0), triangles), {}, "no area"),
             (points, {}, "surface must be"),
+            ((points, triangles.reshape(-1, 2)), {}, r"whole numbers of shape \(T, 3\), not of shape"),
+            ((points, points), {}, "type float64"),
             ((points, triangles), {"time_limit": 5}, "ends a run early"),
             ((points, triangles), {"automatic": True}, "automatic"),
             ((points, triangles), {"boundaries": "close"}, "boundaries that are closed"),
+            ((points, triangles), {"preset": "thesis"}, "which the preset Thesis sets"),
         ):
             with self.assertRaisesRegex(ValueError, words):
                 neuralmesh.remesh(surface, 100, **more)
+        for name, value in (("levels", (10, 100)), ("input_is", "surface"), ("checkpoint", "state")):
+            with self.assertRaisesRegex(TypeError, f"^remesh.* '{name}'; .*neuralmesh.remesh"):
+                neuralmesh.remesh((points, triangles), 100, **{name: value})
 
 
 if __name__ == "__main__":

@@ -96,4 +96,17 @@ TriangleMesh makeTorus(double tubeRadius, unsigned resolution)
   }
   return mesh;
 }
+
+void append(TriangleMesh& mesh, const TriangleMesh& other, const Eigen::Vector3d& shift)
+{
+  const auto first = std::uint32_t(mesh.points.size());
+  for (const Eigen::Vector3d& point : other.points)
+  {
+    mesh.points.push_back(point + shift);
+  }
+  for (const auto& [a, b, c] : other.triangles)
+  {
+    mesh.triangles.push_back({ first + a, first + b, first + c });
+  }
+}
 }

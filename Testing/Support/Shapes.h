@@ -15,4 +15,8 @@ TriangleMesh makeSphere(unsigned resolution = 64);
 /// A torus around the z axis: distance of the tube's centre from the axis 1, radius of the tube as
 /// given. It has 2 * resolution quadrangles around the axis and `resolution` around the tube.
 TriangleMesh makeTorus(double tubeRadius = 0.4, unsigned resolution = 128);
+
+/// Adds another mesh, shifted, as a piece of its own.
+void append(TriangleMesh& mesh, const TriangleMesh& other,
+  const Eigen::Vector3d& shift = Eigen::Vector3d::Zero());
 }

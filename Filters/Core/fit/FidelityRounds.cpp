@@ -56,10 +56,9 @@ int FidelityRounds::count(Fidelity fidelity, bool isClean)
   return isClean ? rounds.clean : rounds.noisy;
 }
 
-bool FidelityRounds::run(
-  Fidelity fidelity, bool isClean, bool isFixed, double lambda, const Progress& progress)
+bool FidelityRounds::run(Fidelity fidelity, int rounds, bool isClean, bool isFixed, double lambda,
+  const Progress& progress)
 {
-  const int rounds = count(fidelity, isClean);
   lambda_ = lambda * (isClean && !isFixed ? PartOnCleanClouds : 1.);
   fit_.findExactly();
   fit_.keepBoundaries();

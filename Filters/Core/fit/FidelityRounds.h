@@ -38,9 +38,10 @@ public:
   /// How many rounds there are.
   static int count(Fidelity fidelity, bool isClean);
 
-  /// Of a clean or a noisy cloud. Begins with `lambda`, that of the rounds before; where it is fixed, it is not chosen
-  /// anew. Returns false if it was ended before.
-  bool run(Fidelity fidelity, bool isClean, bool isFixed, double lambda, const Progress& progress);
+  /// So many of a clean or a noisy cloud. Begins with `lambda`, that of the rounds before; where it is fixed, it is not
+  /// chosen anew. Returns false if it was ended before.
+  bool run(Fidelity fidelity, int rounds, bool isClean, bool isFixed, double lambda,
+    const Progress& progress);
 
   double lambda() const { return lambda_; }
   std::size_t heldVertices() const { return heldVertices_; }

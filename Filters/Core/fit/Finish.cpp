@@ -365,10 +365,11 @@ void Finish::tell(const NoiseParts& parts)
 /// The rounds that come after the first ones.
 bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
 {
-  report_.fidelityRounds = FidelityRounds::count(plan_.fidelity, report_.isClean);
+  report_.fidelityRounds =
+    std::min(plan_.mostFidelityRounds, FidelityRounds::count(plan_.fidelity, report_.isClean));
   FidelityRounds rounds(mesh_, surfaceFit, plan_.vertexCount, plan_.keepsPlaces, executor_);
-  if (!rounds.run(
-        plan_.fidelity, report_.isClean, plan_.smoothness > 0., report_.smoothness, progress))
+  if (!rounds.run(plan_.fidelity, report_.fidelityRounds, report_.isClean, plan_.smoothness > 0.,
+        report_.smoothness, progress))
   {
     return false;
   }

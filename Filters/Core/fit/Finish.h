@@ -14,6 +14,7 @@
 #include "mesh/StoredMesh.h"
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 namespace neuralmesh
@@ -46,6 +47,7 @@ struct FinishPlan
 {
   int rounds = 2;                        ///< of the least-squares fit
   Fidelity fidelity = Fidelity::Default; ///< tells how many come after them, and of which kind
+  int mostFidelityRounds = std::numeric_limits<int>::max(); ///< ... but no more than these
   /// What the residual is measured to that may not grow. Where a mesh is to be simplified, what lies ill on
   /// thin parts counts.
   DistanceTo residualTo = DistanceTo::Surface;

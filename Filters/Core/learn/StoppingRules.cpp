@@ -49,6 +49,13 @@ std::string_view name(StopReason reason)
   return "";
 }
 
+bool mayEndBeforeVertices(const Parameters& parameters)
+{
+  return parameters.timeLimit > 0. || parameters.maximumIterations > 0 ||
+    parameters.targetSampleDistance > 0. || parameters.targetCloudDistance > 0. ||
+    parameters.targetNormalChange > 0.;
+}
+
 StoppingRules::StoppingRules(
   const PointCloud& cloud, const Parameters& parameters, std::size_t firstVertices)
   : cloud_(cloud)

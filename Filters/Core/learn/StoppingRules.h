@@ -25,6 +25,9 @@ enum class StopReason
 
 std::string_view name(StopReason reason);
 
+/// Whether a rule may end a run before its mesh has all of its vertices.
+bool mayEndBeforeVertices(const Parameters& parameters);
+
 /// When to end a run: whichever rule is met first.
 class StoppingRules
 {

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -104,7 +106,13 @@ public:
       });
     for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
     {
-      pushCollapsesOf(v);
+      for (const VertexIndex neighbor : mesh.ring(v))
+      {
+        if (v < neighbor)
+        {
+          pushBothWays(v, neighbor);
+        }
+      }
     }
   }
 
@@ -114,6 +122,11 @@ public:
     {
       const auto [cost, removed, kept] = edges_.top();
       edges_.pop();
+      const auto waiting = waiting_.find(keyOf(removed, kept));
+      if (waiting != waiting_.end() && waiting->second == cost)
+      {
+        waiting_.erase(waiting);
+      }
       if (mesh_.isAlive(removed) && mesh_.ring(removed).contains(kept))
       {
         collapse(removed, kept, cost);
@@ -154,12 +167,16 @@ private:
       .leastPlace(0.5f * (mesh_.position(removed) + mesh_.position(kept)));
   }
 
-  /// Never, where it may not be, or a triangle would turn over.
+  /// Never, where it may not be, or a triangle would turn over. Either way costs as much, if it may be.
   double costOf(VertexIndex removed, VertexIndex kept) const
   {
+    return mesh_.canCollapse(removed, kept) ? costEitherWay(removed, kept) : Never;
+  }
+
+  double costEitherWay(VertexIndex removed, VertexIndex kept) const
+  {
     const Vector4 place = placeOf(removed, kept);
-    if (!mesh_.canCollapse(removed, kept) || turnsOver(removed, kept, place) ||
-      turnsOver(kept, removed, place))
+    if (turnsOver(removed, kept, place) || turnsOver(kept, removed, place))
     {
       return Never;
     }
@@ -225,28 +242,53 @@ private:
     quadrics_[kept].add(quadrics_[removed]);
     mesh_.collapse(removed, kept);
     mesh_.setPosition(kept, place);
-    pushCollapsesOf(kept);
-    for (const VertexIndex neighbor : mesh_.ring(kept))
-    {
-      pushCollapsesOf(neighbor);
-    }
+    pushAround(kept);
   }
 
-  void pushCollapsesOf(VertexIndex v)
+  /// All edges of a vertex and of its neighbours, each once.
+  void pushAround(VertexIndex v)
   {
-    for (const VertexIndex neighbor : mesh_.ring(v))
+    const Ring& ring = mesh_.ring(v);
+    for (const VertexIndex neighbor : ring)
     {
-      push(costOf(v, neighbor), v, neighbor);
-      push(costOf(neighbor, v), neighbor, v);
+      pushBothWays(v, neighbor);
+      for (const VertexIndex other : mesh_.ring(neighbor))
+      {
+        if (other != v && (neighbor < other || !ring.contains(other)))
+        {
+          pushBothWays(neighbor, other);
+        }
+      }
     }
   }
 
+  void pushBothWays(VertexIndex a, VertexIndex b)
+  {
+    const bool isToB = mesh_.canCollapse(a, b), isToA = mesh_.canCollapse(b, a);
+    if (isToB || isToA)
+    {
+      const double cost = costEitherWay(a, b);
+      push(isToB ? cost : Never, a, b);
+      push(isToA ? cost : Never, b, a);
+    }
+  }
+
+  /// Most edges around a collapse cost what they did before, and wait already.
   void push(double cost, VertexIndex removed, VertexIndex kept)
   {
     if (cost < Never)
     {
-      edges_.push({ cost, removed, kept });
+      const auto [waiting, isNew] = waiting_.try_emplace(keyOf(removed, kept), cost);
+      if (isNew || std::exchange(waiting->second, cost) != cost)
+      {
+        edges_.push({ cost, removed, kept });
+      }
     }
+  }
+
+  static std::uint64_t keyOf(VertexIndex removed, VertexIndex kept)
+  {
+    return std::uint64_t(removed) << 32 | kept;
   }
 
   Mesh& mesh_;
@@ -254,6 +296,8 @@ private:
   float leastShape_;
   std::vector<Quadric> quadrics_;
   EdgeQueue<double> edges_; ///< that vanish with their first vertex
+  /// What an edge has cost that was pushed last, if that waits.
+  std::unordered_map<std::uint64_t, double> waiting_;
 };
 
 void simplifyBy(Mesh& mesh, std::size_t count, double evenness, float leastShape)

@@ -19,8 +19,8 @@ constexpr std::size_t MostMeasured = 20000;
 /// 99 % of a normal distribution lie within so many standard deviations.
 constexpr double DeviationsOfNinetyNine = 2.5758;
 
-/// Neighbours are looked at of about so many points, at some of the vertices.
-constexpr std::size_t PointsWithNeighbours = 40000;
+/// Neighbours are looked at of about so many points, at some of the vertices: of all around one, or of nearly all.
+constexpr std::size_t PointsWithNeighbours = 20000;
 /// Of those at a vertex so many are compared with each other.
 constexpr std::size_t MostBesideVertex = 256;
 constexpr std::size_t PlacedPerRange = 4096;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/Levels.h"
 
+#include "learn/StoppingRules.h"
 #include "mesh/QuadricSimplification.h"
+#include "run/Exclusions.h"
 
 #include <algorithm>
 #include <functional>
@@ -52,13 +54,6 @@ Beginning simplified(Beginning beginning, std::uint64_t vertices, std::uint64_t 
   return beginning;
 }
 
-/// The same parameters with another number of vertices; `parameters` must outlive it.
-RunRequest requestOf(const RunRequest& request, const Parameters& parameters)
-{
-  return { request.cloud, parameters, request.first, request.executor, request.hints,
-    request.explainsAll };
-}
-
 /// A level that may have lost thin parts.
 struct DoubtfulLevel
 {
@@ -80,7 +75,7 @@ void takeDoubtful(Run& run, const std::optional<LearntRun>& learnt, const RunReq
     {
       Reconstruction other = learnt
         ? betterOf(mesh, run.finish(*learnt, parameters.numberOfVertices, { 1., 1. }), holdsMore)
-        : runWithThinParts(mesh, requestOf(request, parameters), progress);
+        : runWithThinParts(mesh, requestWith(request, parameters), progress);
       if (other.stopReason == StopReason::Cancelled)
       {
         last.stopReason = StopReason::Cancelled;
@@ -107,21 +102,11 @@ std::string whyNoLevels(
   {
     return "The levels must ascend: each needs more vertices than the one before.";
   }
-  const bool hasRules = parameters.timeLimit > 0. || parameters.maximumIterations > 0 ||
-    parameters.targetSampleDistance > 0. || parameters.targetCloudDistance > 0. ||
-    parameters.targetNormalChange > 0.;
-  for (const auto& [isThere, name] :
-    { std::pair(beside.firstMesh, "a first mesh or an ensemble"),
-      std::pair(beside.checkpoint, "a checkpoint"), std::pair(beside.snapshots, "growth as time"),
-      std::pair(beside.automatic, "the automatic choice of parameters"),
-      std::pair(hasRules, "a stopping rule other than the number of vertices") })
-  {
-    if (isThere)
-    {
-      return std::string("Levels and ") + name + " exclude each other.";
-    }
-  }
-  return {};
+  return whyExcluded("Levels",
+    { { beside.firstMesh, "a first mesh or an ensemble" }, { beside.checkpoint, "a checkpoint" },
+      { beside.snapshots, "growth as time" },
+      { beside.automatic, "the automatic choice of parameters" },
+      { mayEndBeforeVertices(parameters), "a stopping rule other than the number of vertices" } });
 }
 
 Reconstruction reconstructLevels(const RunRequest& request, std::span<const std::uint64_t> levels,
@@ -143,7 +128,7 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
     {
       Parameters parameters = request.parameters;
       parameters.numberOfVertices = levels[level];
-      const RunRequest own = requestOf(request, parameters);
+      const RunRequest own = requestWith(request, parameters);
       const double end = done + (1. - StartOfLearning) * double(levels[level]) / all;
       const double endOfGrowth = done + PartOfGrowth * (end - done);
       LearntRun learnt =

@@ -57,9 +57,7 @@ bool mayLearnOtherwise(const RunRequest& request)
 {
   const Parameters& parameters = request.parameters;
   return !request.first && parameters.fitRounds > 0 && !parameters.topologyLearning &&
-    parameters.timeLimit == 0. && parameters.maximumIterations == 0 &&
-    parameters.targetSampleDistance == 0. && parameters.targetCloudDistance == 0. &&
-    parameters.targetNormalChange == 0.;
+    !mayEndBeforeVertices(parameters);
 }
 
 /// Handles and pieces may need more vertices than there are to be, or so many that the rest is too coarse, and

@@ -4,9 +4,11 @@
 #include "cloud/MeshBuilder.h"
 #include "fit/Finish.h"
 #include "fit/MeshQuality.h"
+#include "learn/StoppingRules.h"
 #include "mesh/Pieces.h"
 #include "mesh/StoredMesh.h"
 #include "mesh/Subdivision.h"
+#include "run/Exclusions.h"
 #include "run/Warnings.h"
 #include "start/SurfaceStart.h"
 
@@ -48,35 +50,24 @@ FinishPlan planFor(const Mesh& mesh, const NearestTriangle& surface, const Param
 
 std::string whyNoRemeshing(const Parameters& parameters, const BesideSurface& beside)
 {
-  const bool hasRules = parameters.timeLimit > 0. || parameters.maximumIterations > 0 ||
-    parameters.targetSampleDistance > 0. || parameters.targetCloudDistance > 0. ||
-    parameters.targetNormalChange > 0.;
-  for (const auto& [isThere, name] :
-    { std::pair(beside.points, "points in a file"),
-      std::pair(beside.firstMesh, "a first mesh or an ensemble"),
-      std::pair(beside.weights, "weights"),
-      std::pair(beside.sides, "the outer side (viewpoints, views, named normals, an up direction)"),
-      std::pair(beside.size, "a number of vertices that is to be found"),
-      std::pair(beside.levels, "levels"), std::pair(beside.checkpoint, "a checkpoint"),
-      std::pair(beside.snapshots, "growth as time"),
-      std::pair(beside.automatic, "the automatic choice of parameters"),
-      std::pair(beside.explanation, "explained points"),
-      std::pair(beside.estimate, "an estimate of the run (--dry-run)"),
-      std::pair(hasRules, "a rule that ends a run early"),
-      std::pair(parameters.start == Start::Tetrahedron, "another start"),
-      std::pair(parameters.topologyLearning, "topology learning"),
-      std::pair(parameters.boundaries == Boundaries::Close, "boundaries that are closed"),
-      std::pair(parameters.closeHolesBelow > 0., "holes that are closed"),
-      std::pair(parameters.computeFeatureStrength, "feature strength"),
-      std::pair(parameters.computeUncertainty, "error bars") })
-  {
-    if (isThere)
-    {
-      return std::string("A surface is remeshed, not learnt: it and ") + name +
-        " exclude each other.";
-    }
-  }
-  return {};
+  return whyExcluded("A surface is remeshed, not learnt: it",
+    { { beside.points, "points in a file" }, { beside.firstMesh, "a first mesh or an ensemble" },
+      { beside.weights, "weights" },
+      { beside.sides,
+        "the outer side (viewpoints, views, named normals, an up direction)" },
+      { beside.size, "a number of vertices that is to be found" }, { beside.levels, "levels" },
+      { beside.checkpoint, "a checkpoint" }, { beside.snapshots, "growth as time" },
+      { beside.automatic, "the automatic choice of parameters" },
+      { beside.explanation, "explained points" },
+      { beside.estimate, "an estimate of the run (--dry-run)" },
+      { mayEndBeforeVertices(parameters), "a rule that ends a run early" },
+      { parameters.start == Start::Tetrahedron,
+        "learning from a tetrahedron (Start, which the preset Thesis sets)" },
+      { parameters.topologyLearning, "topology learning" },
+      { parameters.boundaries == Boundaries::Close, "boundaries that are closed" },
+      { parameters.closeHolesBelow > 0., "holes that are closed" },
+      { parameters.computeFeatureStrength, "feature strength" },
+      { parameters.computeUncertainty, "error bars" } });
 }
 
 std::size_t samplesOfSurface(const Parameters& parameters)

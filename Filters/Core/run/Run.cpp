@@ -50,6 +50,12 @@ Parameters parametersFor(std::uint64_t vertices, const RunRequest& request)
 }
 }
 
+RunRequest requestWith(const RunRequest& request, const Parameters& parameters)
+{
+  return { request.cloud, parameters, request.first, request.executor, request.hints,
+    request.explainsAll };
+}
+
 Run::Run(const RunRequest& request, const Progress& progress)
   : request_(request)
   , progress_([this, &progress](double fraction)
@@ -94,11 +100,22 @@ LearntRun Run::learn(std::uint64_t vertices, Beginning beginning, ProgressPart p
   return { std::move(result), std::move(learnt), rules, vertices, gaps, isLearnt };
 }
 
-void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress, bool tellsUncertainty)
+Progress Run::inTime(const LearntRun& run, const Progress& progress) const
+{
+  const double limit = request_.parameters.timeLimit;
+  return [limit, &rules = run.rules, progress](double fraction)
+  { return progress(fraction) && !(limit > 0. && rules.seconds() >= limit); };
+}
+
+StopReason Run::whyEnded() const
+{
+  return isCancelled_ ? StopReason::Cancelled : StopReason::TimeLimit;
+}
+
+void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress)
 {
   Reconstruction& result = run.result;
   LearntMesh& learnt = run.learnt;
-  const StoppingRules& rules = run.rules;
   const std::uint64_t vertices = run.vertices;
   const Parameters parameters = parametersFor(vertices, request_);
   const auto most = std::size_t(std::min(vertices, asked));
@@ -108,42 +125,33 @@ void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress, boo
     : request_.first                                                     ? std::max(there, most)
                                                                          : most;
   const bool isRefined = vertices < asked && finished == most;
-  const Progress finishing = [&](double fraction)
-  {
-    const bool isTimeOver = parameters.timeLimit > 0. && rules.seconds() >= parameters.timeLimit;
-    return progress(fraction) && !isTimeOver;
-  };
-  const bool isTold = parameters.computeUncertainty && tellsUncertainty;
-  const double endOfFit = isTold ? PartBeforeUncertainty : 1.;
-  const double endOfFirst = isRefined ? PartBeforeRefinement * endOfFit : endOfFit;
+  const Progress finishing = inTime(run, progress);
+  const double endOfFirst = isRefined ? PartBeforeRefinement : 1.;
   result.finish = neuralmesh::finish(learnt, cloud(), parameters, run.gaps, finished,
     partOf(finishing, 0., endOfFirst), request_.executor, request_.hints);
   if (result.finish && isRefined)
   {
     const auto refined = std::size_t(parametersFor(asked, request_).numberOfVertices);
     if (!refineFinished(learnt, cloud(), parameters, refined, *result.finish,
-          partOf(finishing, endOfFirst, endOfFit), request_.executor))
+          partOf(finishing, endOfFirst, 1.), request_.executor))
     {
       result.finish.reset();
     }
     result.curve.endWith(learnt.mesh);
   }
-  if (!result.finish ||
-    (isTold &&
-      !tellUncertainty(learnt, cloud(), parameters, result, partOf(finishing, endOfFit, 1.),
-        request_.executor, request_.hints)))
+  if (!result.finish)
   {
-    result.stopReason = isCancelled_ ? StopReason::Cancelled : StopReason::TimeLimit;
+    result.stopReason = whyEnded();
   }
 }
 
-void Run::makeMesh(LearntRun& run, std::uint64_t asked, ProgressPart part, bool tellsUncertainty)
+bool Run::make(LearntRun& run, std::uint64_t asked, ProgressPart part)
 {
   Reconstruction& result = run.result;
   const bool isSimplified = !request_.first && run.learnt.mesh.vertexCount() > asked;
   if (request_.parameters.fitRounds > 0 && result.isComplete() && run.isLearnt)
   {
-    fit(run, asked, partOf(progress_, part.begin, part.end), tellsUncertainty);
+    fit(run, asked, partOf(progress_, part.begin, part.end));
   }
   if (isSimplified)
   {
@@ -151,22 +159,37 @@ void Run::makeMesh(LearntRun& run, std::uint64_t asked, ProgressPart part, bool 
     simplifyByQuadrics(run.learnt.mesh, std::size_t(std::min(run.vertices, asked)));
     result.curve.endWith(run.learnt.mesh);
   }
+  return result.isComplete();
 }
 
-std::optional<Mesh> Run::meshOf(LearntRun run, std::uint64_t asked, ProgressPart part)
+bool Run::makeAgain(LearntRun& run, std::uint64_t asked, ProgressPart part)
 {
-  makeMesh(run, asked, part, false);
-  return run.result.isComplete() ? std::optional(std::move(run.learnt.mesh)) : std::nullopt;
+  Reconstruction& result = run.result;
+  result.finish = finishAgain(run.learnt, *result.finish, cloud(), parametersFor(asked, request_),
+    std::size_t(asked), inTime(run, partOf(progress_, part.begin, part.end)), request_.executor,
+    request_.hints);
+  result.curve.endWith(run.learnt.mesh);
+  if (!result.finish)
+  {
+    result.stopReason = whyEnded();
+  }
+  return result.isComplete();
 }
 
-Reconstruction Run::finish(LearntRun run, std::uint64_t asked, ProgressPart part)
+Reconstruction Run::describe(LearntRun run, std::uint64_t asked, ProgressPart part)
 {
   Reconstruction& result = run.result;
   result.times.enter(Phase::Finish);
-  makeMesh(run, asked, part, true);
+  const Parameters parameters = parametersFor(run.vertices, request_);
+  if (parameters.computeUncertainty && result.finish &&
+    !tellUncertainty(run.learnt, cloud(), parameters, result,
+      inTime(run, partOf(progress_, part.begin, part.end)), request_.executor, request_.hints))
+  {
+    result.stopReason = whyEnded();
+  }
   const bool isWhole = result.stopReason != StopReason::Cancelled;
-  describe(std::move(run.learnt), cloud(), isWhole ? &request_.cloud : nullptr, request_.hints,
-    result, request_.executor);
+  neuralmesh::describe(std::move(run.learnt), cloud(), isWhole ? &request_.cloud : nullptr,
+    request_.hints, result, request_.executor);
   if (isWhole)
   {
     explainPoints(request_.cloud, cleaned_ ? &*cleaned_ : nullptr, request_.parameters.keepPieces,
@@ -177,5 +200,15 @@ Reconstruction Run::finish(LearntRun run, std::uint64_t asked, ProgressPart part
   result.warnings = warningsOf(result, request_.cloud, requested);
   result.times.leave();
   return std::move(run.result);
+}
+
+Reconstruction Run::finish(LearntRun run, std::uint64_t asked, ProgressPart part)
+{
+  const double partOfFit = request_.parameters.computeUncertainty ? PartBeforeUncertainty : 1.;
+  const double middle = part.begin + partOfFit * (part.end - part.begin);
+  run.result.times.enter(Phase::Finish);
+  make(run, asked, { part.begin, middle });
+  run.result.times.leave();
+  return describe(std::move(run), asked, { middle, part.end });
 }
 }

@@ -30,6 +30,9 @@ struct RunRequest
   bool explainsAll = false;
 };
 
+/// The same with other parameters, which must outlive it.
+RunRequest requestWith(const RunRequest& request, const Parameters& parameters);
+
 /// A mesh that has learnt all, and what its run knows so far.
 struct LearntRun
 {
@@ -66,15 +69,23 @@ public:
   /// describes it.
   Reconstruction finish(LearntRun run, std::uint64_t asked, ProgressPart part);
 
-  /// The mesh that finish() would make, to be measured; nothing if that was ended before.
-  std::optional<Mesh> meshOf(LearntRun run, std::uint64_t asked, ProgressPart part);
+  // The parts of finish(), for who measures meshes before one of them is described.
+
+  /// Fits what is learnt, and simplifies or refines it to as many vertices as are asked for. Returns whether the run is
+  /// complete so far: nothing was ended before.
+  bool make(LearntRun& run, std::uint64_t asked, ProgressPart part);
+  /// Makes of a mesh that is made and fitted one of a few more or of fewer vertices, and fits that. Returns likewise.
+  bool makeAgain(LearntRun& run, std::uint64_t asked, ProgressPart part);
+  /// Tells error bars, if they are wanted, and describes what is made.
+  Reconstruction describe(LearntRun run, std::uint64_t asked, ProgressPart part);
 
 private:
   const PointCloud& cloud() const { return cleaned_ ? *cleaned_ : request_.cloud; }
   /// Leaves no report of the finish if it was ended before.
-  void fit(LearntRun& run, std::uint64_t asked, const Progress& progress, bool tellsUncertainty);
-  /// Fits what is to be fitted, and simplifies what has more vertices than are asked for.
-  void makeMesh(LearntRun& run, std::uint64_t asked, ProgressPart part, bool tellsUncertainty);
+  void fit(LearntRun& run, std::uint64_t asked, const Progress& progress);
+  /// Reports of whether all is made in time.
+  Progress inTime(const LearntRun& run, const Progress& progress) const;
+  StopReason whyEnded() const;
 
   RunRequest request_;
   Progress progress_;

@@ -2,6 +2,8 @@
 #include "run/SizeChoice.h"
 
 #include "base/WarningTopic.h"
+#include "learn/StoppingRules.h"
+#include "run/Exclusions.h"
 
 #include <algorithm>
 #include <array>
@@ -62,24 +64,11 @@ std::optional<SizeGoal> sizeGoalOf(
 
 std::string whyNoSize(const Parameters& parameters, const BesideSize& beside)
 {
-  const bool hasRules = parameters.timeLimit > 0. || parameters.maximumIterations > 0 ||
-    parameters.targetSampleDistance > 0. || parameters.targetCloudDistance > 0. ||
-    parameters.targetNormalChange > 0.;
-  for (const auto& [isThere, name] :
-    { std::pair(beside.firstMesh, "a first mesh or an ensemble"),
-      std::pair(beside.checkpoint, "a checkpoint"), std::pair(beside.snapshots, "growth as time"),
-      std::pair(beside.automatic, "the automatic choice of parameters"),
-      std::pair(beside.levels, "levels"),
-      std::pair(hasRules, "a stopping rule other than the number of vertices") })
-  {
-    if (isThere)
-    {
-      return std::string(
-               "A number of vertices that is to be found, by itself or by a tolerance, and ") +
-        name + " exclude each other.";
-    }
-  }
-  return {};
+  return whyExcluded("A number of vertices that is to be found, by itself or by a tolerance,",
+    { { beside.firstMesh, "a first mesh or an ensemble" }, { beside.checkpoint, "a checkpoint" },
+      { beside.snapshots, "growth as time" },
+      { beside.automatic, "the automatic choice of parameters" }, { beside.levels, "levels" },
+      { mayEndBeforeVertices(parameters), "a stopping rule other than the number of vertices" } });
 }
 
 std::string whyNoSizeFor(const PointCloud& cloud, const SizeGoal& goal)
@@ -112,7 +101,7 @@ std::optional<double> SizeChoice::expectedWith(std::uint64_t wanted) const
     return byNoise->errorWith(wanted);
   }
   // What is too near in size tells no power of it.
-  constexpr double TimesApart = 1.5;
+  constexpr double TimesApart = 1.3;
   std::vector<SizeTrial> known;
   for (const SizeTrial& trial : trials)
   {
@@ -121,11 +110,15 @@ std::optional<double> SizeChoice::expectedWith(std::uint64_t wanted) const
       known.push_back(trial);
     }
   }
-  if (known.empty() || !(reached > least))
+  const auto larger = std::ranges::find_if(trials,
+    [&](const SizeTrial& trial)
+    { return double(trial.vertices) >= TimesApart * double(vertices); });
+  if ((known.empty() && larger == trials.end()) || !(reached > least))
   {
     return {};
   }
-  double exponent = exponentOf(known.back(), { vertices, reached });
+  const SizeTrial own{ vertices, reached };
+  double exponent = known.empty() ? exponentOf(own, *larger) : exponentOf(known.back(), own);
   if (wanted > vertices && known.size() > 1)
   {
     // It falls: what noise and edges leave cannot be had by vertices.

@@ -39,18 +39,27 @@ constexpr double PowerOfCoarseness = 1.7;
 constexpr double CoarsenessLeft = 0.04;
 
 // A tolerance.
-constexpr std::uint64_t PointsPerVertexOfGuess = 256;
-constexpr std::size_t MostTrials = 5;
-/// A trial that is to miss the tolerance has so many times fewer vertices than are expected to meet it.
-constexpr double TimesBelow = 1.25;
-/// So much finer than the last trial a mesh may be that is told by it; else one more is made, that is so much coarser.
-constexpr double MostBeyondTrial = 2.5, UsualBeyondTrial = 1.7;
-/// Errors vary from run to run: so many times the vertices that are just enough are made.
-constexpr double TimesEnough = 1.06;
-constexpr std::size_t MostCorrections = 2;
-constexpr double LeastExponent = 0.15, UsualExponent = 0.85, MostExponent = 2.5;
-/// Errors fall by a power that becomes less: beyond two trials at most 1 counts, and so much of it.
-constexpr double PartOfExponent = 0.95;
+constexpr std::uint64_t PointsPerVertexOfGuess = 100;
+constexpr std::uint64_t FewestToAsk = 4;
+/// The first surface of the first trial is fine enough for so many times its vertices.
+constexpr std::uint64_t TimesFirst = 4;
+constexpr std::size_t MostTrials = 8;
+/// A trial has at most so many times the vertices of the largest before it, and at least such a part of those of the
+/// smallest: errors farther off are not told by it.
+constexpr double MostTimesMore = 6., MostTimesFewer = 8.;
+/// ... and so many times those of one that missed the tolerance, where none has met it.
+constexpr double LeastTimesMore = 1.03;
+/// A mesh that is made already is made again with up to so many times its vertices; of more a mesh learns.
+constexpr double MostTimesRefined = 1.3;
+/// With hardly more vertices it comes closer than any run makes as many: so much fewer are enough.
+constexpr double MostTimesForGain = 1.2, PartWithGain = 0.93;
+/// Errors vary from run to run: so many times the vertices that are expected to be just enough are made, and every trial
+/// that misses the tolerance adds as much.
+constexpr double TimesEnough = 1.04;
+/// A mesh is taken that has up to so many times the vertices that are just enough; and one that was made again with so
+/// many as were expected to be, for it is fitted more closely than what any run makes of as many.
+constexpr double TimesTaken = 1.06;
+constexpr double LeastExponent = 0.15, UsualExponent = 0.78, MostExponent = 2.5;
 
 /// Whether what neighbours do not have in common is noise: more than the shape would make of it. The sparser the points
 /// are at the vertices, the more that is.
@@ -110,67 +119,149 @@ private:
     return conclude(ownRun(vertices));
   }
 
-  /// Trials that grow, until they tell how many vertices are enough; then these, and others if they are too few.
+  /// A mesh that is made, and measured.
+  struct Made
+  {
+    LearntRun run;
+    HeldOutError error;
+    bool isMadeAgain = false; ///< with so many as were expected to be enough
+
+    std::uint64_t vertices() const { return run.learnt.mesh.vertexCount(); }
+  };
+
+  bool meets(const HeldOutError& error) const { return errorOf(error) <= choice_.length; }
+
+  /// Trials, until one of them meets the tolerance with hardly more vertices than are enough: it is the result.
   Reconstruction runByTolerance()
   {
     // Smaller ones are simplified from as many as are learnt at least.
     const Parameters fewest = parametersWith(FewestToAsk);
-    std::uint64_t vertices = std::max(
-      { FewestTried, points_ / PointsPerVertexOfGuess, verticesToLearn(requestWith(fewest)) });
-    double wanted = 4. * double(vertices);
+    std::uint64_t vertices = std::min(mostVertices(),
+      std::max({ FewestTried, points_ / PointsPerVertexOfGuess,
+        verticesToLearn(requestWith(request_, fewest)) }));
     for (std::size_t trial = 0; trial < MostTrials; ++trial)
     {
-      if (!tryWith(vertices, std::uint64_t(wanted)))
+      choice_.predicted = measured_.empty() ? choice_.length : expected(vertices);
+      if (!makeTrial(vertices))
       {
         return *std::move(ended_);
       }
-      wanted = enough();
-      const bool isBracketed = errorOf(measured_.front().error) > choice_.length;
-      const auto largest = double(measured_.back().vertices);
-      if (isBracketed && wanted <= MostBeyondTrial * largest)
+      if (isFound())
       {
         break;
       }
-      vertices = std::uint64_t(isBracketed ? wanted / UsualBeyondTrial
-                                           : std::max(wanted / TimesBelow, double(FewestToAsk)));
+      vertices = nextSize();
     }
-    for (std::size_t correction = 0;; ++correction)
+    return conclude(resultOf(*std::move(enough_ ? enough_ : tooFew_)));
+  }
+
+  /// Whether the smallest mesh that meets the tolerance is to be taken, or the largest that there may be does not.
+  bool isFound()
+  {
+    if (enough_ && !meets(enough_->error))
     {
-      const bool isLast = correction == MostCorrections;
-      const std::uint64_t size = isLast ? soundSize() : sizeByTrials();
-      choice_.predicted = std::min(expected(size), choice_.length);
-      Reconstruction result = grownRun(size);
-      limitNoise(result);
-      if (!result.isComplete() || isLast || size == mostVertices())
-      {
-        return conclude(std::move(result));
-      }
-      const HeldOutError error = heldOutError(request_.cloud, result.surface, request_.executor);
-      if (errorOf(error) <= choice_.length)
-      {
-        return conclude(std::move(result));
-      }
-      times_.add(std::exchange(result.times, {}));
-      note(result.surface);
+      // Later trials have told less noise.
+      tooFew_.emplace(*std::move(enough_));
+      enough_.reset();
     }
+    if (!enough_)
+    {
+      return tooFew_->vertices() >= mostVertices();
+    }
+    const double least = std::max(enough(), tooFew_ ? double(tooFew_->vertices()) : 0.);
+    return isLeast_ || enough_->isMadeAgain || double(enough_->vertices()) <= TimesTaken * least;
   }
 
-  /// A little more than are just enough.
-  std::uint64_t sizeByTrials() const
+  /// A little more than are just enough, by the trials; between those that are known to be too few and enough.
+  std::uint64_t nextSize()
   {
-    return std::uint64_t(
-      std::clamp(std::ceil(TimesEnough * enough()), double(FewestToAsk), double(mostVertices())));
+    double size = (1. + (TimesEnough - 1.) * double(1 + missed_)) * enough();
+    if (!enough_ && canMakeAgain() && !tooFew_->isMadeAgain &&
+      size <= MostTimesForGain * double(tooFew_->vertices()))
+    {
+      size *= PartWithGain;
+    }
+    double least = double(FewestToAsk), most = double(mostVertices());
+    if (enough_)
+    {
+      least = std::max(least, double(enough_->vertices()) / MostTimesFewer);
+      most = std::min(most, double(enough_->vertices()) - 1.);
+    }
+    else
+    {
+      most = std::min(most, MostTimesMore * double(tooFew_->vertices()));
+    }
+    if (tooFew_)
+    {
+      least = std::max(least, LeastTimesMore * double(tooFew_->vertices()) + 1.);
+    }
+    isAimed_ = least <= std::ceil(size);
+    return std::uint64_t(std::max(least, std::min(most, std::ceil(size))));
   }
 
-  /// That of the smallest trial which meets the tolerance, if one does.
-  std::uint64_t soundSize() const
+  /// Makes and measures a mesh of so many vertices: of one that has a little fewer, or not far more, or from what was
+  /// learnt last. False if that was ended: then there is what the run ends with.
+  bool makeTrial(std::uint64_t vertices)
   {
-    const auto sound = std::ranges::find_if(
-      measured_, [&](const Measured& one) { return errorOf(one.error) <= choice_.length; });
-    return sound != measured_.end() ? sound->vertices : sizeByTrials();
+    const ProgressPart part = next(PartOfTrial);
+    const double middle = part.begin + PartOfGrowthOfTrial * (part.end - part.begin);
+    const bool isRefined =
+      tooFew_ && double(vertices) <= MostTimesRefined * double(tooFew_->vertices());
+    const Made* const source = !canMakeAgain() ? nullptr
+      : enough_                                ? &*enough_
+      : isRefined                              ? &*tooFew_
+                                               : nullptr;
+    const std::uint64_t largest = measured_.empty() ? TimesFirst * vertices : vertices;
+    LearntRun made = source ? source->run : learn(vertices, largest, { part.begin, middle });
+    PhaseTimes times;
+    times.enter(Phase::Finish);
+    const bool isComplete = source ? run_.makeAgain(made, vertices, { middle, part.end })
+      : made.result.isComplete()   ? run_.make(made, vertices, { middle, part.end })
+                                   : false;
+    times.leave();
+    times_.add(times);
+    if (!isComplete)
+    {
+      ended_ = run_.describe(std::move(made), vertices, { part.end, part.end });
+      ended_->times.add(times_);
+      return false;
+    }
+    times_.add(std::exchange(made.result.times, {}));
+    const HeldOutError error = note(made.learnt.mesh);
+    if (!source)
+    {
+      limitNoise(made.result);
+    }
+    const bool isMet = meets(error);
+    isLeast_ = isMet && source && made.learnt.mesh.vertexCount() >= source->vertices();
+    missed_ += source && !isMet ? 1 : 0;
+    (isMet ? enough_ : tooFew_).emplace(Made{ std::move(made), error, source && isAimed_ });
+    return true;
   }
 
-  static constexpr std::uint64_t FewestToAsk = 4;
+  /// Not where nothing is fitted, nor where vertices are to stay where they have learnt what is told of them.
+  bool canMakeAgain() const
+  {
+    return request_.parameters.fitRounds > 0 && !request_.parameters.computeFeatureStrength;
+  }
+
+  /// As any run would give it: thin parts are held.
+  Reconstruction resultOf(Made made)
+  {
+    const ProgressPart part = next(PartOfResult);
+    const std::uint64_t vertices = made.vertices();
+    // Error bars take time, and tell of it.
+    if (!request_.parameters.computeUncertainty && !progress_(part.end))
+    {
+      made.run.result.stopReason = StopReason::Cancelled;
+    }
+    const Parameters parameters = parametersWith(vertices);
+    const RunRequest request = requestWith(request_, parameters);
+    const Progress atTheEnd = partOf(progress_, part.end, part.end);
+    return runWithThinParts(
+      betterRun(run_.describe(std::move(made.run), vertices, part), request, atTheEnd), request,
+      atTheEnd);
+  }
 
   /// Two trials, between or beyond which errors follow a power of the number of vertices.
   struct Slope
@@ -183,31 +274,26 @@ private:
   /// Between the largest that does not meet the tolerance and the next one; else beyond the last, or before the first.
   Slope slope() const
   {
-    const auto meets = [&](const Measured& one) { return errorOf(one.error) <= choice_.length; };
+    const auto isEnough = [&](const Measured& one) { return meets(one.error); };
     const auto first =
-      std::find_if(measured_.rbegin(), measured_.rend(), std::not_fn(meets)).base();
+      std::find_if(measured_.rbegin(), measured_.rend(), std::not_fn(isEnough)).base();
     // Of [0, below) the last does not meet it.
     const auto below = std::size_t(first - measured_.begin());
-    const std::size_t from = below > 0 ? below - 1 : 0;
     if (below > 0 && below < measured_.size())
     {
-      return slopeBetween(from, below);
+      return slopeBetween(below - 1, below);
     }
-    // Errors vary: what lies close together tells no power.
+    const std::size_t from = below > 0 ? below - 1 : 0;
+    // Errors vary: what lies close together tells no power, and what lies apart not all of it.
     constexpr double TimesApart = 1.5;
-    std::size_t other = from;
-    while (other > 0 &&
-      double(measured_[other].vertices) * TimesApart > double(measured_[from].vertices))
-    {
-      --other;
-    }
-    const bool isApart =
-      double(measured_[other].vertices) * TimesApart <= double(measured_[from].vertices);
     Slope result{ double(measured_[from].vertices), errorOf(measured_[from].error), UsualExponent };
-    if (isApart)
+    for (std::size_t other = 0; other < measured_.size(); ++other)
     {
-      result.exponent =
-        std::max(LeastExponent, PartOfExponent * std::min(1., slopeBetween(other, from).exponent));
+      const auto [fewer, more] = std::minmax(from, other);
+      if (double(measured_[more].vertices) >= TimesApart * double(measured_[fewer].vertices))
+      {
+        result.exponent = 0.5 * (UsualExponent + slopeBetween(fewer, more).exponent);
+      }
     }
     return result;
   }
@@ -297,7 +383,7 @@ private:
 
   /// Keeps what is known of a mesh. The more vertices it has, the less of the shape is left in what neighbours do not
   /// have in common.
-  void note(const Mesh& mesh)
+  HeldOutError note(const Mesh& mesh)
   {
     const std::uint64_t vertices = mesh.vertexCount();
     const HeldOutError error = heldOutError(request_.cloud, mesh, request_.executor);
@@ -313,6 +399,7 @@ private:
     }
     measured_.push_back({ vertices, error });
     std::ranges::sort(measured_, {}, &Measured::vertices);
+    return error;
   }
 
   Parameters parametersWith(std::uint64_t vertices) const
@@ -320,12 +407,6 @@ private:
     Parameters parameters = request_.parameters;
     parameters.numberOfVertices = vertices;
     return parameters;
-  }
-
-  RunRequest requestWith(const Parameters& parameters) const
-  {
-    return { request_.cloud, parameters, request_.first, request_.executor, request_.hints,
-      request_.explainsAll };
   }
 
   /// Where what comes next ends, of the whole progress.
@@ -342,7 +423,7 @@ private:
   {
     constexpr double TimesFiner = 1.5;
     // A mesh grows from a first surface of fewer vertices.
-    constexpr double MostOfMesh = 0.6;
+    constexpr double MostOfMesh = 0.8;
     while (largest > vertices && double(firstVertices(largest)) > MostOfMesh * double(vertices))
     {
       largest = std::max(vertices, largest / 2);
@@ -366,7 +447,7 @@ private:
   {
     const double middle = part.begin + 0.2 * (part.end - part.begin);
     const Parameters parameters = parametersWith(vertices);
-    const std::uint64_t learnt = verticesToLearn(requestWith(parameters));
+    const std::uint64_t learnt = verticesToLearn(requestWith(request_, parameters));
     Beginning beginning = beginningFor(learnt, largest, { part.begin, middle });
     LearntRun run = run_.learn(learnt, std::move(beginning), { middle, part.end }, none_);
     // A first surface that has more vertices than are asked for is simplified, and learns nothing.
@@ -384,35 +465,16 @@ private:
     times_.add(std::exchange(learnt.result.times, {}));
     PhaseTimes times;
     times.enter(Phase::Choice);
-    std::optional<Mesh> mesh;
-    if (learnt.result.isComplete())
+    if (!learnt.result.isComplete() || !run_.make(learnt, vertices, { middle, part.end }))
     {
-      mesh = run_.meshOf(learnt, vertices, { middle, part.end });
-    }
-    if (!mesh)
-    {
-      ended_ = run_.finish(std::move(learnt), vertices, { part.end, part.end });
+      ended_ = run_.describe(std::move(learnt), vertices, { part.end, part.end });
       ended_->times.add(times_);
       return false;
     }
-    note(*mesh);
+    note(learnt.learnt.mesh);
     times.leave();
     times_.add(times);
     return true;
-  }
-
-  /// A mesh that goes on from the last trial.
-  Reconstruction grownRun(std::uint64_t vertices)
-  {
-    const ProgressPart part = next(PartOfResult);
-    const double middle = part.begin + PartOfGrowthOfTrial * (part.end - part.begin);
-    const Parameters parameters = parametersWith(vertices);
-    LearntRun learnt = learn(vertices, vertices, { part.begin, middle });
-    const RunRequest request = requestWith(parameters);
-    const Progress atTheEnd = partOf(progress_, part.end, part.end);
-    return runWithThinParts(
-      betterRun(run_.finish(std::move(learnt), vertices, { middle, part.end }), request, atTheEnd),
-      request, atTheEnd);
   }
 
   Reconstruction ownRun(std::uint64_t vertices)
@@ -430,12 +492,15 @@ private:
       return result;
     }
     limitNoise(result);
+    choice_.vertices = result.surface.vertexCount();
     for (const Measured& one : measured_)
     {
-      choice_.trials.push_back({ one.vertices, errorOf(one.error) });
+      if (one.vertices != choice_.vertices)
+      {
+        choice_.trials.push_back({ one.vertices, errorOf(one.error) });
+      }
     }
     const HeldOutError error = heldOutError(request_.cloud, result.surface, request_.executor);
-    choice_.vertices = result.surface.vertexCount();
     choice_.reached = errorOf(error);
     choice_.least = leastTold(error, noise_) * request_.cloud.unit();
     if (const std::string warning = choice_.warning(); !warning.empty())
@@ -461,6 +526,11 @@ private:
   double done_ = 0.;
   PhaseTimes times_;
   std::optional<Reconstruction> ended_;
+  // For a tolerance: the smallest that meets it, and the largest that does not.
+  std::optional<Made> enough_, tooFew_;
+  bool isAimed_ = false;   ///< whether so many are made as are expected to be enough
+  bool isLeast_ = false;   ///< the shape needs so many
+  std::size_t missed_ = 0; ///< trials that were made again, and did not meet it
 };
 }
 

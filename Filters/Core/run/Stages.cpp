@@ -32,6 +32,9 @@ constexpr double VerticesOfDensePiece = 20.;
 /// With fewer vertices, claws and ears are no wider than edges, and would be lost while the mesh grows.
 constexpr std::uint64_t FewestDistributedLater = 10000;
 
+/// Where a mesh is finished that was finished before, with a few more vertices: more rounds bring hardly anything.
+constexpr int FidelityRoundsAgain = 2;
+
 /// Points that are explained where only their numbers are wanted: as many as are fitted, for what is lost may have
 /// a handful.
 constexpr std::size_t FewestExplained = 10000;
@@ -77,11 +80,31 @@ PointViews viewsOf(const PointCloud& cloud, const OrientationHints& hints)
                                                   : PointViews();
 }
 
+/// What a finish is planned to do with parameters.
+FinishPlan finishPlan(const Parameters& parameters)
+{
+  return { .rounds = parameters.fitRounds,
+    .fidelity = parameters.fidelity,
+    .keepsPlaces = parameters.computeFeatureStrength,
+    .smoothness = parameters.fitSmoothness,
+    .tellsSmoothness = parameters.computeUncertainty,
+    .samplesPerVertex = parameters.fitSamples,
+    .gaps = {} };
+}
+
 /// Of length 1; 0 if it tells nothing.
 Vector4 givenDirection(const Eigen::Vector3d& vector)
 {
   const double length = vector.stableNorm();
   return length > 0. && vector.allFinite() ? Vector4(Eigen::Vector3d(vector / length)) : Vector4();
+}
+
+/// Likewise those that came with them.
+PointNormals normalsOf(const PointCloud& cloud, const OrientationHints& hints)
+{
+  return hints.normalOf && !cloud.origins().empty() ? [&](std::size_t point)
+  { return givenDirection(hints.normalOf(cloud.origins()[point])); }
+                                                    : PointNormals();
 }
 }
 
@@ -146,15 +169,10 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Parameters& parameters, const std::optional<GapPlan>& gaps, std::size_t vertexCount,
   const Progress& progress, const Executor& executor, const OrientationHints& hints)
 {
-  FinishPlan plan{ .rounds = parameters.fitRounds,
-    .fidelity = parameters.fidelity,
-    .keepsPlaces = parameters.computeFeatureStrength,
-    .smoothness = parameters.fitSmoothness,
-    .tellsSmoothness = parameters.computeUncertainty,
-    .samplesPerVertex = parameters.fitSamples,
-    .gaps = gaps,
-    .closedOutline = parameters.closeHolesBelow / cloud.unit(),
-    .vertexCount = std::max(vertexCount, learnt.mesh.vertexCount()) };
+  FinishPlan plan = finishPlan(parameters);
+  plan.gaps = gaps;
+  plan.closedOutline = parameters.closeHolesBelow / cloud.unit();
+  plan.vertexCount = std::max(vertexCount, learnt.mesh.vertexCount());
   dropPieces(learnt.mesh, parameters.keepPieces, VerticesOfDensePiece * parameters.keepPieces);
   const bool isSimplified = plan.vertexCount > vertexCount;
   if (isSimplified)
@@ -168,9 +186,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const double endOfFirst = isSimplified ? 0.5 : 1.;
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
   const PointCloud& fitted = once ? *once : cloud;
-  const PointNormals normalOf = hints.normalOf && !fitted.origins().empty() ? [&](std::size_t point)
-  { return givenDirection(hints.normalOf(fitted.origins()[point])); }
-                                                                            : PointNormals();
+  const PointNormals normalOf = normalsOf(fitted, hints);
   const PointViews viewOf = viewsOf(fitted, hints);
   Finish finish(fitted, learnt.mesh, plan, executor, normalOf, viewOf);
   if (!finish.run(partOf(progress, 0., endOfFirst)))
@@ -196,6 +212,40 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   report.left = finishSimplified.report().left;
   report.heldVertices = finishSimplified.report().heldVertices;
   report.smoothnessOfVertices = finishSimplified.report().smoothnessOfVertices;
+  return report;
+}
+
+std::optional<FinishReport> finishAgain(LearntMesh& learnt, const FinishReport& before,
+  const PointCloud& cloud, const Parameters& parameters, std::size_t vertexCount,
+  const Progress& progress, const Executor& executor, const OrientationHints& hints)
+{
+  FinishPlan plan = finishPlan(parameters);
+  plan.rounds = std::min(plan.rounds, 1);
+  plan.mostFidelityRounds = FidelityRoundsAgain;
+  const bool isSimplified = learnt.mesh.vertexCount() > vertexCount;
+  if (isSimplified)
+  {
+    simplifyByQuadrics(learnt.mesh, vertexCount);
+    // Of a clean cloud vertices are where they are needed already.
+    plan.fidelity = before.isClean ? Fidelity::Draft : plan.fidelity;
+  }
+  plan.vertexCount = std::max(vertexCount, learnt.mesh.vertexCount());
+  const std::optional<PointCloud> once = withoutRepetitions(cloud);
+  const PointCloud& fitted = once ? *once : cloud;
+  Finish finish(
+    fitted, learnt.mesh, plan, executor, normalsOf(fitted, hints), viewsOf(fitted, hints));
+  if (!finish.run(progress))
+  {
+    return {};
+  }
+  // What the fit tells is that of the finer mesh.
+  const bool isTold = !isSimplified && finish.report().roundsTakenBack == 0;
+  FinishReport report = isTold ? finish.report() : before;
+  report.gapTriangles = before.gapTriangles;
+  report.repaired = finish.report().repaired;
+  report.left = finish.report().left;
+  report.heldVertices = finish.report().heldVertices;
+  report.smoothnessOfVertices = finish.report().smoothnessOfVertices;
   return report;
 }
 

@@ -56,6 +56,13 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Progress& progress, const Executor& executor = Executor::sequential(),
   const OrientationHints& hints = {});
 
+/// Finishes once more what is finished, as `before` tells, with another number of vertices: it is simplified, or long
+/// edges are halved, and fitted in fewer rounds, for it lies close already. Returns nothing if it was ended before.
+std::optional<FinishReport> finishAgain(LearntMesh& learnt, const FinishReport& before,
+  const PointCloud& cloud, const Parameters& parameters, std::size_t vertexCount,
+  const Progress& progress, const Executor& executor = Executor::sequential(),
+  const OrientationHints& hints = {});
+
 /// Refines what is finished to so many vertices, beside its creases; `report` follows. Returns false if it was
 /// ended before.
 bool refineFinished(LearntMesh& learnt, const PointCloud& cloud, const Parameters& parameters,

@@ -196,7 +196,15 @@ void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud, WarningLi
       "Support is 0.");
 }
 
-void warnOfDefects(const Reconstruction& result, WarningList& warnings)
+/// Why triangles intersect, and what helps.
+constexpr std::string_view CutsOfCloud =
+  "The surface is thinner there than its triangles are large, or one layer of the mesh covers two of "
+  "the cloud. Use more vertices or another seed.";
+constexpr std::string_view CutsOfSurface =
+  "Parts of the surface touch or cut each other there, or lie closer than triangles are large. Remesh "
+  "parts that touch or cut each other one by one. Use more vertices where parts only lie close.";
+
+void warnOfDefects(const Reconstruction& result, std::string_view whyCut, WarningList& warnings)
 {
   const std::size_t cuts = result.finish ? result.finish->left.intersectingTriangles : 0;
   const std::size_t folds = result.quality->surface.foldedEdges;
@@ -204,9 +212,7 @@ void warnOfDefects(const Reconstruction& result, WarningList& warnings)
   {
     warnings.add(WarningTopic::TrianglesIntersect,
       counted(cuts, "triangle intersects", "triangles intersect") +
-        " others, and the repair failed. The surface is thinner there than its triangles are "
-        "large, or one layer of the mesh covers two of the cloud. Use more vertices or another "
-        "seed.");
+        " others, and the repair failed. " + std::string(whyCut));
   }
   const double between = result.finish ? result.finish->shareBetweenLayers : 0.;
   if (between > MostBetweenLayers)
@@ -407,7 +413,7 @@ std::vector<std::string> warningsOf(
   }
   if (result.quality)
   {
-    warnOfDefects(result, warnings);
+    warnOfDefects(result, CutsOfCloud, warnings);
     warnOfSlivers(result.quality->surface, warnings);
     warnOfTurnedParts(result.quality->turnedShare, warnings);
     warnOfHandles(result.quality->narrowHandles, cloud, warnings);
@@ -435,7 +441,7 @@ std::vector<std::string> warningsOfSurface(
   }
   WarningList warnings;
   const std::size_t vertices = result.mesh.points.size();
-  warnOfDefects(result, warnings);
+  warnOfDefects(result, CutsOfSurface, warnings);
   warnOfSlivers(result.quality->surface, warnings);
   if (vertices != parameters.numberOfVertices)
   {

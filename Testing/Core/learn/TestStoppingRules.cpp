@@ -200,4 +200,23 @@ TEST(StoppingRules, ProgressIsEven)
     }
   }
 }
+
+// Promise: each rule but the number of vertices is known to end a run before it.
+TEST(StoppingRules, MayEndBeforeVertices)
+{
+  EXPECT_FALSE(mayEndBeforeVertices({}));
+  Parameters parameters;
+  parameters.timeLimit = 1.;
+  EXPECT_TRUE(mayEndBeforeVertices(parameters));
+  parameters = {};
+  parameters.maximumIterations = 1;
+  EXPECT_TRUE(mayEndBeforeVertices(parameters));
+  for (double Parameters::*target : { &Parameters::targetSampleDistance,
+         &Parameters::targetCloudDistance, &Parameters::targetNormalChange })
+  {
+    parameters = {};
+    parameters.*target = 0.1;
+    EXPECT_TRUE(mayEndBeforeVertices(parameters));
+  }
+}
 }

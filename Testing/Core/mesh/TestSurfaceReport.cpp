@@ -72,19 +72,6 @@ TriangleMesh withTriangles(std::vector<Eigen::Vector3d> points, Triangles triang
   return { std::move(points), std::move(triangles) };
 }
 
-void append(TriangleMesh& mesh, const TriangleMesh& other, const Eigen::Vector3d& shift)
-{
-  const auto first = std::uint32_t(mesh.points.size());
-  for (const Eigen::Vector3d& point : other.points)
-  {
-    mesh.points.push_back(point + shift);
-  }
-  for (const auto& [a, b, c] : other.triangles)
-  {
-    mesh.triangles.push_back({ first + a, first + b, first + c });
-  }
-}
-
 const double NaN = std::numeric_limits<double>::quiet_NaN();
 }
 

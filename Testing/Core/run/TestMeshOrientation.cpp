@@ -28,16 +28,6 @@ TriangleMesh turned(TriangleMesh mesh)
   return mesh;
 }
 
-void append(const TriangleMesh& more, TriangleMesh& mesh)
-{
-  const auto first = std::uint32_t(mesh.points.size());
-  mesh.points.insert(mesh.points.end(), more.points.begin(), more.points.end());
-  for (const auto& [a, b, c] : more.triangles)
-  {
-    mesh.triangles.push_back({ first + a, first + b, first + c });
-  }
-}
-
 TriangleMesh placed(
   TriangleMesh mesh, const Eigen::Matrix3d& turn, const Eigen::Vector3d& shift, double scale = 1.)
 {
@@ -145,7 +135,7 @@ TriangleMesh islands(unsigned side)
   {
     const TriangleMesh island = placed(
       makeGrid(6), Eigen::Matrix3d::Identity(), { double(i % side), double(i / side), 0. }, 0.8);
-    append(i % 2 == 0 ? island : turned(island), all);
+    append(all, i % 2 == 0 ? island : turned(island));
   }
   return all;
 }
@@ -332,7 +322,7 @@ TEST(MeshOrientation, OneViewpoint)
 TEST(MeshOrientation, SeveralViewpoints)
 {
   TriangleMesh sheets = makeGrid(10);
-  append(placed(makeGrid(10), Eigen::Matrix3d::Identity(), { 0., 0., -0.1 }), sheets);
+  append(sheets, placed(makeGrid(10), Eigen::Matrix3d::Identity(), { 0., 0., -0.1 }));
   const std::vector<Eigen::Vector3d> viewpoints{ { 0.5, 0.5, 2. }, { 0.4, 0.5, -3. } };
   const auto awayFromTheMiddle = [](const Eigen::Vector3d& centroid)
   { return Eigen::Vector3d(0., 0., centroid.z() + 0.05); };
@@ -427,7 +417,7 @@ TEST(MeshOrientation, FacesOfABoxAgree)
     const Eigen::AngleAxisd down(std::numbers::pi / 2., Eigen::Vector3d::UnitX());
     const TriangleMesh wall =
       placed(face, (around * down).toRotationMatrix(), Eigen::Vector3d::Zero());
-    append(side % 2 == 0 ? wall : turned(wall), box);
+    append(box, side % 2 == 0 ? wall : turned(wall));
   }
   Scene scene(box);
   OrientationHints hints = withNormals([&](std::uint32_t point)
@@ -454,7 +444,7 @@ TEST(MeshOrientation, SmallPiecesFollowBodies)
     EXPECT_EQ(alone.facingUp(), 1.);
   }
   TriangleMesh body = openSphere(53.);
-  append(dent, body);
+  append(body, dent);
   Scene scene(body);
   const OrientationReport report = scene.orient();
   EXPECT_EQ(report.unknownPieces, 0u);
@@ -480,7 +470,7 @@ TEST(MeshOrientation, BasesCloseBodies)
       const TriangleMesh base = placed(
         dome, Eigen::Matrix3d::Identity(), { 0., 0., (1. - 0.4) * std::cos(angle) + height }, 0.4);
       TriangleMesh body = dome;
-      append(isTurned ? turned(base) : base, body);
+      append(body, isTurned ? turned(base) : base);
       Scene scene(body);
       const OrientationReport report = scene.orient();
       EXPECT_EQ(report.unknownPieces, 0u);
@@ -492,7 +482,7 @@ TEST(MeshOrientation, BasesCloseBodies)
   }
   const TriangleMesh beside = placed(makeGrid(8), Eigen::Matrix3d::Identity(), { 1.8, -0.5, 0.5 });
   TriangleMesh scenery = dome;
-  append(beside, scenery);
+  append(scenery, beside);
   Scene scene(scenery);
   EXPECT_EQ(scene.orient().unknownPieces, 1u);
 }
@@ -504,7 +494,7 @@ TEST(MeshOrientation, StrangersStayAsTheyAre)
     { Eigen::Vector3d(0., 0.1, 0.), Eigen::Vector3d(1.6, 0., 0.) })
   {
     TriangleMesh sheets = placed(makeGrid(8), upright(), Eigen::Vector3d::Zero());
-    append(placed(turned(makeGrid(8)), upright(), shift), sheets);
+    append(sheets, placed(turned(makeGrid(8)), upright(), shift));
     Scene scene(sheets);
     EXPECT_EQ(scene.orient().unknownPieces, 2u);
     EXPECT_NEAR(

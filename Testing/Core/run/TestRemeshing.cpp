@@ -85,19 +85,6 @@ TriangleMesh makeSheet(std::uint32_t count, double height)
   }
   return sheet;
 }
-
-void append(TriangleMesh& mesh, const TriangleMesh& other, const Eigen::Vector3d& shift)
-{
-  const auto first = std::uint32_t(mesh.points.size());
-  for (const Eigen::Vector3d& point : other.points)
-  {
-    mesh.points.push_back(point + shift);
-  }
-  for (const auto& [a, b, c] : other.triangles)
-  {
-    mesh.triangles.push_back({ first + a, first + b, first + c });
-  }
-}
 }
 
 TEST(Remeshing, GivesAsManyVerticesAsAreAskedFor)
@@ -211,4 +198,16 @@ TEST(Remeshing, TellsWhatASurfaceExcludes)
   Parameters parameters;
   parameters.timeLimit = 3.;
   EXPECT_NE(whyNoRemeshing(parameters, {}).find("ends a run early"), std::string::npos);
+}
+
+// Promise: where parts of the surface touch each other in a point, as their meshes do, that is said, and what helps.
+TEST(Remeshing, SaysThatPartsTouch)
+{
+  TriangleMesh cubes = makeCube(8);
+  append(cubes, makeCube(8), Eigen::Vector3d::Ones());
+  const Reconstruction result = remeshed(cubes, 400);
+  soundReport(result);
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings.front().find("touch or cut each other"), std::string::npos)
+    << result.warnings.front();
 }

@@ -9,8 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace neuralmesh::testing
 {
@@ -131,6 +134,55 @@ TEST(SizedReconstruction, MeetsATolerance)
     const Reconstruction fewer = withVertices(cloud, mesh.size->vertices * 2 / 3);
     EXPECT_GT(heldOutError(cloud, fewer.surface).rootMeanSquare, limit);
     EXPECT_EQ(checkManifold(mesh.mesh.points.size(), mesh.mesh.triangles).defect, "");
+  }
+}
+
+// Promise: a coarse tolerance is met by a few vertices, after few trials, of which no number is tried twice.
+TEST(SizedReconstruction, FindsFewVerticesSoon)
+{
+  const PointCloud cloud = torusToSize(0.);
+  for (const double tolerance : { 1., 4. })
+  {
+    SCOPED_TRACE(tolerance);
+    const Reconstruction mesh = sized(cloud, percent(tolerance));
+    ASSERT_TRUE(mesh.size);
+    EXPECT_LE(mesh.size->reached, mesh.size->length);
+    EXPECT_LT(mesh.size->vertices, 200u);
+    const std::vector<SizeTrial>& trials = mesh.size->trials;
+    EXPECT_LE(trials.size(), 5u);
+    EXPECT_EQ(std::ranges::adjacent_find(trials, {}, &SizeTrial::vertices), trials.end());
+  }
+}
+
+// Promise: a mesh that is made again with a few more vertices, or with fewer, has as many, is sound, and comes about as
+// close as one of its own.
+TEST(SizedReconstruction, MakesAMeshAgain)
+{
+  for (const double noise : { 0., 0.003 })
+  {
+    SCOPED_TRACE(noise);
+    const PointCloud cloud = torusToSize(noise);
+    Parameters parameters;
+    parameters.numberOfVertices = 1200;
+    const std::optional<Mesh> none;
+    const OrientationHints hints;
+    const Executor& executor = Executor::sequential();
+    const Progress goesOn = [](double) { return true; };
+    neuralmesh::Run run({ cloud, parameters, none, executor, hints }, goesOn);
+    Checkpoint noCheckpoint({}, cloud, parameters);
+    LearntRun first = run.learn(1200, run.begin(1200, {}), {}, noCheckpoint);
+    ASSERT_TRUE(run.make(first, 1200, {}));
+    for (const std::uint64_t vertices : { 800u, 1150u, 1300u })
+    {
+      SCOPED_TRACE(vertices);
+      LearntRun again = first;
+      ASSERT_TRUE(run.makeAgain(again, vertices, {}));
+      const Reconstruction mesh = run.describe(std::move(again), vertices, {});
+      EXPECT_EQ(mesh.mesh.points.size(), vertices);
+      EXPECT_EQ(checkManifold(mesh.mesh.points.size(), mesh.mesh.triangles).defect, "");
+      EXPECT_LE(heldOutError(cloud, mesh.surface).rootMeanSquare,
+        1.15 * heldOutError(cloud, withVertices(cloud, vertices).surface).rootMeanSquare);
+    }
   }
 }
 

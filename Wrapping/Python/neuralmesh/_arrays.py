@@ -28,6 +28,20 @@ def as_points(points: object) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.float32 if single else np.float64)
 
 
+def as_triangles(triangles: object, parameter: str) -> np.ndarray:
+    """Whole numbers of shape (T, 3), as they are. ValueError for anything else, which names the parameter."""
+    try:
+        array = np.asarray(triangles)
+    except ValueError as error:
+        raise ValueError(f"{parameter}: triangles are of different lengths: {error}") from None
+    if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "iu":
+        raise ValueError(
+            f"{parameter}: triangles must be whole numbers of shape (T, 3), not of shape {array.shape} and "
+            f"type {array.dtype}; other polygons go in as a dataset, of VTK or PyVista"
+        )
+    return array
+
+
 def values_of_points(
     values: object, count: int, parameter: str, shape: tuple[int, ...]
 ) -> np.ndarray:

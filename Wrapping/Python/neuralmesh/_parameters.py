@@ -132,14 +132,18 @@ def parameters_of(vtk_class: type) -> dict[str, Parameter]:
     return found
 
 
-def assign(vtk_object: Any, name: str, value: Any, shown_name: str = "") -> None:
+def assign(
+    vtk_object: Any, name: str, value: Any, shown_name: str = "", or_else: str = ""
+) -> None:
     """Set a property by the name of its parameter; ValueError says what it may be.
 
-    shown_name is what the parameter is called in the message, where that differs.
+    In the message shown_name is what the parameter is called, where that differs, and or_else a word that
+    the caller takes, too.
     """
     parameter = parameters_of(vtk_object.__class__)[name]
     if not parameter.accepts(value):
-        raise ValueError(f"{shown_name or name} must be {parameter}, not {value!r}")
+        other = f', or "{or_else}"' if or_else else ""
+        raise ValueError(f"{shown_name or name} must be {parameter}{other}, not {value!r}")
     parameter.assign(vtk_object, value)
 
 

@@ -150,8 +150,6 @@ def reconstruct(
             >>> mesh.GetNumberOfPoints()
             5000
     """
-    if vertices == "auto" and levels is not None:
-        raise ValueError('vertices="auto" and levels exclude each other: levels are numbers of vertices.')
     mesh = make_filter(
         vertices,
         seed,
@@ -161,6 +159,7 @@ def reconstruct(
         ensemble=ensemble,
         viewpoints=viewpoints,
         up=up,
+        levels=levels,
         **parameters,
     )
     if checkpoint is not None:
@@ -170,12 +169,9 @@ def reconstruct(
     first = None if first_mesh is None else _world.take_surface(first_mesh, "first_mesh")
     mesh.SetExplainPoints(bool(explain))
     mesh.SetComputeFeatureLines(bool(feature_lines))
-    sizes = [] if levels is None else list(levels)
-    for level in sizes:
-        _add_level(mesh, level)
     result, explained, lines, smaller = _world.learn(mesh, cloud, first, progress, points)
     require_points(result)
-    meshes = [*smaller, result] if sizes else result
+    meshes = [*smaller, result] if mesh.GetNumberOfLevels() > 0 else result
     more = ([explained] if explain else []) + ([lines] if feature_lines else [])
     return (meshes, *more) if more else meshes
 
@@ -194,16 +190,24 @@ def make_filter(
     ensemble: int | None = None,
     viewpoints: ArrayLike | None = None,
     up: ArrayLike | None = None,
+    levels: Sequence[int] | None = None,
     **parameters: float | bool | str,
 ) -> Any:
     """The filter that reconstruct() executes, without input; the same errors."""
     known = PARAMETERS if ensemble is None else ENSEMBLE_PARAMETERS
     refuse_unknown(reconstruct, parameters, known)
+    if vertices == "auto" and levels is not None:
+        raise ValueError('vertices="auto" and levels exclude each other: levels are numbers of vertices.')
+    is_surface = parameters.get("input_is") == "surface"
     mesh = _world.NeuralMesh() if ensemble is None else _world.NeuralMeshEnsemble()
     if ensemble is not None:
         assign(mesh, "number_of_members", ensemble, shown_name="ensemble")
     assign(
-        mesh, "number_of_vertices", 0 if vertices == "auto" else vertices, shown_name="vertices"
+        mesh,
+        "number_of_vertices",
+        0 if vertices == "auto" else vertices,
+        shown_name="vertices",
+        or_else="" if is_surface else "auto",
     )
     assign(mesh, "seed", seed)
     # A preset sets parameters, and to what depends on variant and order.
@@ -213,6 +217,8 @@ def make_filter(
     for name, value in parameters.items():
         assign(mesh, name, value)
     set_outer_side(mesh, viewpoints, up)
+    for level in () if levels is None else levels:
+        _add_level(mesh, level)
     return mesh
 
 

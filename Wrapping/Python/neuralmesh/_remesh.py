@@ -6,8 +6,20 @@ from __future__ import annotations
 from typing import Any
 
 from . import _world
-from ._reconstruct import make_filter, require_points
+from ._parameters import refuse_unknown
+from ._reconstruct import PARAMETERS, make_filter, require_points
 from ._types import ArrayLike, MadeMesh, Mesh, Progress, vtkCompositeDataSet, vtkPolyData
+
+# Properties, and what reconstruct() names and hands on to them.
+_KNOWN = [
+    *(name for name in PARAMETERS if name != "input_is"),
+    "variant",
+    "order",
+    "preset",
+    "ensemble",
+    "viewpoints",
+    "up",
+]
 
 
 def remesh(
@@ -52,6 +64,7 @@ def remesh(
         >>> smaller.GetNumberOfPoints()
         5000
     """
+    refuse_unknown(remesh, parameters, _KNOWN)
     mesh = make_filter(vertices, seed, input_is="surface", **parameters)
     mesh.SetComputeFeatureLines(bool(feature_lines))
     given: Any = surface

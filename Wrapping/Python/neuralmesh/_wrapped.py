@@ -11,6 +11,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCompositeDataSet, vtkPolyData
 
+from ._arrays import as_triangles
 from ._both_ways import BOTH_WAYS
 from ._execution import Progress, check_parameters, execute, observed_call
 from ._kinds import as_given
@@ -60,13 +61,12 @@ def take_polygons(surface: Any, parameter: str) -> vtkPolyData | vtkCompositeDat
     if isinstance(surface, (vtkPolyData, vtkCompositeDataSet)):
         return surface
     if isinstance(surface, tuple) and len(surface) == 2:
-        points, triangles = take_points(surface[0]), np.asarray(surface[1])
-        if triangles.ndim == 2 and triangles.shape[1] == 3 and triangles.dtype.kind in "iu":
-            cells = vtkCellArray()
-            corners = np.ascontiguousarray(triangles, dtype=np.int64)
-            cells.SetData(3, numpy_to_vtkIdTypeArray(corners.reshape(-1), deep=True))
-            points.SetPolys(cells)
-            return points
+        points, triangles = take_points(surface[0]), as_triangles(surface[1], parameter)
+        cells = vtkCellArray()
+        corners = np.ascontiguousarray(triangles, dtype=np.int64)
+        cells.SetData(3, numpy_to_vtkIdTypeArray(corners.reshape(-1), deep=True))
+        points.SetPolys(cells)
+        return points
     raise ValueError(
         f"{parameter} must be a vtkPolyData, or a pair of arrays, points and triangles, not "
         f"{type(surface).__name__}"

@@ -32,7 +32,8 @@ A recipe is JSON. Only its key `scans` is required:
 scans    files of points, relative to the recipe, with wildcards or without:
          .ply .obj .stl .off .pcd .ptx .pwn .xyz .pts .txt .csv .asc, with VTK .vtp .vtk .vtu
 matrix   parameters of neuralmesh.reconstruct(), except progress. A list holds the values to try, and
-         all lists are crossed. first_mesh is a path, relative to the recipe
+         all lists are crossed. first_mesh is a path, relative to the recipe. levels is a list of
+         numbers, or a list of such lists to try
 format   of the meshes: vtp (default with VTK), ply (default without), obj, stl, glb, off or vtk
 shift    vector that is subtracted from their coordinates and stored in them: [X, Y, Z], or "auto" for
          a round vector if they are too large for floats (default: none)
@@ -45,7 +46,7 @@ strict   whether the command ends with status 3 if a mesh has warnings (default:
 view     of the pictures: the axis that points upwards, and the direction of view in degrees
 
 The folder gets a mesh and a report (.json) for each job, and summary.csv and the gallery, index.html,
-for all. A job does not run again if its result exists and nothing has changed: its scan (size and time
+for all. The mesh is the largest level; the others are beside it (JOB_1000.vtp). A job does not run again if its result exists and nothing has changed: its scan (size and time
 of modification), its parameters, the format, and the version of NeuralMesh. Results of jobs that are
 no longer in the recipe stay.
 Each warning ends with a tag in brackets: a heading of Documentation/Guide/Failures.md.

@@ -8,7 +8,7 @@ import shutil
 import string
 from html import escape
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Any, Iterable, Iterator
 from urllib.parse import quote
 
 from .meshes import read_points
@@ -50,12 +50,17 @@ def write_gallery(folder: Path, recipe: Recipe, title: str) -> list[str]:
     done = [job for job in recipe.jobs if reports[job].get("status") == "done"]
     problems = [] if has_viewer else ["no 3D views: this package was built without vtk.js"]
 
-    meshes = {job: result_path(folder, job.name, recipe.format) for job in done}
+    meshes = {}
+    for job in done:
+        meshes[job.name] = result_path(folder, job.name, recipe.format)
+        for level in job.smaller_levels:
+            name = job.level_name(level)
+            meshes[name] = result_path(folder, name, recipe.format)
     if has_viewer:
-        for job in done:
-            path = parts / f"{job.name}.js"
-            if _is_older(path, meshes[job]):
-                write_text(path, page_mesh(job.name, read_points(meshes[job])))
+        for name, mesh in meshes.items():
+            path = parts / f"{name}.js"
+            if _is_older(path, mesh):
+                write_text(path, page_mesh(name, read_points(mesh)))
     problem = _draw(meshes, parts, recipe.view)
     if problem:
         problems.append(problem)
@@ -73,12 +78,12 @@ def write_gallery(folder: Path, recipe: Recipe, title: str) -> list[str]:
     return problems
 
 
-def _draw(meshes: dict[Job, Path], parts: Path, view: dict[str, Any]) -> str:
+def _draw(meshes: dict[str, Path], parts: Path, view: dict[str, Any]) -> str:
     """Draw the pictures that are missing, are older than their meshes or show another view."""
     view_path = parts / "view.json"
     view_text = json.dumps(view)
     is_same = view_path.exists() and view_path.read_text(encoding="utf-8") == view_text
-    pictures = [(mesh, parts / f"{job.name}.png") for job, mesh in meshes.items()]
+    pictures = [(mesh, parts / f"{name}.png") for name, mesh in meshes.items()]
     problem = draw_pictures(
         [(mesh, path) for mesh, path in pictures if not is_same or _is_older(path, mesh)], view
     )
@@ -99,56 +104,69 @@ def _sections(
         yield f'<section>\n<h2 title="{escape(str(scan))}">{escape(scan.name)}</h2>\n'
         for job, report in reports.items():
             if job.scan == scan:
-                yield _card(job, report, parts, recipe, has_viewer)
+                yield from _cards(job, report, parts, recipe, has_viewer)
         yield "</section>\n"
 
 
-def _card(job: Job, report: dict, parts: Path, recipe: Recipe, has_viewer: bool) -> str:
+def _cards(
+    job: Job, report: dict, parts: Path, recipe: Recipe, has_viewer: bool
+) -> Iterator[str]:
+    """A card for the job, and one for each of its smaller levels."""
     parameters = ", ".join(f"{name} {_plain(job.parameters[name])}" for name in job.parameters)
-    title = f"<h3>{escape(parameters or 'defaults')}</h3>\n"
-    name = escape(quote(job.name))
-    report_link = f'<a href="{name}.json">report</a>'
+    title = escape(parameters or "defaults")
+    report_link = f'<a href="{escape(quote(job.name))}.json">report</a>'
     if report.get("status") != "done":
         error = escape(report.get("error", "there is no report"))
-        text = f"{title}<pre>{error}</pre>\n<p>{report_link}</p>"
-        return f'<article class="failed">\n{text}\n</article>\n'
-    has_picture = (parts / f"{job.name}.png").exists()
+        text = f"<h3>{title}</h3>\n<pre>{error}</pre>\n<p>{report_link}</p>"
+        yield f'<article class="failed">\n{text}\n</article>\n'
+        return
+    shown = [(job.name, title, report, [*_figures(report)])]
+    for level, told in zip(job.smaller_levels, report.get("levels", [])):
+        figures = [*_figures_of_mesh(told), ("made with", job.name)]
+        shown.append((job.level_name(level), f"level of {level}", told, figures))
+    for name, heading, told, figures in shown:
+        picture = _picture(name, parts, has_viewer)
+        result = escape(quote(told["result"]["file"]))
+        links = f'<a href="{result}">{recipe.format}</a> {report_link}'
+        yield (
+            f'<article id="card-{escape(name)}" data-name="{escape(name)}">\n{picture}\n'
+            f"<h3>{heading}</h3>\n{_table(figures)}<details><summary>more</summary>\n"
+            f'{_table(_chosen(told["quality"], _MORE_FIGURES))}</details>\n<p>{links}</p>\n</article>\n'
+        )
+
+
+def _picture(name: str, parts: Path, has_viewer: bool) -> str:
+    """The picture of a mesh, behind which is its 3D view."""
+    address = escape(quote(name))
     picture = (
-        f'<img src="gallery/{name}.png" alt="{escape(job.name)}" loading="lazy">'
-        if has_picture
+        f'<img src="gallery/{address}.png" alt="{escape(name)}" loading="lazy">'
+        if (parts / f"{name}.png").exists()
         else "<span>no picture</span>"
     )
-    if has_viewer:
-        picture = f'<a class="view" href="#{name}" title="3D view">{picture}</a>'
-    result = escape(quote(report["result"]["file"]))
-    links = f'<a href="{result}">{recipe.format}</a> {report_link}'
     return (
-        f'<article id="card-{escape(job.name)}" data-name="{escape(job.name)}">\n{picture}\n{title}'
-        f"{_table(_figures(report))}<details><summary>more</summary>\n"
-        f"{_table(_more_figures(report))}</details>\n<p>{links}</p>\n</article>\n"
+        f'<a class="view" href="#{address}" title="3D view">{picture}</a>' if has_viewer else picture
     )
 
 
 def _figures(report: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    result = report["result"]
-    yield "points", f"{result['points']:,}"
-    yield "vertices", f"{result['vertices']:,}"
-    yield "triangles", f"{result['triangles']:,}"
+    yield "points", f"{report['result']['points']:,}"
+    yield from _figures_of_mesh(report)
     yield "time", f"{sum(report['seconds'].values()):.2f} s"
-    yield from _chosen(report["quality"], _FIGURES)
     for warning in report["warnings"]:
         yield "warning", warning
 
 
-def _more_figures(report: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    yield from _chosen(report["quality"], _MORE_FIGURES)
+def _figures_of_mesh(told: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    yield "vertices", f"{told['result']['vertices']:,}"
+    yield "triangles", f"{told['result']['triangles']:,}"
+    yield from _chosen(told["quality"], _FIGURES)
 
 
 def _chosen(quality: dict[str, Any], labels: dict[str, str]) -> Iterator[tuple[str, str]]:
     return ((label, _plain(quality[name])) for name, label in labels.items() if name in quality)
 
 
-def _table(rows: Iterator[tuple[str, str]]) -> str:
+def _table(rows: Iterable[tuple[str, str]]) -> str:
     lines = (f"<tr><th>{escape(label)}</th><td>{escape(text)}</td></tr>\n" for label, text in rows)
     return f"<table>\n{''.join(lines)}</table>\n"
 

@@ -44,6 +44,15 @@ def main() -> None:
         sys.exit(text if text.startswith(str(job.scan)) else f"{job.scan}: {text}")
 
 
+def _has_checkpoint(mesh_filter: Any) -> bool:
+    """Not where a number of vertices is found anew, nor of levels, nor of a surface, which is not learnt."""
+    return not (
+        _is_size_to_be_found(mesh_filter)
+        or mesh_filter.GetNumberOfLevels() > 0
+        or mesh_filter.GetInputIs()
+    )
+
+
 def _is_size_to_be_found(mesh_filter: Any) -> bool:
     return bool(mesh_filter.GetTolerance() > 0 or mesh_filter.GetNumberOfVertices() == 0)
 
@@ -61,36 +70,42 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
         first_mesh = read_mesh(job.first_mesh) if job.first_mesh else None
         times.append(time.perf_counter())
         mesh_filter = make_filter(**parameters)
-        # If it is there, the job was killed: it goes on from there. A number of vertices is found anew, and a surface is
-        # not learnt.
-        if not _is_size_to_be_found(mesh_filter) and not mesh_filter.GetInputIs():
+        # If it is there, the job was killed: it goes on from there.
+        if _has_checkpoint(mesh_filter):
             mesh_filter.SetCheckpointFileName(str(checkpoint_path(folder, job.name, identity)))
             mesh_filter.KeepCheckpointOn()
         cloud = take_input(mesh_filter, points, weights)
         path = result_path(folder, job.name, mesh_format)
-        most = mesh_filter.GetNumberOfVertices()
+        levels = parameters.get("levels")
+        most = levels[-1] if levels else mesh_filter.GetNumberOfVertices()
         if _is_size_to_be_found(mesh_filter):
             most = max(4, counts_of(points)[0] // 2)
         require_digits(points, most, path, job.shift)
-        mesh, *_ = _world.learn(mesh_filter, cloud, first_mesh, _end_with(os.getppid()), points)
+        mesh, _, _, smaller = _world.learn(
+            mesh_filter, cloud, first_mesh, _end_with(os.getppid()), points
+        )
         require_points(mesh)
     times.append(time.perf_counter())
     shift = write_mesh(mesh, path, job.shift)
+    paths = [result_path(folder, job.level_name(level), mesh_format) for level in job.smaller_levels]
+    for level, level_path in zip(smaller, paths):
+        write_mesh(level, level_path, job.shift)
     times.append(time.perf_counter())
-    vertices, triangles = counts_of(mesh)
     seconds = (round(after - before, 4) for before, after in zip(times, times[1:]))
+    levels_told = [
+        {"result": _file_of(level, level_path), "quality": quality_of(level)}
+        for level, level_path in zip(smaller, paths)
+    ]
     report: dict[str, Any] = {
         "job": job.name,
         "status": "done",
         **identity,
         "result": {
-            "file": path.name,
-            "size": path.stat().st_size,
+            **_file_of(mesh, path),
             "points": counts_of(points)[0],
-            "vertices": vertices,
-            "triangles": triangles,
             **({} if job.shift is None else {"shift": shift}),
         },
+        **({"levels": levels_told} if levels_told else {}),
         "seconds": dict(zip(SECONDS, seconds)),
         "phases": {
             name: round(getattr(mesh_filter, f"Get{name.title()}Time")(), 4) for name in PHASES
@@ -100,6 +115,17 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
     }
     write_json(report_path(folder, job.name), report)
     mesh_filter.RemoveCheckpoint()
+
+
+def _file_of(mesh: Any, path: Path) -> dict[str, Any]:
+    """What a report says of a mesh that is written."""
+    vertices, triangles = counts_of(mesh)
+    return {
+        "file": path.name,
+        "size": path.stat().st_size,
+        "vertices": vertices,
+        "triangles": triangles,
+    }
 
 
 def _end_with(parent: int):

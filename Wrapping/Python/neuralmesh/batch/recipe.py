@@ -47,6 +47,15 @@ class Job:
     first_mesh: Path | None = None
     shift: str | list[float] | None = None
 
+    @property
+    def smaller_levels(self) -> list[int]:
+        """All levels but the largest, which is the mesh of the job itself."""
+        return (self.parameters.get("levels") or [])[:-1]
+
+    def level_name(self, level: int) -> str:
+        """The name of the files of a smaller level."""
+        return f"{self.name}_{level}"
+
 
 @dataclass(frozen=True)
 class Recipe:
@@ -126,16 +135,24 @@ def _matrix(content: Any) -> dict[str, list]:
     _require_object(content, "matrix", _KNOWN, "help(neuralmesh.reconstruct) lists them all")
     matrix = {}
     for name, value in content.items():
-        values = value if isinstance(value, list) else [value]
+        is_tried = _is_tried(name, value)
+        values = value if is_tried else [value]
         if not values:
             raise RecipeError(f"matrix.{name}: the list is empty")
         for i, single in enumerate(values):
-            place = f"matrix.{name}[{i}]" if isinstance(value, list) else f"matrix.{name}"
+            place = f"matrix.{name}[{i}]" if is_tried else f"matrix.{name}"
             _check_value(place, name, single)
             if any(single == other and type(single) is type(other) for other in values[:i]):
                 raise RecipeError(f"{place}: {_shown(single)} stands there twice")
         matrix[name] = values
     return matrix
+
+
+def _is_tried(name: str, value: Any) -> bool:
+    """Whether a value is a list of those to try in turn. Levels are a list themselves."""
+    if name == "levels":
+        return isinstance(value, list) and any(isinstance(one, list) for one in value)
+    return isinstance(value, list)
 
 
 def _check_value(place: str, name: str, value: Any) -> None:
@@ -147,11 +164,22 @@ def _check_value(place: str, name: str, value: Any) -> None:
         if value is not None and not (isinstance(value, str) and value):
             raise RecipeError(f"{place}: must be the path of a mesh, or null, not {_shown(value)}")
         return
+    if name == "levels":
+        _check_levels(place, value)
     alone = name in _NAMED or name in PARAMETERS
     try:
         make_filter(**{"ensemble": None if alone else 1, name: value})
     except ValueError as error:
         raise RecipeError(f"{place}: {error}") from None
+
+
+def _check_levels(place: str, value: Any) -> None:
+    if value is None:
+        return
+    if not isinstance(value, list) or not value:
+        raise RecipeError(f"{place}: must be numbers of vertices, in a list, not {_shown(value)}")
+    if all(map(_is_number, value)) and any(b <= a for a, b in zip(value, value[1:])):
+        raise RecipeError(f"{place}: levels must ascend, not {_shown(value)}")
 
 
 def _jobs(
@@ -167,7 +195,7 @@ def _jobs(
     endings = []
     for parameters in combinations:
         _check_combination(parameters)
-        listed = [name for name in matrix if isinstance(content[name], list)]
+        listed = [name for name in matrix if _is_tried(name, content[name])]
         endings.append("".join(f"_{name}-{_in_name(parameters[name])}" for name in listed))
     for scan, scan_name in zip(scans, _names(scans)):
         for parameters, ending in zip(combinations, endings):
@@ -177,10 +205,18 @@ def _jobs(
             if job.name in jobs:
                 raise RecipeError(f"matrix: two jobs would have the same name, {job.name}")
             jobs[job.name] = job
+    for job in jobs.values():
+        for level in job.smaller_levels:
+            if job.level_name(level) in jobs:
+                raise RecipeError(
+                    f"matrix.levels: that of {level} vertices of {job.name} would have the name of another job"
+                )
     return list(jobs.values())
 
 
 def _check_combination(parameters: dict[str, Any]) -> None:
+    if parameters.get("levels") is not None and "vertices" in parameters:
+        raise RecipeError(f"matrix: {_shown(parameters)}: levels take the place of vertices")
     properties = {name: v for name, v in parameters.items() if name not in _OF_INPUT}
     try:
         check_parameters(make_filter(**properties))

@@ -40,6 +40,9 @@ def require_distinct(recipe_path: Path, recipe: Recipe, folder: Path) -> None:
     for job in recipe.jobs:
         written[f"the mesh of {job.name}"] = result_path(folder, job.name, recipe.format)
         written[f"the report on {job.name}"] = report_path(folder, job.name)
+        for level in job.smaller_levels:
+            name = job.level_name(level)
+            written[f"the mesh of {name}"] = result_path(folder, name, recipe.format)
     places = {os.path.realpath(path): what for what, path in written.items()}
     for path in [recipe_path, *(path for job in recipe.jobs for path in (job.scan, job.first_mesh))]:
         if path is not None and os.path.realpath(path) in places:
@@ -92,8 +95,12 @@ def is_done(folder: Path, job: Job, mesh_format: str) -> bool:
     is_same = all(report.get(name) == value for name, value in identity.items())
     if report.get("status") != "done" or not is_same:
         return False
-    result = result_path(folder, job.name, mesh_format)
-    return result.is_file() and result.stat().st_size == report["result"]["size"]
+    results = [report["result"], *(level["result"] for level in report.get("levels", []))]
+    return all(_is_whole(folder / result["file"], result["size"]) for result in results)
+
+
+def _is_whole(path: Path, size: int) -> bool:
+    return path.is_file() and path.stat().st_size == size
 
 
 def has_warnings(folder: Path, job: Job) -> bool:

@@ -120,6 +120,7 @@ class _Process:
 
 def _write_failure(job: Job, folder: Path, mesh_format: str, error: str) -> None:
     # What an earlier recipe left under this name is no result of this one.
-    result_path(folder, job.name, mesh_format).unlink(missing_ok=True)
+    for name in (job.name, *map(job.level_name, job.smaller_levels)):
+        result_path(folder, name, mesh_format).unlink(missing_ok=True)
     report = {"job": job.name, "status": "failed", **identity_of(job, mesh_format), "error": error}
     write_json(report_path(folder, job.name), report)

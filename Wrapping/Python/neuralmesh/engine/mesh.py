@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._arrays import as_points, as_triangles
 from .._kinds import vtk_package, vtk_package_of
 from .vtk_arrays import field_array, named, polygons_of, vtk_module, vtk_points
 
@@ -149,10 +150,8 @@ def as_mesh(surface: Any, parameter: str) -> Mesh:
                 )
         return surface
     if isinstance(surface, tuple) and len(surface) == 2:
-        points, triangles = (np.asarray(part) for part in surface)
-        is_mesh = points.ndim == triangles.ndim == 2 and points.shape[1] == triangles.shape[1] == 3
-        if is_mesh and points.dtype.kind in "fiu" and triangles.dtype.kind in "iu":
-            return Mesh(points, triangles.astype(np.int64, copy=False))
+        points, triangles = as_points(surface[0]), as_triangles(surface[1], parameter)
+        return Mesh(points, triangles.astype(np.int64, copy=False))
     elif hasattr(surface, "GetPolys") and hasattr(surface, "GetPoints"):
         return Mesh(*polygons_of(surface))
     wanted = (
