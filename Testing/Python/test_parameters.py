@@ -96,13 +96,14 @@ class Errors(unittest.TestCase):
                 self.assertTrue(parameter.accepts(parameter.minimum))
                 self.assertTrue(parameter.accepts(parameter.maximum))
                 shown = {"number_of_vertices": "vertices"}.get(name, name)
+                other = ', or "auto"' if shown == "vertices" else ""
                 below = -1 if parameter.takes_zero else parameter.minimum - 1
                 beyond = parameter.maximum + (1 if parameter.integral else 1e-3)
                 for value in (below, beyond, float("nan"), float("inf"), "1", None, True, [1]):
                     with self.assertRaises(ValueError) as caught:
                         reconstruct(**{shown: value})
                     self.assertEqual(
-                        str(caught.exception), f"{shown} must be {parameter}, not {value!r}"
+                        str(caught.exception), f"{shown} must be {parameter}{other}, not {value!r}"
                     )
 
     # Promise: the message is plain, and numbers in it are those of the documentation.
