@@ -31,8 +31,9 @@ constexpr float CosineOfFlipFold = -0.7f;
 constexpr float CosineOfFlipFoldAround = -0.8f;
 /// An edge that bends by more may lie across a crease, where few samples tell it. It is flipped if samples come no farther
 /// away than this part of its length, and the sharpest bend becomes so much less sharp.
-constexpr float MostCosineOfNotch = 0.f;
+constexpr float MostCosineOfNotch = -0.3f;
 constexpr double MostPartOfNotch = 0.02;
+constexpr std::size_t MostSamplesOfNotch = 5;
 constexpr float LeastNotchGain = 0.4f;
 
 /// The edge a-b, and the vertices opposite to it: c follows b around a, d comes before it.
@@ -109,7 +110,8 @@ private:
     const double after = squaresAfter(edge);
     const bool isOnlyForValences = before < after;
     const bool isCloser = before - after > least && !(isOnlyForValences && bends(edge));
-    const bool fillsNotch = mayFillNotch && after - before <= mostCostOfNotch(edge);
+    const bool fillsNotch = mayFillNotch && found_.size() <= MostSamplesOfNotch &&
+      after - before <= mostCostOfNotch(edge);
     if (!(isCloser || fillsNotch) || !flip(edge))
     {
       return false;

@@ -22,6 +22,8 @@ namespace
 /// A point is away from the mesh beyond so many of its own distances to its neighbours,
 /// and MediansAway.
 constexpr float SpacingsAway = 3.f;
+/// ... and is cut off beyond so many, though explained.
+constexpr float SpacingsCutOff = 0.75f;
 /// If the mesh misses most points, their median tells no noise: then it is more than so many distances
 /// between points, and it is the layers of so many points that tell it.
 constexpr float SpacingsOfNoise = 3.f;
@@ -70,6 +72,7 @@ public:
         [](const MissedPiece& a, const MissedPiece& b) { return a.points > b.points; });
     }
     count();
+    findCutOff();
     return std::move(result_);
   }
 
@@ -369,6 +372,28 @@ private:
         }
       }
     }
+  }
+
+  void findCutOff()
+  {
+    std::size_t cut = 0;
+    float farthest = 0.f;
+    for (std::size_t i = 0; i < result_.reasons.size(); ++i)
+    {
+      const float distance = result_.asked.distances[i];
+      if (result_.reasons[i] == Reason::Explained && distance > noise_ &&
+        distance > SpacingsCutOff * spacings_[i] && result_.asked.isBeyondBoundary[i] == 0)
+      {
+        ++cut;
+        if (distance > farthest)
+        {
+          farthest = distance;
+          result_.cutOff.place = cloud_.toInput(placeOf(i));
+        }
+      }
+    }
+    result_.cutOff.farthest = cloud_.unit() * double(farthest);
+    result_.cutOff.share = double(cut) / double(std::max<std::size_t>(1, result_.reasons.size()));
   }
 
   void count()

@@ -26,6 +26,9 @@ constexpr double MostBare = 0.04;
 constexpr double LeastGap = 0.0002;
 /// Of the points.
 constexpr double MostScattered = 0.5;
+constexpr double MostCutOff = 0.0004;
+/// Of those asked: less are cut off by chance.
+constexpr double FewestCutOff = 4.5;
 /// Of the triangles.
 constexpr double MostSlivers = 0.002;
 constexpr double WholeArea = 0.999;
@@ -112,6 +115,27 @@ void warnOfPieces(const Explanation& explanation, const PointCloud& cloud, Fate 
     std::string(WhatHelps[std::size_t(fate)]) + " " + std::string(HowToSee));
 }
 
+/// Where a piece that is coarse is named, that is told already.
+void warnOfCutOff(
+  const Explanation& explanation, const PointCloud& cloud, std::vector<std::string>& warnings)
+{
+  const double meanEdge = explanation.asked.meanEdge * cloud.unit();
+  const double share = explanation.cutOff.share;
+  if (share > MostCutOff && share * double(explanation.reasons.size()) > FewestCutOff &&
+    std::none_of(explanation.pieces.begin(), explanation.pieces.end(),
+      [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == Fate::Coarse; }))
+  {
+    std::ostringstream text;
+    text.precision(2);
+    text << "The mesh is coarser than its cloud: it cuts off about "
+         << about(share * double(cloud.points().size())) << " points, the farthest around "
+         << placeText(explanation.cutOff.place, cloud) << " by " << explanation.cutOff.farthest
+         << ". Edges are longer there than the surface is narrow: more vertices, or a number that "
+            "is found (--vertices auto), show it.";
+    warnings.push_back(text.str());
+  }
+}
+
 void warnOfPoints(
   const Explanation& explanation, const PointCloud& cloud, std::vector<std::string>& warnings)
 {
@@ -136,6 +160,7 @@ void warnOfPoints(
   {
     warnOfPieces(explanation, cloud, fate, warnings);
   }
+  warnOfCutOff(explanation, cloud, warnings);
 }
 
 void warnOfBareArea(double share, std::vector<std::string>& warnings)
