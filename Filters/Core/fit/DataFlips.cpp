@@ -29,12 +29,6 @@ constexpr float CosineOfFlipBend = 0.5f;
 /// ... and any flip, as the surface would fold: between the new triangles, and to those around them.
 constexpr float CosineOfFlipFold = -0.7f;
 constexpr float CosineOfFlipFoldAround = -0.8f;
-/// An edge that bends by more may lie across a crease, where few samples tell it. It is flipped if samples come no farther
-/// away than this part of its length, and the sharpest bend becomes so much less sharp.
-constexpr float MostCosineOfNotch = -0.3f;
-constexpr double MostPartOfNotch = 0.02;
-constexpr std::size_t MostSamplesOfNotch = 5;
-constexpr float LeastNotchGain = 0.4f;
 
 /// The edge a-b, and the vertices opposite to it: c follows b around a, d comes before it.
 struct Diamond
@@ -98,9 +92,8 @@ private:
     const double before = (samples_.load(a, b, edge.c) + samples_.load(a, b, edge.d)).squares;
     double least = scale_ * (LeastFlipGain - FlipGainPerExcess * double(regularity));
     least = regularity > 0 ? least : std::max(least, LeastPartOfFlipGain * before);
-    const bool mayFillNotch = isNotch(edge);
     // Nothing can come closer than to a distance of 0.
-    if ((before <= least && !mayFillNotch) || !mesh_.canFlip(a, b) || !keepsShape(edge))
+    if (before <= least || !mesh_.canFlip(a, b) || !keepsShape(edge))
     {
       return false;
     }
@@ -109,10 +102,7 @@ private:
     samples_.collect(a, b, edge.d, found_);
     const double after = squaresAfter(edge);
     const bool isOnlyForValences = before < after;
-    const bool isCloser = before - after > least && !(isOnlyForValences && bends(edge));
-    const bool fillsNotch = mayFillNotch && found_.size() <= MostSamplesOfNotch &&
-      after - before <= mostCostOfNotch(edge);
-    if (!(isCloser || fillsNotch) || !flip(edge))
+    if (before - after <= least || (isOnlyForValences && bends(edge)) || !flip(edge))
     {
       return false;
     }
@@ -159,58 +149,6 @@ private:
     const float after = std::min(radiusRatio(a, d, c), radiusRatio(b, c, d));
     return after >= LeastFlippedRatio ||
       after >= std::min(radiusRatio(a, b, c), radiusRatio(a, b, d));
-  }
-
-  /// Whether an edge is sharp, and all of its diamond is less so once it is flipped.
-  bool isNotch(const Diamond& edge) const
-  {
-    const auto old = normalsBefore(edge);
-    const float before = cosineBetween(old[0], old[1]);
-    if (!(before < MostCosineOfNotch))
-    {
-      return false;
-    }
-    const auto now = normalsAfter(edge);
-    const auto& [a, b, c, d] = edge;
-    const float after = std::min({ cosineBetween(now[0], now[1]), cosineToNext(a, c, now[0]),
-      cosineToPrevious(a, d, now[0]), cosineToPrevious(b, c, now[1]), cosineToNext(b, d, now[1]) });
-    return after > before + LeastNotchGain;
-  }
-
-  /// For the samples found.
-  double mostCostOfNotch(const Diamond& edge) const
-  {
-    double weights = 0.;
-    for (const std::uint32_t sample : found_)
-    {
-      weights += double(samples_.weight(sample));
-    }
-    return weights * MostPartOfNotch * MostPartOfNotch *
-      double(squaredNorm(mesh_.position(edge.b) - mesh_.position(edge.a)));
-  }
-
-  /// Between a normal and that of the triangle which follows a neighbour around a vertex; 1 if there is none.
-  float cosineToNext(VertexIndex v, VertexIndex neighbor, Vector4 normal) const
-  {
-    const Ring& ring = mesh_.ring(v);
-    const VertexIndex next = ring.next(ring.find(neighbor));
-    const Vector4 origin = mesh_.position(v);
-    return next == NoVertex
-      ? 1.f
-      : cosineBetween(
-          normal, cross(mesh_.position(neighbor) - origin, mesh_.position(next) - origin));
-  }
-
-  /// ... that comes before it.
-  float cosineToPrevious(VertexIndex v, VertexIndex neighbor, Vector4 normal) const
-  {
-    const Ring& ring = mesh_.ring(v);
-    const VertexIndex previous = ring.previous(ring.find(neighbor));
-    const Vector4 origin = mesh_.position(v);
-    return previous == NoVertex
-      ? 1.f
-      : cosineBetween(
-          normal, cross(mesh_.position(previous) - origin, mesh_.position(neighbor) - origin));
   }
 
   bool bends(const Diamond& edge) const

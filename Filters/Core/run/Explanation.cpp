@@ -22,8 +22,9 @@ namespace
 /// A point is away from the mesh beyond so many of its own distances to its neighbours,
 /// and MediansAway.
 constexpr float SpacingsAway = 3.f;
-/// ... and is cut off beyond so many, though explained.
-constexpr float SpacingsCutOff = 0.75f;
+/// ... and is cut off beyond so many, though explained; or where the mesh ends, among sparse points.
+constexpr float SpacingsAtRims = 0.75f;
+constexpr float SpacingsBeyondEnds = 1.6f;
 /// If the mesh misses most points, their median tells no noise: then it is more than so many distances
 /// between points, and it is the layers of so many points that tell it.
 constexpr float SpacingsOfNoise = 3.f;
@@ -376,24 +377,33 @@ private:
 
   void findCutOff()
   {
-    std::size_t cut = 0;
-    float farthest = 0.f;
+    const auto take = [this](CutOffPoints& points, std::size_t i)
+    {
+      ++points.count;
+      const double distance = cloud_.unit() * double(result_.asked.distances[i]);
+      if (distance > points.farthest)
+      {
+        points.farthest = distance;
+        points.place = cloud_.toInput(placeOf(i));
+      }
+    };
     for (std::size_t i = 0; i < result_.reasons.size(); ++i)
     {
       const float distance = result_.asked.distances[i];
-      if (result_.reasons[i] == Reason::Explained && distance > noise_ &&
-        distance > SpacingsCutOff * spacings_[i] && result_.asked.isBeyondBoundary[i] == 0)
+      if (result_.reasons[i] != Reason::Explained || !(distance > noise_))
       {
-        ++cut;
-        if (distance > farthest)
-        {
-          farthest = distance;
-          result_.cutOff.place = cloud_.toInput(placeOf(i));
-        }
+        continue;
+      }
+      if (result_.asked.isBeyondBoundary[i] == 0 && distance > SpacingsAtRims * spacings_[i])
+      {
+        take(result_.atRims, i);
+      }
+      else if (result_.asked.isBeyondBoundary[i] != 0 && isSparse(i) &&
+        distance > SpacingsBeyondEnds * spacings_[i])
+      {
+        take(result_.beyondEnds, i);
       }
     }
-    result_.cutOff.farthest = cloud_.unit() * double(farthest);
-    result_.cutOff.share = double(cut) / double(std::max<std::size_t>(1, result_.reasons.size()));
   }
 
   void count()

@@ -42,11 +42,10 @@ struct MissedPiece
   bool isCoarse(double meanEdge) const { return !isBeyondBoundary && farthest < 0.5 * meanEdge; }
 };
 
-/// Points that are explained, though the mesh cuts them off, as it does with rims that are narrower than its edges are
-/// long: they are farther from it than from each other, and than any noise, and not beyond a boundary.
+/// Points that are explained, though the mesh does not quite reach them.
 struct CutOffPoints
 {
-  double share = 0.; ///< of those asked
+  std::size_t count = 0; ///< of those asked
   Eigen::Vector3d place =
     Eigen::Vector3d::Zero(); ///< of the farthest, in the coordinates of the input
   double farthest = 0.;      ///< from the mesh, in units of the input
@@ -63,7 +62,11 @@ struct Explanation
   std::array<double, Reasons>
     counts{};                      ///< of the points of the input, about; exact if all are asked
   std::vector<MissedPiece> pieces; ///< that are unreachable, the largest first
-  CutOffPoints cutOff;
+  /// As rims are that are narrower than edges are long: farther from the mesh than from each other, and than any noise,
+  /// and not beyond a boundary.
+  CutOffPoints atRims;
+  /// Where points are sparse, beyond a boundary, and farther from it than one and a half distances between them.
+  CutOffPoints beyondEnds;
   double scatteredShare = 0.; ///< of a run: see ScatteredPoints.h
 
   double count(Reason reason) const { return counts[std::size_t(reason)]; }

@@ -26,9 +26,10 @@ constexpr double MostBare = 0.04;
 constexpr double LeastGap = 0.0002;
 /// Of the points.
 constexpr double MostScattered = 0.5;
-constexpr double MostCutOff = 0.0004;
-/// Of those asked: less are cut off by chance.
-constexpr double FewestCutOff = 4.5;
+constexpr double MostAtRims = 0.0004;
+/// Of those asked: fewer are cut off by chance.
+constexpr std::size_t FewestAtRims = 5;
+constexpr std::size_t FewestBeyondEnds = 6;
 /// Of the triangles.
 constexpr double MostSlivers = 0.002;
 constexpr double WholeArea = 0.999;
@@ -115,24 +116,43 @@ void warnOfPieces(const Explanation& explanation, const PointCloud& cloud, Fate 
     std::string(WhatHelps[std::size_t(fate)]) + " " + std::string(HowToSee));
 }
 
-/// Where a piece that is coarse is named, that is told already.
+/// "about 120 points, the farthest around (0, 0, 1) by 0.02".
+std::string cutOffText(
+  const CutOffPoints& points, const Explanation& explanation, const PointCloud& cloud)
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << "about "
+       << about(double(points.count) * double(cloud.points().size()) /
+            double(explanation.reasons.size()))
+       << " points, the farthest around " << placeText(points.place, cloud) << " by "
+       << points.farthest;
+  return text.str();
+}
+
+/// Where a piece of the kind is named, that is told already.
 void warnOfCutOff(
   const Explanation& explanation, const PointCloud& cloud, std::vector<std::string>& warnings)
 {
   const double meanEdge = explanation.asked.meanEdge * cloud.unit();
-  const double share = explanation.cutOff.share;
-  if (share > MostCutOff && share * double(explanation.reasons.size()) > FewestCutOff &&
-    std::none_of(explanation.pieces.begin(), explanation.pieces.end(),
-      [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == Fate::Coarse; }))
+  const auto names = [&](Fate fate)
   {
-    std::ostringstream text;
-    text.precision(2);
-    text << "The mesh is coarser than its cloud: it cuts off about "
-         << about(share * double(cloud.points().size())) << " points, the farthest around "
-         << placeText(explanation.cutOff.place, cloud) << " by " << explanation.cutOff.farthest
-         << ". Edges are longer there than the surface is narrow: more vertices, or a number that "
-            "is found (--vertices auto), show it.";
-    warnings.push_back(text.str());
+    return std::any_of(explanation.pieces.begin(), explanation.pieces.end(),
+      [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == fate; });
+  };
+  const std::size_t atRims = explanation.atRims.count;
+  if (atRims >= FewestAtRims && double(atRims) > MostAtRims * double(explanation.reasons.size()) &&
+    !names(Fate::Coarse))
+  {
+    warnings.push_back("The mesh is coarser than its cloud: it cuts off " +
+      cutOffText(explanation.atRims, explanation, cloud) +
+      ". Edges are longer there than the surface is narrow: more vertices show it.");
+  }
+  if (explanation.beyondEnds.count >= FewestBeyondEnds && !names(Fate::BeyondBoundary))
+  {
+    warnings.push_back("The mesh ends, or is open, where there are points: it does not reach " +
+      cutOffText(explanation.beyondEnds, explanation, cloud) +
+      ". Points are sparse there: more vertices, or more points, show where they end.");
   }
 }
 

@@ -14,6 +14,7 @@ namespace neuralmesh
 /// - more than 3 % of the points are farther from the mesh than points are from each other, and no
 ///   outliers; or a piece or limb of them is missing: where, and how many;
 /// - the mesh cuts off more than 0.04 % of the points at narrow rims: they are farther from it than from each other;
+/// - the mesh ends before six points, or more, at a sparse end of the cloud;
 /// - around more than half of the points others lie in all directions, so that they tell no surface;
 /// - the mesh has an opening where there are points;
 /// - more than 4 % of the area has hardly any points, unless gaps were to be closed;
