@@ -22,6 +22,9 @@ namespace
 /// A point is away from the mesh beyond so many of its own distances to its neighbours,
 /// and MediansAway.
 constexpr float SpacingsAway = 3.f;
+/// ... and is cut off beyond so many, though explained; or where the mesh ends, among sparse points.
+constexpr float SpacingsAtRims = 0.75f;
+constexpr float SpacingsBeyondEnds = 1.6f;
 /// If the mesh misses most points, their median tells no noise: then it is more than so many distances
 /// between points, and it is the layers of so many points that tell it.
 constexpr float SpacingsOfNoise = 3.f;
@@ -70,6 +73,7 @@ public:
         [](const MissedPiece& a, const MissedPiece& b) { return a.points > b.points; });
     }
     count();
+    findCutOff();
     return std::move(result_);
   }
 
@@ -367,6 +371,37 @@ private:
         {
           sets.join(first, other->second);
         }
+      }
+    }
+  }
+
+  void findCutOff()
+  {
+    const auto take = [this](CutOffPoints& points, std::size_t i)
+    {
+      ++points.count;
+      const double distance = cloud_.unit() * double(result_.asked.distances[i]);
+      if (distance > points.farthest)
+      {
+        points.farthest = distance;
+        points.place = cloud_.toInput(placeOf(i));
+      }
+    };
+    for (std::size_t i = 0; i < result_.reasons.size(); ++i)
+    {
+      const float distance = result_.asked.distances[i];
+      if (result_.reasons[i] != Reason::Explained || !(distance > noise_))
+      {
+        continue;
+      }
+      if (result_.asked.isBeyondBoundary[i] == 0 && distance > SpacingsAtRims * spacings_[i])
+      {
+        take(result_.atRims, i);
+      }
+      else if (result_.asked.isBeyondBoundary[i] != 0 && isSparse(i) &&
+        distance > SpacingsBeyondEnds * spacings_[i])
+      {
+        take(result_.beyondEnds, i);
       }
     }
   }

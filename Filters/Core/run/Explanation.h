@@ -42,6 +42,15 @@ struct MissedPiece
   bool isCoarse(double meanEdge) const { return !isBeyondBoundary && farthest < 0.5 * meanEdge; }
 };
 
+/// Points that are explained, though the mesh does not quite reach them.
+struct CutOffPoints
+{
+  std::size_t count = 0; ///< of those asked
+  Eigen::Vector3d place =
+    Eigen::Vector3d::Zero(); ///< of the farthest, in the coordinates of the input
+  double farthest = 0.;      ///< from the mesh, in units of the input
+};
+
 /// What a mesh leaves of a cloud. A point is away from the mesh if it is farther than three of its own
 /// distances to its six nearest neighbours, and than any noise: than eight median distances. It is an
 /// outlier if its own distances are three times those of its neighbours; or three times those that are
@@ -53,7 +62,12 @@ struct Explanation
   std::array<double, Reasons>
     counts{};                      ///< of the points of the input, about; exact if all are asked
   std::vector<MissedPiece> pieces; ///< that are unreachable, the largest first
-  double scatteredShare = 0.;      ///< of a run: see ScatteredPoints.h
+  /// As rims are that are narrower than edges are long: farther from the mesh than from each other, and than any noise,
+  /// and not beyond a boundary.
+  CutOffPoints atRims;
+  /// Where points are sparse, beyond a boundary, and farther from it than one and a half distances between them.
+  CutOffPoints beyondEnds;
+  double scatteredShare = 0.; ///< of a run: see ScatteredPoints.h
 
   double count(Reason reason) const { return counts[std::size_t(reason)]; }
   /// Points that are no outliers, and that the mesh does not reach.

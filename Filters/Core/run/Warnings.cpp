@@ -27,6 +27,10 @@ constexpr double MostBare = 0.04;
 constexpr double LeastGap = 0.0002;
 /// Of the points.
 constexpr double MostScattered = 0.5;
+constexpr double MostAtRims = 0.0004;
+/// Of those asked: fewer are cut off by chance.
+constexpr std::size_t FewestAtRims = 5;
+constexpr std::size_t FewestBeyondEnds = 6;
 /// Of the triangles.
 constexpr double MostSlivers = 0.002;
 constexpr double WholeArea = 0.999;
@@ -97,6 +101,47 @@ std::string piecesText(const std::vector<MissedPiece>& pieces, const PointCloud&
   return where + ". ";
 }
 
+/// "about 120 points, the farthest around (0, 0, 1) by 0.02. ".
+std::string cutOffText(
+  const CutOffPoints& points, const Explanation& explanation, const PointCloud& cloud)
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << "about "
+       << about(double(points.count) * double(cloud.points().size()) /
+            double(explanation.reasons.size()))
+       << " points, the farthest around " << placeText(points.place, cloud) << " by "
+       << points.farthest << ". ";
+  return text.str();
+}
+
+/// A piece of the kind has its own warning.
+void warnOfCutOff(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
+{
+  const double meanEdge = explanation.asked.meanEdge * cloud.unit();
+  const auto names = [&](Fate fate)
+  {
+    return std::any_of(explanation.pieces.begin(), explanation.pieces.end(),
+      [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == fate; });
+  };
+  const std::size_t atRims = explanation.atRims.count;
+  if (atRims >= FewestAtRims && double(atRims) > MostAtRims * double(explanation.reasons.size()) &&
+    !names(Fate::Coarse))
+  {
+    warnings.add(WarningTopic::MeshIsCoarse,
+      "The mesh is coarser than its cloud: it cuts off " +
+        cutOffText(explanation.atRims, explanation, cloud) +
+        "The surface is narrower there than edges are long. Use more vertices.");
+  }
+  if (explanation.beyondEnds.count >= FewestBeyondEnds && !names(Fate::BeyondBoundary))
+  {
+    warnings.add(WarningTopic::OpenWherePointsAre,
+      "The mesh is open where there are points: it does not reach " +
+        cutOffText(explanation.beyondEnds, explanation, cloud) +
+        "Points are sparse there. Use more vertices, or scan more points.");
+  }
+}
+
 void warnOfPieces(
   const Explanation& explanation, const PointCloud& cloud, Fate fate, WarningList& warnings)
 {
@@ -158,6 +203,7 @@ void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, Warni
   {
     warnOfPieces(explanation, cloud, fate, warnings);
   }
+  warnOfCutOff(explanation, cloud, warnings);
 }
 
 void warnOfBareArea(double share, WarningList& warnings)
@@ -197,11 +243,12 @@ void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud, WarningLi
 }
 
 /// Why triangles intersect, and what helps.
-constexpr std::string_view CutsOfCloud =
-  "The surface is thinner there than its triangles are large, or one layer of the mesh covers two of "
-  "the cloud. Use more vertices or another seed.";
+constexpr std::string_view CutsOfCloud = "The surface is thinner there than its triangles are "
+                                         "large, or one layer of the mesh covers two of "
+                                         "the cloud. Use more vertices or another seed.";
 constexpr std::string_view CutsOfSurface =
-  "Parts of the surface touch or cut each other there, or lie closer than triangles are large. Remesh "
+  "Parts of the surface touch or cut each other there, or lie closer than triangles are large. "
+  "Remesh "
   "parts that touch or cut each other one by one. Use more vertices where parts only lie close.";
 
 void warnOfDefects(const Reconstruction& result, std::string_view whyCut, WarningList& warnings)

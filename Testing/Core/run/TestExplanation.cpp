@@ -8,6 +8,7 @@
 #include "run/Reconstruction.h"
 #include "run/Warnings.h"
 #include "Shapes.h"
+#include "ThinPlate.h"
 
 #include <gtest/gtest.h>
 
@@ -385,6 +386,80 @@ TEST(Warnings, CoarseIsNotMissing)
   result.warnings = warningsOf(result, cloud);
   EXPECT_FALSE(hasWarning(result, "coarser"));
   EXPECT_TRUE(hasWarning(result, "missing in the mesh: about 120 points"));
+}
+
+// Promise: a rim that is cut off is told, by how much and how many points have it, though no point is farther away than
+// three of its distances to others; but none of a mesh that reaches its points, nor of a sheet that just ends earlier.
+TEST(Warnings, RimsThatAreCutOff)
+{
+  constexpr double Thickness = 0.02, CutOff = 0.015;
+  const PointCloud cloud(platePoints(20000, Thickness));
+  const auto cutOffBy = [](double width, TriangleMesh mesh)
+  {
+    for (Eigen::Vector3d& point : mesh.points)
+    {
+      point.head<2>() = ((1. - 2. * width) * point.head<2>()).array() + width;
+    }
+    return mesh;
+  };
+  const auto warnedOf = [&](const TriangleMesh& mesh)
+  {
+    const Mesh surface = buildMesh(mesh, cloud);
+    Reconstruction result;
+    result.explanation = explain(cloud, distancesTo(surface, cloud, All), {});
+    result.warnings = warningsOf(result, cloud);
+    return result;
+  };
+  const TriangleMesh plate = makePlate(20, Thickness);
+  const Reconstruction reached = warnedOf(plate);
+  EXPECT_EQ(reached.explanation->atRims.count, 0u);
+  EXPECT_TRUE(reached.warnings.empty());
+  const Reconstruction cut = warnedOf(cutOffBy(CutOff, plate));
+  EXPECT_TRUE(hasWarning(cut, "coarser than its cloud: it cuts off about "));
+  EXPECT_GT(cut.explanation->atRims.farthest, 0.8 * CutOff);
+  EXPECT_LT(cut.explanation->atRims.farthest, 1.5 * CutOff);
+  EXPECT_GT(cut.explanation->atRims.count, 200u);
+  // It is told once.
+  Reconstruction named = cut;
+  named.explanation->pieces.emplace_back().farthest = 0.4 * named.explanation->asked.meanEdge;
+  named.warnings = warningsOf(named, cloud);
+  EXPECT_FALSE(hasWarning(named, "it cuts off"));
+  const PointCloud flat(platePoints(20000, 0.));
+  const Mesh sheet = buildMesh(cutOffBy(CutOff, makeGrid(20)), flat);
+  EXPECT_EQ(explain(flat, distancesTo(sheet, flat, All), {}).atRims.count, 0u);
+}
+
+// Promise: where a sheet ends in sparse points, it is told if the mesh ends well before them, and not if it reaches them.
+TEST(Warnings, EndsBeforeSparsePoints)
+{
+  std::vector<Eigen::Vector3d> points = platePoints(20000, 0.);
+  // Six distances between points apart, at one side.
+  for (int i = 1; i <= 5; ++i)
+  {
+    for (int j = 0; j <= 20; ++j)
+    {
+      points.emplace_back(1. + 0.05 * i, 0.05 * j, 0.);
+    }
+  }
+  const PointCloud cloud(points);
+  const auto warnedOf = [&](double end)
+  {
+    TriangleMesh mesh = makeGrid(20);
+    for (Eigen::Vector3d& point : mesh.points)
+    {
+      point[0] *= end;
+    }
+    const Mesh surface = buildMesh(mesh, cloud);
+    Reconstruction result;
+    result.explanation = explain(cloud, distancesTo(surface, cloud, All), {});
+    result.warnings = warningsOf(result, cloud);
+    return result;
+  };
+  EXPECT_TRUE(warnedOf(1.25).warnings.empty());
+  EXPECT_TRUE(warnedOf(1.22).warnings.empty());
+  const Reconstruction ended = warnedOf(1.13);
+  EXPECT_TRUE(hasWarning(ended, "it does not reach about 21 points, the farthest around (1.2"));
+  EXPECT_NEAR(ended.explanation->beyondEnds.farthest, 0.12, 1e-3);
 }
 
 // Promise: views that lie farther apart than their points scatter are told.
