@@ -11,8 +11,7 @@ from sphinx import addnodes
 
 SITE = pathlib.Path(__file__).resolve().parent
 REPOSITORY = SITE.parent.parent
-sys.path.insert(0, str(SITE))
-from pictures import save_plots  # noqa: E402
+sys.path.insert(0, str(SITE))  # for pictures.py
 
 project = "NeuralMesh"
 html_title = "NeuralMesh"
@@ -29,25 +28,25 @@ suppress_warnings = ["misc.highlighting_failure"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 6  # as GitHub makes them
 
-default_role = "code"
+default_role = "literal"
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 
 html_theme = "furo"
 html_static_path = [str(SITE / "static")]
 html_css_files = ["site.css"]
-html_extra_path = ["extra"]
 html_copy_source = False
 html_show_copyright = False
 html_show_sphinx = False
 html_math_renderer = "mathml"
 
 pyvista.OFF_SCREEN = True
+pyvista.BUILDING_GALLERY = True  # plots stay open, to be saved
 sphinx_gallery_conf = {
     "examples_dirs": str(REPOSITORY / "Documentation" / "Gallery"),
     "gallery_dirs": "Gallery",
     "filename_pattern": r"\.py$",
-    "image_scrapers": (save_plots,),
+    "image_scrapers": ("pictures.save_plots",),
     "reset_modules": (),
     "abort_on_example_error": True,
     "download_all_examples": False,
@@ -74,10 +73,11 @@ def mend_links(app, doctree):
 
 
 def keep_tables(app, what, name, obj, options, lines):
-    """A table in a docstring, which is indented behind a colon, keeps its lines."""
-    for number, line in enumerate(lines[:-2]):
-        following = lines[number + 2]
-        if line.endswith(":") and not lines[number + 1] and indent(following) > indent(line):
+    """A table in a docstring, which is indented behind a colon, keeps its lines; a | stays a |."""
+    for number, line in enumerate(lines):
+        lines[number] = line.replace("|", r"\|")
+        following = lines[number + 2 : number + 3]
+        if line.endswith(":") and following and not lines[number + 1] and indent(following[0]) > indent(line):
             lines[number] += ":"
 
 

@@ -83,7 +83,8 @@ def main():
     site = build / "site"
     shutil.rmtree(site, ignore_errors=True)
     environment = dict(os.environ, PYTHONPATH=str(build / "lib" / "python3-engine"))
-    sphinx = [python, "-m", "sphinx", "--builder", "html", "--conf-dir", SITE, "--doctree-dir", folder / "doctrees"]
+    sphinx = [python, "-m", "sphinx", "--builder", "html", "--conf-dir", SITE, "--doctree-dir", folder / "doctrees",
+              "--define", f"html_extra_path={folder / 'source' / 'extra'}"]
     options = ["--fresh-env", "--fail-on-warning", "--keep-going", "--quiet"]
     made = subprocess.run([*sphinx, *options, folder / "source", site], env=environment)
     if made.returncode == 0:
