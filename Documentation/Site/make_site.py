@@ -39,10 +39,10 @@ def gather(build, sources):
     documentation = sources / "Documentation"
     ignored = shutil.ignore_patterns("Site", "Gallery", "*.in", "*.txt", "__pycache__")
     shutil.copytree(REPOSITORY / "Documentation", documentation, ignore=ignored)
-    # With its tables.
-    for page in (build / "Documentation").rglob("Parameters.md"):
-        if not page.is_relative_to(sources):
-            shutil.copy(page, documentation / page.relative_to(build / "Documentation"))
+    # The page of parameters has its tables in the build tree.
+    made = build / "Documentation"
+    for page in (*made.glob("*.md"), *made.glob("*/*.md")):
+        shutil.copy(page, documentation / page.relative_to(made))
     shutil.copytree(SITE / "Reference", sources / "Reference")
     shutil.copytree(build / "reference" / "html", sources / "extra" / "classes")
     for name in ("CHANGELOG.md", "CONTRIBUTING.md"):

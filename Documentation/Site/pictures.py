@@ -5,6 +5,7 @@ import pathlib
 
 import pyvista
 from sphinx_gallery.scrapers import figure_rst
+from trame_vtk.tools.vtksz2html import write_html
 
 VIEW = """
 .. raw:: html
@@ -26,7 +27,8 @@ def save_plots(block, block_vars, gallery_conf):
         picture = pathlib.Path(next(block_vars["image_path_iterator"]))
         plotter.screenshot(picture)
         view = views / f"{picture.stem}.html"
-        plotter.export_html(view)
+        with view.open("w", encoding="utf-8") as file:
+            write_html(plotter.last_vtksz, file)
         text += figure_rst([str(picture)], str(sources)) + VIEW.format(path=view.relative_to(views.parent))
     pyvista.close_all()
     return text
