@@ -15,9 +15,9 @@ import neuralmesh
 random = np.random.default_rng(4)
 directions = random.normal(size=(30000, 3))
 directions /= np.linalg.norm(directions, axis=1)[:, None]
-# One half is noisier, and one quarter of it has one point of ten.
-noise = np.where(directions[:, 0] > 0, 0.03, 0.005)
-kept = (directions[:, 0] < 0) | (directions[:, 2] < 0) | (random.uniform(size=30000) < 0.1)
+# The noise grows from left to right, and above there are few points.
+noise = 0.004 * 3 ** directions[:, 0]
+kept = (directions[:, 2] < 0.3) | (random.uniform(size=30000) < 0.15)
 points = directions * (1 + random.normal(0, noise))[:, None]
 cloud = pyvista.PolyData(points[kept])
 
@@ -28,5 +28,5 @@ mesh = neuralmesh.reconstruct(cloud, vertices=2000, compute_uncertainty=True)
 
 plotter = pyvista.Plotter()
 plotter.add_mesh(mesh, scalars="Uncertainty", cmap="plasma", smooth_shading=True)
-plotter.camera_position = [(1, -4, 1), (0, 0, 0), (0, 0, 1)]
+plotter.camera_position = [(1.3, -5, 1.3), (0, 0, -0.2), (0, 0, 1)]
 plotter.show()

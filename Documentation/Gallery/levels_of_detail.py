@@ -23,15 +23,15 @@ second /= np.linalg.norm(second, axis=1)[:, None]
 points = middle + 0.5 * (np.cos(around) * first + np.sin(around) * second)
 cloud = pyvista.PolyData(points + random.normal(0, 0.02, points.shape))
 
-levels = neuralmesh.reconstruct(cloud, levels=(500, 2000, 8000))
+levels = neuralmesh.reconstruct(cloud, levels=(1000, 3000, 9000))
 
 # %%
 # The meshes side by side:
 
 plotter = pyvista.Plotter(window_size=(1200, 480))
 for number, level in enumerate(levels):
-    print(level.n_points, "vertices, distance of the points:", level.field_data["Residual"][0])
+    print(level.n_points, "vertices, distance of the points:", round(level.field_data["Residual"][0], 4))
     plotter.add_mesh(level.translate((8 * number, 0, 0)), color="lightsteelblue", show_edges=True)
 plotter.camera_position = [(8, 0, 30), (8, 0, 0), (0, 1, 0)]
-plotter.camera.zoom(1.5)
+plotter.camera.zoom(1.3)
 plotter.show()

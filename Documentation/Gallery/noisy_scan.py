@@ -22,7 +22,9 @@ stray = random.uniform(-1.4, 1.4, (200, 3))
 cloud = pyvista.PolyData(np.vstack((surface, stray)))
 
 mesh = neuralmesh.reconstruct(cloud, vertices=5000)
-print("standard deviation of the noise:", mesh.field_data["Noise"][0])
+print("standard deviation of the noise:", round(mesh.field_data["Noise"][0], 4))
+
+# sphinx_gallery_thumbnail_number = 2
 
 # %%
 # The points:

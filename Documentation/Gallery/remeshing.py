@@ -28,5 +28,5 @@ for name, told in (("before", surface.neuralmesh.info()), ("after", mesh.neuralm
 plotter = pyvista.Plotter(window_size=(1200, 600))
 plotter.add_mesh(surface, color="lightsteelblue", show_edges=True)
 plotter.add_mesh(mesh.translate((3.6, 0, 0)), color="lightsteelblue", show_edges=True)
-plotter.camera_position = [(1.8, -9, 2.5), (1.8, 0, 0), (0, 0, 1)]
+plotter.camera_position = [(1.8, -6.5, 2), (1.8, 0, 0), (0, 0, 1)]
 plotter.show()

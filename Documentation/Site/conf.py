@@ -45,11 +45,13 @@ pyvista.BUILDING_GALLERY = True  # plots stay open, to be saved
 sphinx_gallery_conf = {
     "examples_dirs": str(REPOSITORY / "Documentation" / "Gallery"),
     "gallery_dirs": "Gallery",
+    "within_subsection_order": "ExampleTitleSortKey",
     "filename_pattern": r"\.py$",
     "image_scrapers": ("pictures.save_plots",),
     "reset_modules": (),
     "abort_on_example_error": True,
     "download_all_examples": False,
+    "notebook_extensions": set(),
     "min_reported_time": 3600,
     "write_computation_times": False,
     "show_memory": False,

@@ -33,21 +33,23 @@ def python_with_packages(folder):
     return python
 
 
-def gather(build, sources):
-    """The pages, their pictures, and the reference of the classes, in one folder."""
-    shutil.rmtree(sources, ignore_errors=True)
+def gather_pages(sources):
+    """The pages and their pictures, in one folder as in the repository; the first page has the contents."""
     documentation = sources / "Documentation"
     ignored = shutil.ignore_patterns("Site", "Gallery", "*.in", "*.txt", "__pycache__")
     shutil.copytree(REPOSITORY / "Documentation", documentation, ignore=ignored)
-    # The page of parameters has its tables in the build tree.
-    made = build / "Documentation"
-    for page in (*made.glob("*.md"), *made.glob("*/*.md")):
-        shutil.copy(page, documentation / page.relative_to(made))
     shutil.copytree(SITE / "Reference", sources / "Reference")
-    shutil.copytree(build / "reference" / "html", sources / "extra" / "classes")
     for name in ("CHANGELOG.md", "CONTRIBUTING.md"):
         shutil.copy(REPOSITORY / name, sources)
     (sources / "index.md").write_text((REPOSITORY / "README.md").read_text() + "".join(contents(sources)))
+
+
+def gather_made(build, sources):
+    """What the build tree has: the page of parameters with its tables, and the reference of the classes."""
+    made = build / "Documentation"
+    for page in (*made.glob("*.md"), *made.glob("*/*.md")):
+        shutil.copy(page, sources / page.relative_to(build))
+    shutil.copytree(build / "reference" / "html", sources / "extra" / "classes")
 
 
 def contents(sources):
@@ -79,18 +81,22 @@ def main():
     build = pathlib.Path(sys.argv[1]).resolve()
     folder = build / "Documentation" / "Site"
     python = python_with_packages(folder / "venv")
-    gather(build, folder / "source")
-    site = build / "site"
-    shutil.rmtree(site, ignore_errors=True)
+    sources, site = folder / "source", build / "site"
+    for old in (sources, site):
+        shutil.rmtree(old, ignore_errors=True)
+    gather_pages(sources)
+    gather_made(build, sources)
     environment = dict(os.environ, PYTHONPATH=str(build / "lib" / "python3-engine"))
-    sphinx = [python, "-m", "sphinx", "--builder", "html", "--conf-dir", SITE, "--doctree-dir", folder / "doctrees",
-              "--define", f"html_extra_path={folder / 'source' / 'extra'}"]
-    options = ["--fresh-env", "--fail-on-warning", "--keep-going", "--quiet"]
-    made = subprocess.run([*sphinx, *options, folder / "source", site], env=environment)
-    if made.returncode == 0:
-        print(f"The site: {site / 'index.html'}")
-    return made.returncode
+    command = [
+        python, "-m", "sphinx", "--builder", "html", "--fresh-env", "--fail-on-warning", "--keep-going", "--quiet",
+        "--conf-dir", SITE, "--doctree-dir", folder / "doctrees",
+        "--define", f"html_extra_path={sources / 'extra'}", sources, site,
+    ]  # fmt: skip
+    sphinx = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if sphinx.returncode:
+        sys.exit(f"{sphinx.stdout}\nThe site is not made: what Sphinx complains of stands above.")
+    print(f"The site: {site / 'index.html'}")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
