@@ -11,19 +11,15 @@ import pyvista
 
 import neuralmesh
 
-# Noisy points on a knotted tube.
+# Noisy points on a torus with waves.
 random = np.random.default_rng(6)
-turn, around = random.uniform(0, 2 * np.pi, (2, 40000, 1))
-middle = np.hstack((np.sin(turn) + 2 * np.sin(2 * turn), np.cos(turn) - 2 * np.cos(2 * turn), -np.sin(3 * turn)))
-along = np.hstack((np.cos(turn) + 4 * np.cos(2 * turn), -np.sin(turn) + 4 * np.sin(2 * turn), -3 * np.cos(3 * turn)))
-first = np.cross(along, (0, 0, 1))
-second = np.cross(along, first)
-first /= np.linalg.norm(first, axis=1)[:, None]
-second /= np.linalg.norm(second, axis=1)[:, None]
-points = middle + 0.5 * (np.cos(around) * first + np.sin(around) * second)
+turn, around = random.uniform(0, 2 * np.pi, (2, 40000))
+radius = 0.7 + 0.1 * np.sin(8 * turn + 3 * around)
+distance = 2 + radius * np.cos(around)
+points = np.column_stack((distance * np.cos(turn), distance * np.sin(turn), radius * np.sin(around)))
 cloud = pyvista.PolyData(points + random.normal(0, 0.02, points.shape))
 
-levels = neuralmesh.reconstruct(cloud, levels=(1000, 3000, 9000))
+levels = neuralmesh.reconstruct(cloud, levels=(500, 2000, 8000))
 
 # %%
 # The meshes side by side:
@@ -31,7 +27,7 @@ levels = neuralmesh.reconstruct(cloud, levels=(1000, 3000, 9000))
 plotter = pyvista.Plotter(window_size=(1200, 480))
 for number, level in enumerate(levels):
     print(level.n_points, "vertices, distance of the points:", round(level.field_data["Residual"][0], 4))
-    plotter.add_mesh(level.translate((8 * number, 0, 0)), color="lightsteelblue", show_edges=True)
-plotter.camera_position = [(8, 0, 30), (8, 0, 0), (0, 1, 0)]
+    plotter.add_mesh(level.translate((6 * number, 0, 0)), color="lightsteelblue", show_edges=True)
+plotter.camera_position = [(6, -9, 24), (6, 0, 0), (0, 1, 0)]
 plotter.camera.zoom(1.3)
 plotter.show()

@@ -4,6 +4,7 @@
 
 import json
 import pathlib
+import re
 import shutil
 import sys
 import tempfile
@@ -89,8 +90,8 @@ class Site(unittest.TestCase):
         (field,) = (one for one in self.find("input[name=q]") if one.is_displayed())
         field.send_keys(word)
         field.submit()
-        self.wait_until(lambda: "finished" in self.find("#search-results .search-summary")[0].text
-                        if self.find("#search-results .search-summary") else False)
+        said = re.compile("finished|did not match")
+        self.wait_until(lambda: any(said.search(one.text) for one in self.find("#search-results .search-summary")))
         return self.find("#search-results ul.search > li > a")
 
     # Promise: the search finds pages by a word in them, of the gallery, the guide and the reference; and nothing
@@ -147,10 +148,14 @@ class Site(unittest.TestCase):
                 self.assertNotIn("Warning", self.find("article")[0].text)
                 self.turn(self.find("details.view")[0])
 
+    def show(self, element):
+        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", element)
+
     def turn(self, view):
-        view.find_element(By.TAG_NAME, "summary").click()
-        frame = view.find_element(By.TAG_NAME, "iframe")
-        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", frame)
+        summary, frame = (view.find_element(By.TAG_NAME, name) for name in ("summary", "iframe"))
+        self.show(summary)
+        summary.click()
+        self.show(frame)
         self.browser.switch_to.frame(frame)
         self.wait_until(lambda: self.find("canvas"))
         canvas = self.find("canvas")[0]
