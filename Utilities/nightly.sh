@@ -49,7 +49,9 @@ step_alone()
 build_for_tests()
 {
   install_packages "${build_packages[@]}" "${test_packages[@]}" "${night_packages[@]}"
-  build build all -DNEURALMESH_BUILD_TESTING=ON -DNEURALMESH_WARNINGS_AS_ERRORS=ON
+  fetch_nanobind build
+  build build all -DNEURALMESH_BUILD_TESTING=ON -DNEURALMESH_WARNINGS_AS_ERRORS=ON \
+    ${engine_options[@]+"${engine_options[@]}"}
 }
 
 step_tests()

@@ -185,7 +185,7 @@ def table(parameters: Mapping[str, Parameter]) -> str:
     """A line for each parameter: its name, its default, and what it may be."""
     width = max(map(len, parameters))
     return "".join(
-        f"            {name:{width}}  {_plain(parameter.default):12}  {parameter}\n"
+        f"                {name:{width}}  {_plain(parameter.default):12}  {parameter}\n"
         for name, parameter in parameters.items()
     )
 

@@ -177,7 +177,7 @@ def reconstruct(
 
 
 if reconstruct.__doc__:
-    reconstruct.__doc__ = reconstruct.__doc__.replace("{table}\n", table(PARAMETERS))
+    reconstruct.__doc__ = reconstruct.__doc__.replace("    {table}\n", table(PARAMETERS))
 
 
 def make_filter(

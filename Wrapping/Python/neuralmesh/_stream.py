@@ -191,4 +191,4 @@ def stream(
 
 
 if stream.__doc__:
-    stream.__doc__ = stream.__doc__.replace("{table}\n", table(PARAMETERS))
+    stream.__doc__ = stream.__doc__.replace("    {table}\n", table(PARAMETERS))
