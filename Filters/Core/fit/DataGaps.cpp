@@ -107,11 +107,12 @@ private:
 class SparseSpacing
 {
 public:
-  SparseSpacing(const PointCloud& cloud, const Mesh& mesh, std::span<const PlaceOnMesh> places)
+  SparseSpacing(const PointCloud& cloud, const Mesh& mesh, std::span<const PlaceOnMesh> places,
+    const Executor& executor)
     : cloud_(cloud)
     , mesh_(mesh)
     , places_(places)
-    , spacing_(mesh, places)
+    , spacing_(mesh, places, executor)
     , least_(SparseGapSpacings * double(spacing_.usual()))
     , isAnywhere_(std::any_of(places.begin(), places.end(),
         [this](const PlaceOnMesh& place) { return double(spacing_.samplesAt(place)) > least_; }))
@@ -213,7 +214,7 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
     return points->distance(centerOf(mesh, triangles.all()[t]));
   };
   // Where samples are sparse, their number on average tells nothing.
-  SparseSpacing sparse(cloud, mesh, places);
+  SparseSpacing sparse(cloud, mesh, places, executor);
   const auto sparseSpacing = [&](std::uint32_t t)
   { return sparse.at(centerOf(mesh, triangles.all()[t])); };
   const auto isTooSmall = [&](std::uint32_t t)

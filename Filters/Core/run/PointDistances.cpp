@@ -89,7 +89,7 @@ void findExactly(const Mesh& mesh, const PointCloud& cloud, float least, const E
     return;
   }
   const TriangleMesh triangles = trianglesIn(mesh);
-  const NearestTriangle nearest(triangles);
+  const NearestTriangle nearest(triangles, executor);
   executor.forEachRange(result.points.size(), DistancesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
