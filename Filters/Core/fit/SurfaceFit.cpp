@@ -90,7 +90,7 @@ SurfaceFit::SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCo
 
 bool SurfaceFit::findPlaces(const Progress& progress)
 {
-  const VertexGrid grid = hasPlaces_ ? VertexGrid() : gridOf(mesh_, cloud_);
+  const VertexGrid grid = hasPlaces_ ? VertexGrid() : gridOf(mesh_, cloud_, executor_);
   if (!hasPlaces_)
   {
     opposite_ = oppositeVertices(
@@ -123,7 +123,7 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   medianDistance_ = std::sqrt(medianOf(distances, executor_));
   outlierDistance_ = surface_
     ? std::numeric_limits<float>::max()
-    : neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(), edges);
+    : neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(executor_), edges);
   chooseUsed(edges);
   return true;
 }
@@ -409,7 +409,7 @@ void SurfaceFit::follow(const ChangedVertices& changed)
   {
     newOf[v] = changed.alive(mesh_, v);
   }
-  const std::vector<VertexIndex> oldOf = mesh_.dropErased();
+  const std::vector<VertexIndex> oldOf = mesh_.dropErased(executor_);
   std::vector<VertexIndex> place(newOf.size());
   std::vector<VertexIndex> opposite(oldOf.size());
   const std::vector<std::uint8_t> wasKept = isKept_;
