@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Prints what large meshes cost, from 20,000 to a million vertices, and what two threads gain:
-# the tables of Documentation/Guide/Large.md. About ten minutes.
+# Prints what large meshes cost, from 20,000 to a million vertices, what two threads gain, and what sixteen
+# would: the tables of Documentation/Guide/Large.md. About ten minutes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source Utilities/build.sh
@@ -10,3 +10,5 @@ build build-benchmark all -DNEURALMESH_BUILD_BENCHMARKS=ON -DNEURALMESH_BUILD_AP
 build-benchmark/bin/NeuralMeshScaleTable
 echo
 build-benchmark/bin/NeuralMeshThreadTable
+echo
+build-benchmark/bin/NeuralMeshCriticalPathTable

@@ -91,8 +91,14 @@ std::vector<std::uint32_t> mortonOrder(
     entries.swap(sorted);
   }
   std::vector<std::uint32_t> order(points.size());
-  std::transform(entries.begin(), entries.end(), order.begin(),
-    [](const MortonEntry& entry) { return entry.index; });
+  executor.forEachRange(points.size(), SortedPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        order[i] = entries[i].index;
+      }
+    });
   return order;
 }
 }

@@ -199,7 +199,7 @@ PlaceOnMesh closestPlaceFrom(Vector4 point, const Mesh& mesh, VertexIndex near)
   return closestPlaceAt(point, mesh, closestVertexFrom(point, mesh, near));
 }
 
-VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud)
+VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud, const Executor& executor)
 {
   constexpr float EdgesPerCell = 2.f;
   // Of a cloud of few different points the mesh is a few clumps: then cells are as wide as this part
@@ -209,7 +209,8 @@ VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud)
   const float spread = std::sqrt(squaredNorm(size) / float(mesh.indexEnd()));
   VertexGrid grid;
   grid.reset(cloud.bulkMin(), cloud.bulkMax(),
-    EdgesPerCell * std::max(float(mesh.meanEdge()), LeastPartOfSpread * spread), mesh.indexEnd());
+    EdgesPerCell * std::max(float(mesh.meanEdge(executor)), LeastPartOfSpread * spread),
+    mesh.indexEnd());
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
     grid.insert(v, mesh.position(v));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "cloud/PointCloud.h"
 #include "cloud/VertexGrid.h"
 #include "mesh/Mesh.h"
@@ -45,7 +46,8 @@ PlaceOnMesh closestPlaceAround(Vector4 point, const Mesh& mesh, VertexIndex v);
 bool isOnBoundary(const PlaceOnMesh& place, const Mesh& mesh);
 
 /// All vertices, for closestPlace(), in a grid over the bulk of the cloud.
-VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud);
+VertexGrid gridOf(
+  const Mesh& mesh, const PointCloud& cloud, const Executor& executor = Executor::sequential());
 
 /// Points farther from the mesh than five median distances are outliers, but none closer than so
 /// many mean edges: without noise the median tells nothing of where the mesh does not fit (yet).

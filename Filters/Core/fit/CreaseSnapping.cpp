@@ -28,6 +28,8 @@ constexpr float LeastSnapRatio = 0.15f;
 /// Cosine of the angle between the normals at an edge, at most, where there may be a crease.
 constexpr float MostCosineOfCrease = 0.9f;
 constexpr unsigned MostSnappedValence = 9;
+/// A part for the executor.
+constexpr std::size_t VerticesAskedPerRange = 1024;
 
 /// The sum of squared distances to planes, as a function of the place.
 class PlaneQuadric
@@ -60,9 +62,11 @@ private:
 class CreaseSnapping
 {
 public:
-  CreaseSnapping(Mesh& mesh, const PlacedSamples& samples, double variance)
+  CreaseSnapping(
+    Mesh& mesh, const PlacedSamples& samples, double variance, const Executor& executor)
     : mesh_(mesh)
-    , samples_(samples, mesh.indexEnd())
+    , executor_(executor)
+    , samples_(samples, mesh.indexEnd(), executor)
     , variance_(variance)
     , isInExcess_(mesh.indexEnd(), 0)
     , isLocked_(mesh.indexEnd(), 0)
@@ -72,14 +76,22 @@ public:
 
   ChangedVertices run()
   {
-    std::vector<std::pair<double, VertexIndex>> order;
     const double least = samples_.total().squares / double(mesh_.vertexCount());
+    std::vector<double> excesses(mesh_.indexEnd());
+    executor_.forEachRange(mesh_.indexEnd(), VerticesAskedPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (auto v = VertexIndex(begin); v < end; ++v)
+        {
+          excesses[v] = mesh_.isBoundary(v) || !isBent(v) ? 0. : starLoad(v).excess(variance_);
+        }
+      });
+    std::vector<std::pair<double, VertexIndex>> order;
     for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
     {
-      const double excess = mesh_.isBoundary(v) || !isBent(v) ? 0. : starLoad(v).excess(variance_);
-      if (excess > least)
+      if (excesses[v] > least)
       {
-        order.emplace_back(-excess, v);
+        order.emplace_back(-excesses[v], v);
         isInExcess_[v] = 1;
       }
     }
@@ -330,6 +342,7 @@ private:
   }
 
   Mesh& mesh_;
+  const Executor& executor_;
   TriangleSamples samples_;
   double variance_;
   std::vector<std::uint8_t> isInExcess_;
@@ -344,8 +357,9 @@ private:
 };
 }
 
-ChangedVertices snapToCreases(Mesh& mesh, const PlacedSamples& samples, double variance)
+ChangedVertices snapToCreases(
+  Mesh& mesh, const PlacedSamples& samples, double variance, const Executor& executor)
 {
-  return CreaseSnapping(mesh, samples, variance).run();
+  return CreaseSnapping(mesh, samples, variance, executor).run();
 }
 }

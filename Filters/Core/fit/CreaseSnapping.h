@@ -12,5 +12,6 @@ namespace neuralmesh
 /// planes of the triangles around it meet, or an edge across the crease becomes one vertex there. Only if
 /// the samples come closer by it, and no triangle turns over or becomes a sliver. The mesh may have fewer
 /// vertices then. Places by quadrics: Garland and Heckbert 1997.
-ChangedVertices snapToCreases(Mesh& mesh, const PlacedSamples& samples, double variance);
+ChangedVertices snapToCreases(Mesh& mesh, const PlacedSamples& samples, double variance,
+  const Executor& executor = Executor::sequential());
 }

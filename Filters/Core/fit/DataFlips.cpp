@@ -7,12 +7,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 namespace neuralmesh
 {
 namespace
 {
 constexpr int MostFlipPasses = 3;
+/// A part for the executor.
+constexpr std::size_t VerticesAhead = 1024;
 /// What a flip must gain, in mean squared distances of a sample: so much, and so much more or less for each
 /// squared excess of valence more or less.
 constexpr double LeastFlipGain = 0.5;
@@ -36,60 +41,145 @@ struct Diamond
   VertexIndex a, b, c, d;
 };
 
+/// What a flip is tried with.
+struct FlipScratch
+{
+  struct Move
+  {
+    float squaredDistance;
+    bool isAtA;
+  };
+
+  std::vector<std::uint32_t> found; ///< samples
+  SampleBundle bundle;              ///< of these
+  std::vector<Move> moves;
+};
+
 class SampleFlips
 {
 public:
-  SampleFlips(Mesh& mesh, const PlacedSamples& samples, double variance)
+  SampleFlips(Mesh& mesh, const PlacedSamples& samples, double variance, const Executor& executor)
     : mesh_(mesh)
-    , samples_(samples, mesh.indexEnd())
+    , executor_(executor)
+    , samples_(samples, mesh.indexEnd(), executor)
     , scale_(std::max(variance, samples_.total().squares / std::max(samples_.total().count, 1.)))
+    , isAsked_(mesh.indexEnd(), 1)
     , changed_(mesh.indexEnd())
   {
   }
 
   ChangedVertices run()
   {
-    std::vector<std::uint8_t> isAsked(mesh_.indexEnd(), 1), isNext;
     for (int pass = 0; pass < MostFlipPasses; ++pass)
     {
-      isNext.assign(mesh_.indexEnd(), 0);
+      isFlipped_.assign(mesh_.indexEnd(), 0);
+      lookAhead();
       bool any = false;
       for (VertexIndex a = 0; a < mesh_.indexEnd(); ++a)
       {
-        const Ring before = mesh_.ring(a);
-        for (const VertexIndex b : before)
-        {
-          if (a < b && (isAsked[a] != 0 || isAsked[b] != 0))
-          {
-            any = flipIfCloser(a, b, isNext) || any;
-          }
-        }
+        any = flipAt(a) || any;
       }
       if (!any)
       {
         break;
       }
-      isAsked.swap(isNext);
+      isAsked_.swap(isFlipped_);
     }
     return std::move(changed_);
   }
 
 private:
-  bool flipIfCloser(VertexIndex a, VertexIndex b, std::vector<std::uint8_t>& isNext)
+  /// Asks of all edges, on all threads, which may be flipped as the mesh is at the beginning of the pass.
+  void lookAhead()
+  {
+    if (executor_.threadCount() == 1)
+    {
+      // All are asked when their turn comes.
+      return;
+    }
+    mayFlip_.assign(mesh_.indexEnd(), 0);
+    executor_.forEachRange(mesh_.indexEnd(), VerticesAhead,
+      [&](std::size_t begin, std::size_t end)
+      {
+        FlipScratch scratch;
+        for (auto a = VertexIndex(begin); a < end; ++a)
+        {
+          const Ring& ring = mesh_.ring(a);
+          for (unsigned slot = 0; slot < ring.size(); ++slot)
+          {
+            if (isToBeAsked(a, ring[slot]) && isCloserFlipped(diamondAt(a, slot), scratch))
+            {
+              mayFlip_[a] = std::uint16_t(mayFlip_[a] | 1u << slot);
+            }
+          }
+        }
+      });
+  }
+
+  bool isToBeAsked(VertexIndex a, VertexIndex b) const
+  {
+    return a < b && (isAsked_[a] != 0 || isAsked_[b] != 0);
+  }
+
+  Diamond diamondAt(VertexIndex a, unsigned slot) const
   {
     const Ring& ring = mesh_.ring(a);
-    const unsigned slot = ring.find(b);
-    if (slot == ring.size())
+    return { a, ring[slot], ring.next(slot), ring.previous(slot) };
+  }
+
+  /// What was asked ahead holds as long as none of the four vertices has had a flip since.
+  bool hasAnswer(const Diamond& edge) const
+  {
+    return !mayFlip_.empty() && edge.c != NoVertex && edge.d != NoVertex &&
+      (isFlipped_[edge.a] | isFlipped_[edge.b] | isFlipped_[edge.c] | isFlipped_[edge.d]) == 0;
+  }
+
+  /// Its ring may begin elsewhere now.
+  void forgetAnswers(VertexIndex v)
+  {
+    if (!mayFlip_.empty())
+    {
+      mayFlip_[v] = std::numeric_limits<std::uint16_t>::max();
+    }
+  }
+
+  /// Whether any edge to a vertex of a higher index was flipped.
+  bool flipAt(VertexIndex a)
+  {
+    bool any = false;
+    const Ring before = mesh_.ring(a);
+    for (unsigned i = 0; i < before.size(); ++i)
+    {
+      const unsigned slot = mesh_.ring(a).find(before[i]);
+      if (!isToBeAsked(a, before[i]) || slot == mesh_.ring(a).size())
+      {
+        continue;
+      }
+      const Diamond edge = diamondAt(a, slot);
+      const bool isRefused = hasAnswer(edge) && (mayFlip_[a] >> i & 1u) == 0;
+      if (!isRefused && isCloserFlipped(edge, scratch_) && flip(edge))
+      {
+        any = true;
+        for (const VertexIndex v : { edge.a, edge.b, edge.c, edge.d })
+        {
+          isFlipped_[v] = 1;
+          changed_.touch(v);
+        }
+      }
+    }
+    return any;
+  }
+
+  /// Whether samples come closer by enough, but for folds; where each goes is in `scratch` then.
+  bool isCloserFlipped(const Diamond& edge, FlipScratch& scratch) const
+  {
+    const auto& [a, b, c, d] = edge;
+    if (c == NoVertex || d == NoVertex || !keepsValences(edge))
     {
       return false;
     }
-    const Diamond edge{ a, b, ring.next(slot), ring.previous(slot) };
-    if (edge.c == NoVertex || edge.d == NoVertex || !keepsValences(edge))
-    {
-      return false;
-    }
-    const int regularity = valenceGain(mesh_, a, b, edge.c, edge.d);
-    const double before = (samples_.load(a, b, edge.c) + samples_.load(a, b, edge.d)).squares;
+    const int regularity = valenceGain(mesh_, a, b, c, d);
+    const double before = (samples_.load(a, b, c) + samples_.load(a, b, d)).squares;
     double least = scale_ * (LeastFlipGain - FlipGainPerExcess * double(regularity));
     least = regularity > 0 ? least : std::max(least, LeastPartOfFlipGain * before);
     // Nothing can come closer than to a distance of 0.
@@ -97,21 +187,12 @@ private:
     {
       return false;
     }
-    found_.clear();
-    samples_.collect(a, b, edge.c, found_);
-    samples_.collect(a, b, edge.d, found_);
-    const double after = squaresAfter(edge);
+    scratch.found.clear();
+    samples_.collect(a, b, c, scratch.found);
+    samples_.collect(a, b, d, scratch.found);
+    const double after = squaresAfter(edge, scratch);
     const bool isOnlyForValences = before < after;
-    if (before - after <= least || (isOnlyForValences && bends(edge)) || !flip(edge))
-    {
-      return false;
-    }
-    for (const VertexIndex v : { edge.a, edge.b, edge.c, edge.d })
-    {
-      isNext[v] = 1;
-      changed_.touch(v);
-    }
-    return true;
+    return before - after > least && !(isOnlyForValences && bends(edge));
   }
 
   bool keepsValences(const Diamond& edge) const
@@ -159,28 +240,29 @@ private:
   }
 
   /// Of the samples found, to the nearer one of the new triangles; which one that is is kept.
-  double squaresAfter(const Diamond& edge)
+  double squaresAfter(const Diamond& edge, FlipScratch& scratch) const
   {
     const Vector4 a = mesh_.position(edge.a), b = mesh_.position(edge.b);
     const Vector4 c = mesh_.position(edge.c), d = mesh_.position(edge.d);
     const TriangleDistances atA(a, d, c), atB(b, c, d);
     double sum = 0.;
-    moves_.clear();
-    bundle_.assign(samples_, found_);
-    for (const FourVectors& points : bundle_.points())
+    auto& [found, bundle, moves] = scratch;
+    moves.clear();
+    bundle.assign(samples_, found);
+    for (const FourVectors& points : bundle.points())
     {
       const TriangleDistances::Lanes toA = atA.squared(points), toB = atB.squared(points);
-      for (int lane = 0; lane < 4 && moves_.size() < found_.size(); ++lane)
+      for (int lane = 0; lane < 4 && moves.size() < found.size(); ++lane)
       {
-        const float weight = samples_.weight(found_[moves_.size()]);
-        moves_.push_back({ std::min(toA[lane], toB[lane]), toA[lane] < toB[lane] });
-        sum += double(weight) * double(moves_.back().squaredDistance);
+        const float weight = samples_.weight(found[moves.size()]);
+        moves.push_back({ std::min(toA[lane], toB[lane]), toA[lane] < toB[lane] });
+        sum += double(weight) * double(moves.back().squaredDistance);
       }
     }
     return sum;
   }
 
-  /// Unless a fold comes out.
+  /// As `scratch_` has it, unless a fold comes out.
   bool flip(const Diamond& edge)
   {
     const auto& [a, b, c, d] = edge;
@@ -188,14 +270,17 @@ private:
     if (foldsAt(a, c) || foldsAt(a, d) || foldsAt(b, c) || foldsAt(b, d))
     {
       mesh_.flip(c, d);
+      forgetAnswers(a);
+      forgetAnswers(b);
       return false;
     }
-    found_.clear();
-    samples_.take(a, b, c, found_);
-    samples_.take(a, b, d, found_);
-    for (std::size_t i = 0; i < found_.size(); ++i)
+    auto& [found, bundle, moves] = scratch_;
+    found.clear();
+    samples_.take(a, b, c, found);
+    samples_.take(a, b, d, found);
+    for (std::size_t i = 0; i < found.size(); ++i)
     {
-      samples_.put(found_[i], moves_[i].isAtA ? a : b, c, d, moves_[i].squaredDistance);
+      samples_.put(found[i], moves[i].isAtA ? a : b, c, d, moves[i].squaredDistance);
     }
     return true;
   }
@@ -214,24 +299,21 @@ private:
              cross(mesh_.position(previous) - origin, along)) < CosineOfFlipFoldAround;
   }
 
-  struct Move
-  {
-    float squaredDistance;
-    bool isAtA;
-  };
-
   Mesh& mesh_;
+  const Executor& executor_;
   TriangleSamples samples_;
   double scale_;
+  std::vector<std::uint8_t> isAsked_;   ///< of each vertex, whether its edges are, in this pass
+  std::vector<std::uint8_t> isFlipped_; ///< ... or one of them was flipped
+  std::vector<std::uint16_t> mayFlip_; ///< of each edge at a vertex, a bit; empty if none was asked
   ChangedVertices changed_;
-  std::vector<std::uint32_t> found_; ///< samples
-  SampleBundle bundle_;              ///< of these
-  std::vector<Move> moves_;
+  FlipScratch scratch_;
 };
 }
 
-ChangedVertices flipToSamples(Mesh& mesh, const PlacedSamples& samples, double variance)
+ChangedVertices flipToSamples(
+  Mesh& mesh, const PlacedSamples& samples, double variance, const Executor& executor)
 {
-  return SampleFlips(mesh, samples, variance).run();
+  return SampleFlips(mesh, samples, variance, executor).run();
 }
 }

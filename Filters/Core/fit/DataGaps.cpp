@@ -14,6 +14,7 @@
 #include "mesh/SmallPieces.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -45,8 +46,9 @@ constexpr double LeastRootsOfWeb = 0.25;
 /// chance.
 constexpr std::size_t LeastSamplesPerTriangle = 2;
 constexpr double LeastSpacingsIfEmpty = 1.5;
-/// A part for the executor.
+/// Parts for the executor.
 constexpr std::size_t TrianglesPerRange = 4096;
+constexpr std::size_t PlacesCountedPerRange = 16384;
 /// Of the distance between samples on average: where they are farther from each other, it is theirs
 /// that counts, and triangles may be too small there.
 constexpr double SparseGapSpacings = 2.;
@@ -107,11 +109,12 @@ private:
 class SparseSpacing
 {
 public:
-  SparseSpacing(const PointCloud& cloud, const Mesh& mesh, std::span<const PlaceOnMesh> places)
+  SparseSpacing(const PointCloud& cloud, const Mesh& mesh, std::span<const PlaceOnMesh> places,
+    const Executor& executor)
     : cloud_(cloud)
     , mesh_(mesh)
     , places_(places)
-    , spacing_(mesh, places)
+    , spacing_(mesh, places, executor)
     , least_(SparseGapSpacings * double(spacing_.usual()))
     , isAnywhere_(std::any_of(places.begin(), places.end(),
         [this](const PlaceOnMesh& place) { return double(spacing_.samplesAt(place)) > least_; }))
@@ -199,12 +202,17 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar,
   const Executor& executor)
 {
-  const NumberedTriangles triangles(mesh);
+  const NumberedTriangles triangles(mesh, executor);
   std::vector<std::uint32_t> samples(triangles.all().size(), 0);
-  for (const PlaceOnMesh& place : places)
-  {
-    ++samples[triangles.number(place.triangle[0], place.triangle[1])];
-  }
+  executor.forEachRange(places.size(), PlacesCountedPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (const PlaceOnMesh& place : places.subspan(begin, end - begin))
+      {
+        const std::uint32_t t = triangles.number(place.triangle[0], place.triangle[1]);
+        std::atomic_ref(samples[t]).fetch_add(1, std::memory_order_relaxed);
+      }
+    });
   std::optional<SomePoints> points;
   std::once_flag hasPoints;
   const auto distance = [&](std::uint32_t t)
@@ -213,7 +221,7 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
     return points->distance(centerOf(mesh, triangles.all()[t]));
   };
   // Where samples are sparse, their number on average tells nothing.
-  SparseSpacing sparse(cloud, mesh, places);
+  SparseSpacing sparse(cloud, mesh, places, executor);
   const auto sparseSpacing = [&](std::uint32_t t)
   { return sparse.at(centerOf(mesh, triangles.all()[t])); };
   const auto isTooSmall = [&](std::uint32_t t)

@@ -25,6 +25,10 @@ Vector4 centerOf(const Mesh& mesh, const Triangle& triangle)
 std::vector<EmptyPiece> findEmptyPieces(const Mesh& mesh, const NumberedTriangles& triangles,
   std::span<const std::uint32_t> samples, const std::vector<bool>& isEmpty)
 {
+  if (std::find(isEmpty.begin(), isEmpty.end(), true) == isEmpty.end())
+  {
+    return {};
+  }
   DisjointSets sets(samples.size());
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
@@ -51,13 +55,13 @@ std::vector<EmptyPiece> findEmptyPieces(const Mesh& mesh, const NumberedTriangle
     }
     return pieces[number - 1];
   };
+  std::vector<std::size_t> touched;
   for (std::uint32_t t = 0; t < samples.size(); ++t)
   {
-    const double area = areaOf(mesh, triangles.all()[t]);
     if (isEmpty[t])
     {
       EmptyPiece& piece = pieceWith(t);
-      piece.area += area;
+      piece.area += areaOf(mesh, triangles.all()[t]);
       piece.triangles.push_back(t);
       const auto& corners = triangles.all()[t];
       piece.isAtBoundary = piece.isAtBoundary ||
@@ -65,17 +69,21 @@ std::vector<EmptyPiece> findEmptyPieces(const Mesh& mesh, const NumberedTriangle
           corners.begin(), corners.end(), [&](VertexIndex v) { return mesh.isBoundary(v); });
       continue;
     }
-    std::vector<std::size_t> touched;
+    touched.clear();
     for (const VertexIndex v : triangles.all()[t])
     {
       for (const std::uint32_t other : triangles.at(v))
       {
+        if (!isEmpty[other])
+        {
+          continue;
+        }
         const std::size_t root = sets.root(other);
-        if (isEmpty[other] && std::find(touched.begin(), touched.end(), root) == touched.end())
+        if (std::find(touched.begin(), touched.end(), root) == touched.end())
         {
           touched.push_back(root);
           EmptyPiece& piece = pieceWith(other);
-          piece.areaAround += area;
+          piece.areaAround += areaOf(mesh, triangles.all()[t]);
           piece.samplesAround += samples[t];
         }
       }

@@ -93,15 +93,28 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   }
   if (!keepsPlaces_)
   {
-    fit_.follow(snapToCreases(mesh_, fit_.placedSamples(), fit_.variance()));
+    fit_.follow(snapToCreases(mesh_, fit_.placedSamples(), fit_.variance(), executor_));
+  }
+  if (!progress(0.4))
+  {
+    return false;
   }
   const std::size_t missing = vertexCount_ - std::min(vertexCount_, mesh_.vertexCount());
   const double most = distributes && !keepsPlaces_ ? MostDistributed : 0.;
   if (most > 0. || missing > 0)
   {
-    fit_.follow(redistribute(mesh_, fit_.placedSamples(), fit_.variance(), most, missing));
+    fit_.follow(
+      redistribute(mesh_, fit_.placedSamples(), fit_.variance(), most, missing, executor_));
   }
-  fit_.follow(flipToSamples(mesh_, fit_.placedSamples(), fit_.variance()));
+  if (!progress(0.5))
+  {
+    return false;
+  }
+  fit_.follow(flipToSamples(mesh_, fit_.placedSamples(), fit_.variance(), executor_));
+  if (!progress(0.6))
+  {
+    return false;
+  }
   fit_.relaxCreases(DeviationsOfCreaseIfClean);
   const std::vector<Vector4> before(mesh_.positions().begin(), mesh_.positions().end());
   if (!move(lambda_, partOf(progress, 0.7, 1.)))

@@ -312,7 +312,7 @@ bool Finish::mendsBy(const Remove& remove, FitGuard& guard, const Progress& prog
   const bool wasWorse = guard.losesPoints(mesh_, true);
   remove();
   // As many vertices come in again where edges are long.
-  mesh_.dropErased();
+  mesh_.dropErased(executor_);
   refine(
     mesh_, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);
   const IntersectionRepair again = repairIntersections(mesh_, progress, executor_);
@@ -411,7 +411,7 @@ bool Finish::openGaps(const SurfaceFit& surfaceFit, bool mustBeFar)
     return false;
   }
   report_.gapTriangles += gaps.triangles;
-  mesh_.dropErased();
+  mesh_.dropErased(executor_);
   refine(mesh_, count, [](double) { return true; });
   return true;
 }

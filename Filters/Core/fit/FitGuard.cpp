@@ -47,20 +47,23 @@ FitGuard::FitGuard(
   , to_(to)
   , points_(heldOutPoints(cloud, MostOfGuard))
   , before_(squaredDistances(cloud, points_, mesh, executor, to))
-  , residual_(residual(before_, mesh.meanEdge()))
+  , residual_(residual(before_, mesh.meanEdge(executor)))
 {
 }
 
 bool FitGuard::isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired)
 {
   const std::vector<float> after = squaredDistances(cloud_, points_, mesh, executor_, to_);
-  return hasGrown(after, mesh.meanEdge(), rule) || losesPoints(after, isRepaired);
+  return hasGrown(after, mesh.meanEdge(executor_), rule) || losesPoints(after, isRepaired);
 }
 
 bool FitGuard::hasGrown(const Mesh& before, const Mesh& mesh, double part) const
 {
   const auto residualOf = [this](const Mesh& one)
-  { return residual(squaredDistances(cloud_, points_, one, executor_, to_), one.meanEdge()); };
+  {
+    return residual(
+      squaredDistances(cloud_, points_, one, executor_, to_), one.meanEdge(executor_));
+  };
   return residualOf(mesh) >
     std::max((1. + part) * residualOf(before), Rounding * cloud_.floatStep());
 }

@@ -5,6 +5,7 @@
 #include "base/PackedVectors.h"
 #include "base/Progress.h"
 #include "cloud/PlaceOnMesh.h"
+#include "fit/PlacesByRows.h"
 #include "fit/SymmetricBlocks.h"
 #include "mesh/CompactRings.h"
 #include "mesh/Mesh.h"
@@ -34,14 +35,7 @@ public:
   /// the rings of the mesh, as they are now, for itself.
   FitSystem(const Mesh& mesh, double slip, const Executor& executor = Executor::sequential());
 
-  /// Some of the vertices: those from `begin` to before `end`.
-  struct Rows
-  {
-    VertexIndex begin = 0;
-    VertexIndex end = NoVertex;
-
-    bool has(VertexIndex v) const { return v >= begin && v < end; }
-  };
+  using Rows = VertexRows;
   /// Adds a sample whose place is on a triangle with this normal (of any length), to the equations
   /// of those corners that are among `rows`. Other rows may be added to at the same time.
   void add(const PlaceOnMesh& place, Vector4 sample, Vector4 normal, float weight)

@@ -27,7 +27,7 @@ void measureToAll(const PointCloud& cloud, const std::vector<std::size_t>& point
   {
     return;
   }
-  const NearestTriangle nearest(trianglesIn(mesh));
+  const NearestTriangle nearest(trianglesIn(mesh), executor);
   executor.forEachRange(points.size(), HeldOutPerRange,
     [&](std::size_t begin, std::size_t end)
     {
@@ -65,7 +65,7 @@ std::vector<float> squaredDistances(const PointCloud& cloud, const std::vector<s
     measureToAll(cloud, points, mesh, 0.f, executor, result);
     return result;
   }
-  const VertexGrid grid = gridOf(mesh, cloud);
+  const VertexGrid grid = gridOf(mesh, cloud, executor);
   executor.forEachRange(points.size(), HeldOutPerRange,
     [&](std::size_t begin, std::size_t end)
     {
@@ -81,7 +81,7 @@ std::vector<float> squaredDistances(const PointCloud& cloud, const std::vector<s
     });
   if (to == DistanceTo::SurfaceAgain)
   {
-    const double least = EdgesToLookAgain * mesh.meanEdge();
+    const double least = EdgesToLookAgain * mesh.meanEdge(executor);
     measureToAll(cloud, points, mesh, float(least * least), executor, result);
   }
   return result;

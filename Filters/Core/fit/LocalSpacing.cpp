@@ -1,50 +1,77 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/LocalSpacing.h"
 
+#include "fit/PlacesByRows.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace neuralmesh
 {
-LocalSpacing::LocalSpacing(const Mesh& mesh, std::span<const PlaceOnMesh> places)
+namespace
+{
+/// A part for the executor.
+constexpr std::size_t SpacingsPerRange = 4096;
+}
+
+LocalSpacing::LocalSpacing(
+  const Mesh& mesh, std::span<const PlaceOnMesh> places, const Executor& executor)
   : spacings_(mesh.indexEnd())
   , edges_(mesh.indexEnd())
 {
   // Of the triangles at a vertex. Each sample counts at three vertices, as the area does.
   std::vector<float> areas(mesh.indexEnd()), samples(mesh.indexEnd());
-  for (const PlaceOnMesh& place : places)
-  {
-    for (const VertexIndex v : place.triangle)
+  forEachPlaceByRows(
+    places, RowParts(mesh.indexEnd(), executor), executor, [](std::size_t) { return true; },
+    [&](const VertexRows& rows, std::size_t i)
     {
-      samples[v] += 1.f;
-    }
-  }
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    const Ring& ring = mesh.ring(v);
-    Vector4 before = mesh.position(ring.back()) - mesh.position(v);
-    for (unsigned slot = 0; slot < ring.size(); ++slot)
-    {
-      const Vector4 side = mesh.position(ring[slot]) - mesh.position(v);
-      edges_[v] += std::sqrt(squaredNorm(side)) / float(ring.size());
-      if (slot > 0 || !ring.isOpen())
+      for (const VertexIndex v : places[i].triangle)
       {
-        areas[v] += 0.5f * std::sqrt(squaredNorm(cross(before, side)));
+        if (rows.has(v))
+        {
+          samples[v] += 1.f;
+        }
       }
-      before = side;
-    }
-  }
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    });
+  const auto forEachVertex = [&](const auto& body)
   {
-    float area = areas[v], count = samples[v];
-    for (const VertexIndex neighbor : mesh.ring(v))
+    executor.forEachRange(mesh.indexEnd(), SpacingsPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (auto v = VertexIndex(begin); v < end; ++v)
+        {
+          body(v);
+        }
+      });
+  };
+  forEachVertex(
+    [&](VertexIndex v)
     {
-      area += areas[neighbor];
-      count += samples[neighbor];
-    }
-    spacings_[v] = std::sqrt(area / std::max(1.f, count));
-  }
+      const Ring& ring = mesh.ring(v);
+      Vector4 before = mesh.position(ring.back()) - mesh.position(v);
+      for (unsigned slot = 0; slot < ring.size(); ++slot)
+      {
+        const Vector4 side = mesh.position(ring[slot]) - mesh.position(v);
+        edges_[v] += std::sqrt(squaredNorm(side)) / float(ring.size());
+        if (slot > 0 || !ring.isOpen())
+        {
+          areas[v] += 0.5f * std::sqrt(squaredNorm(cross(before, side)));
+        }
+        before = side;
+      }
+    });
+  forEachVertex(
+    [&](VertexIndex v)
+    {
+      float area = areas[v], count = samples[v];
+      for (const VertexIndex neighbor : mesh.ring(v))
+      {
+        area += areas[neighbor];
+        count += samples[neighbor];
+      }
+      spacings_[v] = std::sqrt(area / std::max(1.f, count));
+    });
   // Each triangle counts at three vertices.
   const double area = std::accumulate(areas.begin(), areas.end(), 0.) / 3.;
   usual_ = float(std::sqrt(area / double(std::max<std::size_t>(1, places.size()))));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "cloud/PlaceOnMesh.h"
 #include "mesh/Mesh.h"
 
@@ -17,7 +18,8 @@ class LocalSpacing
 {
 public:
   /// `places` are those of the samples. No vertex may be erased.
-  LocalSpacing(const Mesh& mesh, std::span<const PlaceOnMesh> places);
+  LocalSpacing(const Mesh& mesh, std::span<const PlaceOnMesh> places,
+    const Executor& executor = Executor::sequential());
 
   /// The root of the area for a sample, around a place, in units of the cloud.
   float samplesAt(const PlaceOnMesh& place) const { return meanAt(spacings_, place); }

@@ -24,7 +24,7 @@ MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const Tria
   const std::vector<float> squared = squaredDistances(cloud, points, mesh, executor, to);
   const float farthest = to == DistanceTo::NearestTriangle
     ? std::numeric_limits<float>::max()
-    : outlierDistance(std::sqrt(medianOf(squared)), mesh.meanEdge());
+    : outlierDistance(std::sqrt(medianOf(squared)), mesh.meanEdge(executor));
 
   double sum = 0., weights = 0.;
   std::size_t outliers = 0;
@@ -42,10 +42,10 @@ MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const Tria
   MeshQuality quality;
   quality.residual = weights > 0. ? cloud.unit() * std::sqrt(sum / weights) : 0.;
   quality.outlierShare = double(outliers) / double(points.size());
-  quality.surface = reportSurface(triangles);
+  quality.surface = reportSurface(triangles, executor);
   // What is closed has one inside.
   quality.turnedShare = quality.surface.boundaryLoops > 0 ? turnedShare(triangles) : 0.;
-  quality.narrowHandles = findNarrowHandles(mesh);
+  quality.narrowHandles = findNarrowHandles(mesh, executor);
   return quality;
 }
 }

@@ -12,23 +12,30 @@ namespace neuralmesh
 namespace
 {
 constexpr std::size_t MostOfSpacing = std::size_t(1) << 20;
+/// A part for the executor.
+constexpr std::size_t PickedPerRange = 16384;
 
 /// As many as are allowed, evenly picked, along a Morton curve.
 std::vector<Vector4> pickedFrom(const PointCloud& cloud, const Executor& executor)
 {
   const std::size_t all = cloud.points().size();
   const std::size_t count = std::min(all, MostOfSpacing);
-  std::vector<Vector4> picked(count);
-  for (std::size_t i = 0; i < count; ++i)
+  const auto forEach = [&](const auto& body)
   {
-    picked[i] = cloud.points()[i * all / count];
-  }
-  std::vector<Vector4> sorted;
-  sorted.reserve(count);
-  for (const std::uint32_t i : mortonOrder(picked, cloud.bulkMin(), cloud.bulkMax(), executor))
-  {
-    sorted.push_back(picked[i]);
-  }
+    executor.forEachRange(count, PickedPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          body(i);
+        }
+      });
+  };
+  std::vector<Vector4> picked(count), sorted(count);
+  forEach([&](std::size_t i) { picked[i] = cloud.points()[i * all / count]; });
+  const std::vector<std::uint32_t> order =
+    mortonOrder(picked, cloud.bulkMin(), cloud.bulkMax(), executor);
+  forEach([&](std::size_t i) { sorted[i] = picked[order[i]]; });
   return sorted;
 }
 }

@@ -27,6 +27,10 @@ constexpr float LeastRemovalCosine = 0.7f;
 constexpr float LeastRemovalRatio = 0.35f;
 constexpr float RatioPerExcess = 0.05f;
 constexpr unsigned MostRemovalValence = 9;
+/// Parts for the executor, and how many removals are asked for at a time.
+constexpr std::size_t VerticesPerSearch = 1024;
+constexpr std::size_t RemovalsPerRange = 64;
+constexpr std::size_t RemovalsAhead = 4096;
 
 struct WantedSplit
 {
@@ -40,27 +44,48 @@ struct CheapRemoval
   VertexIndex v, kept;
 };
 
+/// Into which neighbour a vertex goes at the least cost, and the squares of the samples around it before and after.
+struct BestCollapse
+{
+  VertexIndex kept = NoVertex;
+  double before = 0.;
+  double after = 0.;
+};
+
+/// What that is found with.
+struct CollapseScratch
+{
+  std::vector<std::uint32_t> onStar; ///< samples
+  SampleBundle bundle;               ///< of these
+  std::vector<TriangleDistances> distances;
+};
+
 class Redistribution
 {
 public:
-  Redistribution(Mesh& mesh, const PlacedSamples& samples, double variance)
+  Redistribution(
+    Mesh& mesh, const PlacedSamples& samples, double variance, const Executor& executor)
     : mesh_(mesh)
-    , samples_(samples, mesh.indexEnd())
+    , executor_(executor)
+    , samples_(samples, mesh.indexEnd(), executor)
     , variance_(variance)
     , load_(mesh.indexEnd())
     , isLocked_(mesh.indexEnd(), 0)
     , changed_(mesh.indexEnd())
   {
-    for (std::size_t i = 0; i < samples.places.size(); ++i)
-    {
-      if (samples.isUsed[i] != 0)
+    forEachPlaceByRows(
+      samples.places, RowParts(mesh.indexEnd(), executor), executor,
+      [&](std::size_t i) { return samples.isUsed[i] != 0; },
+      [&](const VertexRows& rows, std::size_t i)
       {
         for (const VertexIndex corner : samples.places[i].triangle)
         {
-          load_[corner] += samples.weight(i);
+          if (rows.has(corner))
+          {
+            load_[corner] += samples.weight(i);
+          }
         }
-      }
-    }
+      });
   }
 
   ChangedVertices run(std::size_t most, std::size_t missing)
@@ -90,8 +115,8 @@ public:
         {
           break;
         }
-        const VertexIndex v = removals[next++].v;
-        const VertexIndex kept = bestCollapse(v, MostRemovalCost * split.gain);
+        const VertexIndex v = removals[next].v;
+        const VertexIndex kept = bestCollapse(removals, next++, MostRemovalCost * split.gain);
         if (kept == NoVertex)
         {
           continue;
@@ -119,33 +144,55 @@ public:
   }
 
 private:
+  /// What `find(v, found)` finds at each vertex, in the order of the vertices.
+  template <typename Found, typename Find>
+  std::vector<Found> foundAtVertices(const Find& find) const
+  {
+    std::vector<std::vector<Found>> ranges(
+      (mesh_.indexEnd() + VerticesPerSearch - 1) / VerticesPerSearch);
+    executor_.forEachRange(mesh_.indexEnd(), VerticesPerSearch,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (auto v = VertexIndex(begin); v < end; ++v)
+        {
+          find(v, ranges[begin / VerticesPerSearch]);
+        }
+      });
+    std::vector<Found> all;
+    for (const std::vector<Found>& range : ranges)
+    {
+      all.insert(all.end(), range.begin(), range.end());
+    }
+    return all;
+  }
+
   /// The edges whose samples ask for a vertex more, those first that ask most.
   std::vector<WantedSplit> wantedSplits() const
   {
     const double least = samples_.total().squares / double(mesh_.vertexCount());
-    std::vector<WantedSplit> splits;
-    for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
-    {
-      const Ring& ring = mesh_.ring(v);
-      for (unsigned slot = 0; slot < ring.size() && !ring.isOpen(); ++slot)
+    std::vector<WantedSplit> splits = foundAtVertices<WantedSplit>(
+      [&](VertexIndex v, std::vector<WantedSplit>& found)
       {
-        const VertexIndex neighbor = ring[slot];
-        if (neighbor < v || mesh_.isBoundary(neighbor))
+        const Ring& ring = mesh_.ring(v);
+        for (unsigned slot = 0; slot < ring.size() && !ring.isOpen(); ++slot)
         {
-          continue;
+          const VertexIndex neighbor = ring[slot];
+          if (neighbor < v || mesh_.isBoundary(neighbor))
+          {
+            continue;
+          }
+          const VertexIndex next = ring[ring.after(slot)], previous = ring[ring.before(slot)];
+          const SampleLoad load =
+            samples_.load(v, neighbor, next) + samples_.load(v, neighbor, previous);
+          const double gain = load.excess(variance_);
+          if (load.count >= LeastSplitSamples && gain >= least && gain > 0. &&
+            squaredNorm(mesh_.position(next) - mesh_.position(previous)) <=
+              MostAcross * squaredNorm(mesh_.position(neighbor) - mesh_.position(v)))
+          {
+            found.push_back({ gain, v, neighbor });
+          }
         }
-        const VertexIndex next = ring[ring.after(slot)], previous = ring[ring.before(slot)];
-        const SampleLoad load =
-          samples_.load(v, neighbor, next) + samples_.load(v, neighbor, previous);
-        const double gain = load.excess(variance_);
-        if (load.count >= LeastSplitSamples && gain >= least && gain > 0. &&
-          squaredNorm(mesh_.position(next) - mesh_.position(previous)) <=
-            MostAcross * squaredNorm(mesh_.position(neighbor) - mesh_.position(v)))
-        {
-          splits.push_back({ gain, v, neighbor });
-        }
-      }
-    }
+      });
     std::stable_sort(splits.begin(), splits.end(),
       [](const WantedSplit& a, const WantedSplit& b) { return a.gain > b.gain; });
     return splits;
@@ -154,16 +201,20 @@ private:
   /// The inner vertices that are cheap enough for any of the splits, the cheapest first.
   std::vector<CheapRemoval> cheapRemovals(const std::vector<WantedSplit>& splits) const
   {
-    std::vector<CheapRemoval> removals;
     const double most = splits.empty() ? 0. : MostRemovalCost * splits.front().gain;
-    for (VertexIndex v = 0; v < mesh_.indexEnd() && most > 0.; ++v)
+    if (!(most > 0.))
     {
-      const double cost = mesh_.isBoundary(v) ? most : expectedCost(v);
-      if (cost < most)
-      {
-        removals.push_back({ cost, v, NoVertex });
-      }
+      return {};
     }
+    std::vector<CheapRemoval> removals = foundAtVertices<CheapRemoval>(
+      [&](VertexIndex v, std::vector<CheapRemoval>& found)
+      {
+        const double cost = mesh_.isBoundary(v) ? most : expectedCost(v);
+        if (cost < most)
+        {
+          found.push_back({ cost, v, NoVertex });
+        }
+      });
     std::stable_sort(removals.begin(), removals.end(),
       [](const CheapRemoval& a, const CheapRemoval& b) { return a.cost < b.cost; });
     return removals;
@@ -185,32 +236,63 @@ private:
                         : std::numeric_limits<double>::infinity();
   }
 
-  /// The neighbour into which the vertex goes at the least cost below `most`, by its samples.
-  VertexIndex bestCollapse(VertexIndex v, double most)
+  /// The neighbour into which the vertex of a removal goes at the least cost below `most`, by its samples. What is
+  /// asked for later may cost no more than this one.
+  VertexIndex bestCollapse(const std::vector<CheapRemoval>& removals, std::size_t at, double most)
+  {
+    if (at >= answersBegin_ + answers_.size())
+    {
+      lookAhead(removals, at, most);
+    }
+    const BestCollapse& answer = answers_[at - answersBegin_];
+    return answer.after < answer.before + most ? answer.kept : NoVertex;
+  }
+
+  /// Asks for some removals, on all threads.
+  void lookAhead(const std::vector<CheapRemoval>& removals, std::size_t at, double most)
+  {
+    const std::size_t ahead = executor_.threadCount() > 1 ? RemovalsAhead : 1;
+    answersBegin_ = at;
+    answers_.assign(std::min(removals.size() - at, ahead), {});
+    scratches_.resize((answers_.size() + RemovalsPerRange - 1) / RemovalsPerRange);
+    executor_.forEachRange(answers_.size(), RemovalsPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const VertexIndex v = removals[at + i].v;
+          if (isLocked_[v] == 0)
+          {
+            answers_[i] = bestCollapse(v, most, scratches_[begin / RemovalsPerRange]);
+          }
+        }
+      });
+  }
+
+  BestCollapse bestCollapse(VertexIndex v, double most, CollapseScratch& scratch) const
   {
     const Ring& ring = mesh_.ring(v);
-    onStar_.clear();
+    scratch.onStar.clear();
     for (unsigned slot = 0; slot < ring.size(); ++slot)
     {
-      samples_.collect(v, ring[slot], ring[ring.after(slot)], onStar_);
+      samples_.collect(v, ring[slot], ring[ring.after(slot)], scratch.onStar);
     }
-    double before = 0.;
-    for (const std::uint32_t sample : onStar_)
+    BestCollapse best;
+    for (const std::uint32_t sample : scratch.onStar)
     {
-      before += double(samples_.weight(sample)) * double(samples_.squaredDistance(sample));
+      best.before += double(samples_.weight(sample)) * double(samples_.squaredDistance(sample));
     }
-    bundle_.assign(samples_, onStar_);
-    VertexIndex best = NoVertex;
-    double least = before + most;
+    scratch.bundle.assign(samples_, scratch.onStar);
+    best.after = best.before + most;
     for (unsigned slot = 0; slot < ring.size(); ++slot)
     {
       if (mesh_.canCollapse(v, ring[slot]) && keepsShape(v, slot))
       {
-        const double after = squaresWithout(v, slot, least);
-        if (after < least)
+        const double after = squaresWithout(v, slot, best.after, scratch);
+        if (after < best.after)
         {
-          least = after;
-          best = ring[slot];
+          best.after = after;
+          best.kept = ring[slot];
         }
       }
     }
@@ -245,17 +327,17 @@ private:
 
   /// Of the samples on the star, once the vertex is one with the neighbour in `slot`; something above
   /// `most` if it is more than that.
-  double squaresWithout(VertexIndex v, unsigned slot, double most)
+  double squaresWithout(VertexIndex v, unsigned slot, double most, CollapseScratch& scratch) const
   {
     const Ring& ring = mesh_.ring(v);
     const Vector4 kept = mesh_.position(ring[slot]);
-    distances_.clear();
+    scratch.distances.clear();
     for (unsigned steps = 1; steps + 1 < ring.size(); ++steps)
     {
-      distances_.emplace_back(kept, mesh_.position(ring[ring.after(slot, steps)]),
+      scratch.distances.emplace_back(kept, mesh_.position(ring[ring.after(slot, steps)]),
         mesh_.position(ring[ring.after(slot, steps + 1)]));
     }
-    return bundle_.squares(distances_, most);
+    return scratch.bundle.squares(scratch.distances, most);
   }
 
   void lockAround(VertexIndex v)
@@ -313,21 +395,22 @@ private:
   }
 
   Mesh& mesh_;
+  const Executor& executor_;
   TriangleSamples samples_;
   double variance_;
   std::vector<float> load_; ///< of the samples on the triangles of each vertex
   std::vector<std::uint8_t> isLocked_;
   ChangedVertices changed_;
-  std::vector<std::uint32_t> onStar_; ///< samples
-  SampleBundle bundle_;               ///< of these
-  std::vector<TriangleDistances> distances_;
+  std::vector<BestCollapse> answers_; ///< of the removals from `answersBegin_` on
+  std::size_t answersBegin_ = 0;
+  std::vector<CollapseScratch> scratches_;
 };
 }
 
-ChangedVertices redistribute(
-  Mesh& mesh, const PlacedSamples& samples, double variance, double most, std::size_t missing)
+ChangedVertices redistribute(Mesh& mesh, const PlacedSamples& samples, double variance, double most,
+  std::size_t missing, const Executor& executor)
 {
-  return Redistribution(mesh, samples, variance)
+  return Redistribution(mesh, samples, variance, executor)
     .run(std::size_t(most * double(mesh.vertexCount())), missing);
 }
 }

@@ -32,9 +32,6 @@ constexpr float OutlierSpacings = 3.f;
 constexpr std::size_t SamplesPerAbortCheck = 65536;
 /// A place elsewhere on the mesh must be nearer than this part of the squared distance.
 constexpr double NearerPart = 0.9;
-/// The equations are filled in so many parts for each thread, from lists of so many samples.
-constexpr std::size_t PartsPerThread = 4;
-constexpr std::size_t SamplesPerList = 65536;
 /// Of the residual of the equations, against the largest at the start of a round.
 constexpr double Tolerance = 1e-3;
 
@@ -93,7 +90,7 @@ SurfaceFit::SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCo
 
 bool SurfaceFit::findPlaces(const Progress& progress)
 {
-  const VertexGrid grid = hasPlaces_ ? VertexGrid() : gridOf(mesh_, cloud_);
+  const VertexGrid grid = hasPlaces_ ? VertexGrid() : gridOf(mesh_, cloud_, executor_);
   if (!hasPlaces_)
   {
     opposite_ = oppositeVertices(
@@ -126,7 +123,7 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   medianDistance_ = std::sqrt(medianOf(distances, executor_));
   outlierDistance_ = surface_
     ? std::numeric_limits<float>::max()
-    : neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(), edges);
+    : neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(executor_), edges);
   chooseUsed(edges);
   return true;
 }
@@ -162,7 +159,7 @@ void SurfaceFit::findPlace(std::size_t sample, const VertexGrid& grid)
 void SurfaceFit::findNearerPlaces()
 {
   const TriangleMesh triangles = trianglesIn(mesh_);
-  const NearestTriangle nearest(triangles);
+  const NearestTriangle nearest(triangles, executor_);
   executor_.forEachRange(samples_.size(), SamplesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
@@ -187,7 +184,7 @@ void SurfaceFit::findNearerPlaces()
 
 void SurfaceFit::chooseUsed(float edges)
 {
-  LocalSpacing& spacing = spacing_.emplace(mesh_, places_);
+  LocalSpacing& spacing = spacing_.emplace(mesh_, places_, executor_);
   const float usual = spacing.usual();
   executor_.forEachRange(places_.size(), SamplesPerRange,
     [&](std::size_t begin, std::size_t end)
@@ -279,61 +276,6 @@ Vector4 SurfaceFit::beyondBoundary(
   return sample + PartBeyond * (away - dot(away, unit) * unit);
 }
 
-/// Calls `body(rows, sample)` for the samples that are used, and the rows of those of their corners that a part has:
-/// these add up in the order of the samples, however many parts there are.
-template <typename Body>
-void SurfaceFit::forEachUsed(const Body& body) const
-{
-  const std::size_t count = samples_.size(), end = mesh_.indexEnd();
-  const std::size_t parts =
-    executor_.threadCount() > 1 ? PartsPerThread * executor_.threadCount() : 1;
-  if (parts == 1)
-  {
-    const FitSystem::Rows all{ 0, VertexIndex(end) };
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (isUsed(i))
-      {
-        body(all, i);
-      }
-    }
-    return;
-  }
-  const std::size_t rowsOfPart = std::max<std::size_t>(1, (end + parts - 1) / parts);
-  const std::size_t ranges = (count + SamplesPerList - 1) / SamplesPerList;
-  std::vector<std::vector<std::uint32_t>> samplesOf(ranges * parts);
-  executor_.forEachRange(count, SamplesPerList,
-    [&](std::size_t begin, std::size_t endOfRange)
-    {
-      const auto lists = std::span(samplesOf).subspan(begin / SamplesPerList * parts, parts);
-      for (std::size_t i = begin; i < endOfRange; ++i)
-      {
-        const Triangle& corners = places_[i].triangle;
-        for (std::size_t corner = 0; corner < 3 && isUsed(i); ++corner)
-        {
-          std::vector<std::uint32_t>& list = lists[corners[corner] / rowsOfPart];
-          if (list.empty() || list.back() != i)
-          {
-            list.push_back(std::uint32_t(i));
-          }
-        }
-      }
-    });
-  executor_.forEachPart(parts,
-    [&](std::size_t part)
-    {
-      const FitSystem::Rows rows{ VertexIndex(std::min(end, part * rowsOfPart)),
-        VertexIndex(std::min(end, (part + 1) * rowsOfPart)) };
-      for (std::size_t range = 0; range < ranges; ++range)
-      {
-        for (const std::uint32_t i : samplesOf[range * parts + part])
-        {
-          body(rows, i);
-        }
-      }
-    });
-}
-
 void SurfaceFit::fillRows(const FitSystem::Rows& rows, std::size_t sample)
 {
   const PlaceOnMesh& place = places_[sample];
@@ -415,7 +357,7 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
   fillSystem();
   if (!spacing_)
   {
-    spacing_.emplace(mesh_, places_).forgetEdges();
+    spacing_.emplace(mesh_, places_, executor_).forgetEdges();
   }
   smoothness_ = lambda;
   const double choice = lambda > 0. ? 0. : PartOfChoice;
@@ -467,7 +409,7 @@ void SurfaceFit::follow(const ChangedVertices& changed)
   {
     newOf[v] = changed.alive(mesh_, v);
   }
-  const std::vector<VertexIndex> oldOf = mesh_.dropErased();
+  const std::vector<VertexIndex> oldOf = mesh_.dropErased(executor_);
   std::vector<VertexIndex> place(newOf.size());
   std::vector<VertexIndex> opposite(oldOf.size());
   const std::vector<std::uint8_t> wasKept = isKept_;
@@ -549,24 +491,28 @@ double SurfaceFit::shareBetweenLayers() const
     float squares = 0.f;
   };
   std::vector<Distances> distances(mesh_.indexEnd());
-  for (std::size_t i = 0; i < places_.size(); ++i)
-  {
-    const PlaceOnMesh& place = places_[i];
-    const Vector4 normal = normalAt(place, mesh_.positions());
-    const float length = std::sqrt(squaredNorm(normal));
-    if (!isUsed(i) || isOnBoundary(place, mesh_) || !(length > 0.f))
+  forEachUsed(
+    [&](const VertexRows& rows, std::size_t i)
     {
-      continue;
-    }
-    const float across = dot(samples_[i] - mesh_.position(place.triangle[0]), normal) / length;
-    for (const VertexIndex v : place.triangle)
-    {
-      distances[v].count += 1.f;
-      distances[v].above += across > 0.f ? 1.f : 0.f;
-      distances[v].sum += std::abs(across);
-      distances[v].squares += across * across;
-    }
-  }
+      const PlaceOnMesh& place = places_[i];
+      const Vector4 normal = normalAt(place, mesh_.positions());
+      const float length = std::sqrt(squaredNorm(normal));
+      if (isOnBoundary(place, mesh_) || !(length > 0.f))
+      {
+        return;
+      }
+      const float across = dot(samples_[i] - mesh_.position(place.triangle[0]), normal) / length;
+      for (const VertexIndex v : place.triangle)
+      {
+        if (rows.has(v))
+        {
+          distances[v].count += 1.f;
+          distances[v].above += across > 0.f ? 1.f : 0.f;
+          distances[v].sum += std::abs(across);
+          distances[v].squares += across * across;
+        }
+      }
+    });
   double asked = 0., between = 0.;
   for (const Distances& at : distances)
   {

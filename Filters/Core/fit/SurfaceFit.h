@@ -168,8 +168,15 @@ private:
       });
     return isDone;
   }
+  /// Calls `body(rows, sample)` for the samples that are used, and the rows of those of their corners that a part has:
+  /// these add up in the order of the samples, however many parts there are.
   template <typename Body>
-  void forEachUsed(const Body& body) const;
+  void forEachUsed(const Body& body) const
+  {
+    forEachPlaceByRows(
+      places_, RowParts(mesh_.indexEnd(), executor_), executor_,
+      [this](std::size_t i) { return isUsed(i); }, body);
+  }
   void fillRows(const FitSystem::Rows& rows, std::size_t sample);
   Vector4 beyondBoundary(
     const Vector4& sample, const PlaceOnMesh& place, const Vector4& normal) const;

@@ -171,14 +171,26 @@ std::vector<float> SurfaceFit::squaredBends(std::span<const Vector4> positions) 
 std::vector<float> SurfaceFit::supports() const
 {
   std::vector<float> result(mesh_.indexEnd());
+  const auto squareAt = [this](std::size_t i, int corner)
+  { return weight(i) * places_[i].weights()[corner] * places_[i].weights()[corner]; };
+  forEachUsed(
+    [&](const VertexRows& rows, std::size_t i)
+    {
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        const VertexIndex v = places_[i].triangle[std::size_t(corner)];
+        if (rows.has(v))
+        {
+          result[v] += squareAt(i, corner);
+        }
+      }
+    });
   double sum = 0.;
   for (std::size_t i = 0; i < places_.size(); ++i)
   {
     for (int corner = 0; corner < 3 && isUsed(i); ++corner)
     {
-      const float square = weight(i) * places_[i].weights()[corner] * places_[i].weights()[corner];
-      result[places_[i].triangle[std::size_t(corner)]] += square;
-      sum += double(square);
+      sum += double(squareAt(i, corner));
     }
   }
   const float enough = EnoughSupport * float(sum / double(result.size()));

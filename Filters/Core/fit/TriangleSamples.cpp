@@ -26,48 +26,63 @@ double SampleLoad::excess(double variance) const
   return squares - variance * (count + ExcessDeviations * std::sqrt(2. * count));
 }
 
-TriangleSamples::TriangleSamples(const PlacedSamples& samples, std::size_t indexEnd)
+TriangleSamples::TriangleSamples(
+  const PlacedSamples& samples, std::size_t indexEnd, const Executor& executor)
   : samples_(samples)
+  , parts_(indexEnd, executor)
   , entries_(indexEnd, None)
-  , next_(samples.points.size(), None)
-  , squaredDistances_(samples.points.size())
+  , triangles_(parts_.count())
+  , next_(std::make_unique_for_overwrite<std::uint32_t[]>(samples.points.size()))
+  , squaredDistances_(std::make_unique_for_overwrite<float[]>(samples.points.size()))
 {
-  triangles_.reserve(2 * indexEnd);
-  for (std::uint32_t i = 0; i < samples.points.size(); ++i)
+  for (std::vector<Entry>& triangles : triangles_)
   {
-    if (samples.isUsed[i] != 0)
+    triangles.reserve(2 * indexEnd / triangles_.size());
+  }
+  const auto isUsed = [&](std::size_t i) { return samples.isUsed[i] != 0; };
+  forEachPlaceByRows(samples.places, parts_, executor, isUsed,
+    [&](const VertexRows& rows, std::size_t i)
     {
       const PlaceOnMesh& place = samples.places[i];
-      const auto& [a, b, c] = place.triangle;
-      put(i, a, b, c, place.squaredDistance);
+      const Triangle corners = inOrder(place.triangle[0], place.triangle[1], place.triangle[2]);
+      if (rows.has(corners[0]))
+      {
+        put(std::uint32_t(i), corners, place.squaredDistance);
+      }
+    });
+  for (std::size_t i = 0; i < samples.points.size(); ++i)
+  {
+    if (isUsed(i))
+    {
       const double weight = double(samples.weight(i));
-      total_ += { weight, weight * double(place.squaredDistance) };
+      total_ += { weight, weight * double(squaredDistances_[i]) };
     }
   }
 }
 
-std::uint32_t TriangleSamples::find(const Triangle& corners) const
+const TriangleSamples::Entry* TriangleSamples::find(const Triangle& corners) const
 {
   const auto [least, middle, most] = corners;
-  std::uint32_t entry = entries_[least];
-  while (entry != None && (triangles_[entry].middle != middle || triangles_[entry].most != most))
+  const std::vector<Entry>& triangles = triangles_[parts_.of(least)];
+  std::uint32_t at = entries_[least];
+  while (at != None && (triangles[at].middle != middle || triangles[at].most != most))
   {
-    entry = triangles_[entry].next;
+    at = triangles[at].next;
   }
-  return entry;
+  return at == None ? nullptr : &triangles[at];
 }
 
 SampleLoad TriangleSamples::load(VertexIndex a, VertexIndex b, VertexIndex c) const
 {
-  const std::uint32_t entry = find(inOrder(a, b, c));
-  return entry == None ? SampleLoad() : triangles_[entry].load;
+  const Entry* const entry = find(inOrder(a, b, c));
+  return entry ? entry->load : SampleLoad();
 }
 
 void TriangleSamples::collect(
   VertexIndex a, VertexIndex b, VertexIndex c, std::vector<std::uint32_t>& found) const
 {
-  const std::uint32_t entry = find(inOrder(a, b, c));
-  for (std::uint32_t i = entry == None ? None : triangles_[entry].first; i != None; i = next_[i])
+  const Entry* const entry = find(inOrder(a, b, c));
+  for (std::uint32_t i = entry ? entry->first : None; i != None; i = next_[i])
   {
     found.push_back(i);
   }
@@ -77,31 +92,35 @@ void TriangleSamples::take(
   VertexIndex a, VertexIndex b, VertexIndex c, std::vector<std::uint32_t>& found)
 {
   collect(a, b, c, found);
-  const std::uint32_t entry = find(inOrder(a, b, c));
-  if (entry != None)
+  if (Entry* const entry = find(inOrder(a, b, c)))
   {
-    triangles_[entry].first = triangles_[entry].last = None;
-    triangles_[entry].load = {};
+    entry->first = entry->last = None;
+    entry->load = {};
   }
 }
 
 void TriangleSamples::put(
   std::uint32_t sample, VertexIndex a, VertexIndex b, VertexIndex c, float squaredDistance)
 {
-  const Triangle corners = inOrder(a, b, c);
-  std::uint32_t at = find(corners);
-  if (at == None)
+  put(sample, inOrder(a, b, c), squaredDistance);
+}
+
+void TriangleSamples::put(std::uint32_t sample, const Triangle& corners, float squaredDistance)
+{
+  Entry* entry = find(corners);
+  if (!entry)
   {
-    at = std::uint32_t(triangles_.size());
-    triangles_.push_back({ corners[1], corners[2], entries_[corners[0]], None, None, {} });
-    entries_[corners[0]] = at;
+    std::vector<Entry>& triangles = triangles_[parts_.of(corners[0])];
+    std::uint32_t& first = entries_[corners[0]];
+    triangles.push_back({ corners[1], corners[2], first, None, None, {} });
+    first = std::uint32_t(triangles.size() - 1);
+    entry = &triangles.back();
   }
-  Entry& entry = triangles_[at];
-  (entry.last == None ? entry.first : next_[entry.last]) = sample;
-  entry.last = sample;
+  (entry->last == None ? entry->first : next_[entry->last]) = sample;
+  entry->last = sample;
   next_[sample] = None;
   squaredDistances_[sample] = squaredDistance;
   const double weight = double(samples_.weight(sample));
-  entry.load += { weight, weight * double(squaredDistance) };
+  entry->load += { weight, weight * double(squaredDistance) };
 }
 }

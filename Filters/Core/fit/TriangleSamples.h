@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "cloud/PlaceOnMesh.h"
+#include "fit/PlacesByRows.h"
 #include "fit/SamplePoints.h"
 #include "mesh/Mesh.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace neuralmesh
@@ -43,11 +47,13 @@ struct SampleLoad
 };
 
 /// Which samples lie on which triangle of a mesh: a triangle is named by its corners, in any order. Each
-/// triangle with samples is in a list of its least corner, so that edges can be flipped.
+/// triangle with samples is in a list of its least corner, so that edges can be flipped. Who only asks may do so
+/// on several threads.
 class TriangleSamples
 {
 public:
-  TriangleSamples(const PlacedSamples& samples, std::size_t indexEnd);
+  TriangleSamples(const PlacedSamples& samples, std::size_t indexEnd,
+    const Executor& executor = Executor::sequential());
 
   SampleLoad load(VertexIndex a, VertexIndex b, VertexIndex c) const;
   /// Adds the samples on a triangle to `found`.
@@ -79,13 +85,19 @@ private:
     SampleLoad load;
   };
 
-  std::uint32_t find(const Triangle& corners) const;
+  const Entry* find(const Triangle& corners) const;
+  Entry* find(const Triangle& corners)
+  {
+    return const_cast<Entry*>(std::as_const(*this).find(corners));
+  }
+  void put(std::uint32_t sample, const Triangle& corners, float squaredDistance);
 
   PlacedSamples samples_;
-  std::vector<std::uint32_t> entries_; ///< the first of each vertex
-  std::vector<Entry> triangles_;
-  std::vector<std::uint32_t> next_; ///< of each sample, on the same triangle
-  std::vector<float> squaredDistances_;
+  RowParts parts_;
+  std::vector<std::uint32_t> entries_;        ///< the first of each vertex, in its part
+  std::vector<std::vector<Entry>> triangles_; ///< of each part, by their least corner
+  std::unique_ptr<std::uint32_t[]> next_;     ///< of each sample that is used, on the same triangle
+  std::unique_ptr<float[]> squaredDistances_;
   SampleLoad total_;
 };
 }

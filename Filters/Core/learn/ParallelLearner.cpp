@@ -446,7 +446,7 @@ void ParallelLearner::compact()
 {
   const std::vector<VertexIndex> permutation =
     mortonPermutation(mesh_, boxMin_, boxMax_, executor_);
-  mesh_.renumber(permutation);
+  mesh_.renumber(permutation, executor_);
   reserved_ = mesh_.indexEnd();
   nextRenumbering_ = 1 + std::size_t(GrowthUntilTidy * double(permutation.size()));
 }
@@ -474,7 +474,7 @@ LearntMesh ParallelLearner::learntMesh() const
   result.activity = result.mesh.addProperty(0., OnSplit::Copy);
   const std::span<const float> activity = mesh_.values(activity_);
   std::copy(activity.begin(), activity.end(), result.mesh.values(result.activity).begin());
-  result.mesh.dropErased();
+  result.mesh.dropErased(executor_);
   return result;
 }
 

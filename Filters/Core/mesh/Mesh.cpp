@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/Mesh.h"
 
+#include "base/Executor.h"
 #include "mesh/Renumbering.h"
 
 #include <algorithm>
@@ -9,6 +10,13 @@
 
 namespace neuralmesh
 {
+namespace
+{
+/// Parts for an executor, and what is looked at before it is added up.
+constexpr std::size_t MeshVerticesPerRange = 4096;
+constexpr std::size_t MeshVerticesPerBlock = 65536;
+}
+
 Mesh::Mesh(LargeVector<Vector4> positions, LargeVector<Ring> rings)
   : rings_(std::move(rings))
   , positions_(std::move(positions))
@@ -54,16 +62,38 @@ Vector4 Mesh::normal(VertexIndex v) const
   return rotated(sum);
 }
 
-double Mesh::meanEdge() const
+double Mesh::meanEdge() const { return meanEdge(Executor::sequential()); }
+
+double Mesh::meanEdge(const Executor& executor) const
 {
+  // In blocks: the lengths on all threads, their sum in the order of the vertices.
+  std::vector<float> lengths(std::min(indexEnd(), MeshVerticesPerBlock) * Ring::Capacity);
   double sum = 0.;
   std::size_t count = 0;
-  for (VertexIndex v = 0; v < indexEnd(); ++v)
+  for (std::size_t first = 0; first < indexEnd(); first += MeshVerticesPerBlock)
   {
-    for (const VertexIndex neighbor : ring(v))
+    const std::size_t size = std::min(MeshVerticesPerBlock, indexEnd() - first);
+    executor.forEachRange(size, MeshVerticesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const auto v = VertexIndex(first + i);
+          float* length = &lengths[i * Ring::Capacity];
+          for (const VertexIndex neighbor : ring(v))
+          {
+            *length++ = std::sqrt(squaredNorm(position(neighbor) - position(v)));
+          }
+        }
+      });
+    for (std::size_t i = 0; i < size; ++i)
     {
-      sum += double(std::sqrt(squaredNorm(position(neighbor) - position(v))));
-      ++count;
+      const unsigned valence = this->valence(VertexIndex(first + i));
+      for (unsigned slot = 0; slot < valence; ++slot)
+      {
+        sum += double(lengths[i * Ring::Capacity + slot]);
+      }
+      count += valence;
     }
   }
   return sum / double(count);
@@ -323,7 +353,9 @@ void Mesh::releaseErased()
   erased_.clear();
 }
 
-std::vector<VertexIndex> Mesh::dropErased()
+std::vector<VertexIndex> Mesh::dropErased() { return dropErased(Executor::sequential()); }
+
+std::vector<VertexIndex> Mesh::dropErased(const Executor& executor)
 {
   std::vector<VertexIndex> alive;
   alive.reserve(vertexCount());
@@ -334,25 +366,34 @@ std::vector<VertexIndex> Mesh::dropErased()
       alive.push_back(v);
     }
   }
-  renumber(alive);
+  renumber(alive, executor);
   return alive;
 }
 
 void Mesh::renumber(std::span<const VertexIndex> permutation)
 {
+  renumber(permutation, Executor::sequential());
+}
+
+void Mesh::renumber(std::span<const VertexIndex> permutation, const Executor& executor)
+{
   assert(permutation.size() == vertexCount());
   const std::vector<VertexIndex> newIndex = newIndices(permutation);
   LargeVector<Ring> rings(permutation.size());
   LargeVector<Vector4> positions(permutation.size());
-  for (std::size_t i = 0; i < permutation.size(); ++i)
-  {
-    rings[i] = rings_[permutation[i]];
-    for (unsigned slot = 0; slot < rings[i].size(); ++slot)
+  executor.forEachRange(permutation.size(), MeshVerticesPerRange,
+    [&](std::size_t begin, std::size_t end)
     {
-      rings[i].replace(slot, newIndex[rings[i][slot]]);
-    }
-    positions[i] = positions_[permutation[i]];
-  }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        rings[i] = rings_[permutation[i]];
+        for (unsigned slot = 0; slot < rings[i].size(); ++slot)
+        {
+          rings[i].replace(slot, newIndex[rings[i][slot]]);
+        }
+        positions[i] = positions_[permutation[i]];
+      }
+    });
   rings_ = std::move(rings);
   positions_ = std::move(positions);
   properties_.renumber(permutation);

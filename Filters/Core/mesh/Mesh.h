@@ -81,6 +81,7 @@ public:
   std::size_t triangleCount() const;
   /// Mean length of the edges.
   double meanEdge() const;
+  double meanEdge(const Executor& executor) const;
   /// Whether there is any boundary.
   bool isOpen() const;
   bool contains(const Triangle& triangle) const;
@@ -157,8 +158,10 @@ public:
   /// Closes the gaps in the indices that erased vertices leave; vertices keep their order. Returns
   /// the old index of each.
   std::vector<VertexIndex> dropErased();
+  std::vector<VertexIndex> dropErased(const Executor& executor);
   /// Gives the vertex `permutation[i]` the index i, for all vertices; erased ones vanish.
   void renumber(std::span<const VertexIndex> permutation);
+  void renumber(std::span<const VertexIndex> permutation, const Executor& executor);
 
   /// Gives the memory of the rings back to the system until restoreRings(), which gets the same rings. In between there
   /// is nothing but positions and properties.

@@ -24,6 +24,8 @@ constexpr std::size_t LeastOnEachSide = 32;
 /// Strips that are cut one by one, to find the place of a handle, and places that are wanted.
 constexpr std::size_t MostStripsTried = 32;
 constexpr std::size_t MostPlaces = 2;
+/// For the executor.
+constexpr std::size_t MostPartsOfStrips = 32;
 
 using HandleStrip = std::vector<VertexIndex>;
 
@@ -139,14 +141,20 @@ private:
 };
 
 /// Of the vertices around which others close up, those that hang together, the most first.
-std::vector<HandleStrip> narrowStrips(const Mesh& mesh)
+std::vector<HandleStrip> narrowStrips(const Mesh& mesh, const Executor& executor)
 {
-  Surroundings surroundings(mesh);
   std::vector<std::uint8_t> isOpen(mesh.indexEnd(), 0);
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    isOpen[v] = surroundings.closeUp(v) ? 1 : 0;
-  }
+  // Few parts: what was seen takes memory in each.
+  const std::size_t parts = std::clamp<std::size_t>(executor.threadCount(), 1, MostPartsOfStrips);
+  executor.forEachRange(mesh.indexEnd(), (mesh.indexEnd() + parts - 1) / parts,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Surroundings surroundings(mesh);
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        isOpen[v] = surroundings.closeUp(v) ? 1 : 0;
+      }
+    });
   std::vector<HandleStrip> strips;
   for (VertexIndex first = 0; first < mesh.indexEnd(); ++first)
   {
@@ -197,7 +205,7 @@ void cut(Mesh& mesh, const HandleStrip& strip)
 }
 }
 
-NarrowHandles findNarrowHandles(const Mesh& mesh)
+NarrowHandles findNarrowHandles(const Mesh& mesh, const Executor& executor)
 {
   NarrowHandles result;
   const long all = genusOf(mesh);
@@ -205,7 +213,11 @@ NarrowHandles findNarrowHandles(const Mesh& mesh)
   {
     return result;
   }
-  const std::vector<HandleStrip> strips = narrowStrips(mesh);
+  const std::vector<HandleStrip> strips = narrowStrips(mesh, executor);
+  if (strips.empty())
+  {
+    return result;
+  }
   Mesh rest = mesh;
   long left = all;
   for (std::size_t i = 0; i < strips.size(); ++i)
@@ -221,7 +233,7 @@ NarrowHandles findNarrowHandles(const Mesh& mesh)
       }
     }
   }
-  result.count = strips.empty() ? 0 : std::size_t(std::max(0L, all - genusOf(rest)));
+  result.count = std::size_t(std::max(0L, all - genusOf(rest)));
   return result;
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/Mesh.h"
 
 #include <cstddef>
@@ -20,5 +21,6 @@ struct NarrowHandles
 };
 
 /// Takes O(n), and no time where a mesh has no handle at all. No vertex may be erased.
-NarrowHandles findNarrowHandles(const Mesh& mesh);
+NarrowHandles findNarrowHandles(
+  const Mesh& mesh, const Executor& executor = Executor::sequential());
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/NearestTriangle.h"
 
+#include "mesh/BoxTree.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -8,7 +10,9 @@ namespace neuralmesh
 {
 namespace
 {
-constexpr std::uint32_t TrianglesOfLeaf = 4;
+/// Parts for the executor.
+constexpr std::uint32_t TrianglesOfBranch = 4096;
+constexpr std::size_t TrianglesPerRange = 4096;
 /// Halves of 2^32 triangles, one after the other, and a node that waits for each.
 constexpr std::size_t DeepestTree = 40;
 /// A triangle whose height is less than this part of its longest edge is a sliver.
@@ -34,10 +38,18 @@ double heightPart(const TriangleCorners& corners)
 }
 
 /// The centre of their box.
-double centerAlong(const TriangleCorners& corners, Eigen::Index axis)
+Eigen::Vector3d centerOfBox(const TriangleCorners& corners)
 {
-  const auto [low, high] = std::minmax({ corners[0][axis], corners[1][axis], corners[2][axis] });
-  return 0.5 * low + 0.5 * high;
+  return 0.5 * corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]) +
+    0.5 * corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+}
+
+/// In the order of their indices.
+TriangleCorners cornersInOrder(const TriangleMesh& mesh, std::size_t triangle)
+{
+  auto ids = mesh.triangles[triangle];
+  std::sort(ids.begin(), ids.end());
+  return { mesh.points[ids[0]], mesh.points[ids[1]], mesh.points[ids[2]] };
 }
 
 /// Looks for the place nearest to a point on the triangles that it is shown. Whatever is rounded, a place
@@ -118,50 +130,113 @@ private:
 };
 }
 
-NearestTriangle::NearestTriangle(const TriangleMesh& mesh)
+NearestTriangle::NearestTriangle(const TriangleMesh& mesh, const Executor& executor)
+  : triangles_(mesh.triangles.size())
+  , nodes_(BoxTreeShape::nodeCount(std::uint32_t(mesh.triangles.size())))
 {
   const auto count = std::uint32_t(mesh.triangles.size());
-  triangles_.reserve(count);
-  for (std::uint32_t i = 0; i < count; ++i)
+  std::vector<Item> items(count);
+  executor.forEachRange(count, TrianglesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        items[i] = { centerOfBox(cornersInOrder(mesh, i)), std::uint32_t(i) };
+      }
+    });
+  // Those of a level are equally large, but for one triangle.
+  std::vector<Branch> branches;
+  branches.push_back({ 0, 0, count });
+  while (branches.front().size() > TrianglesOfBranch)
   {
-    auto ids = mesh.triangles[i];
-    std::sort(ids.begin(), ids.end());
-    const TriangleCorners corners{ mesh.points[ids[0]], mesh.points[ids[1]], mesh.points[ids[2]] };
-    triangles_.push_back({ corners, i, heightPart(corners) < SliverHeight });
+    executor.forEachPart(branches.size(), [&](std::size_t i) { halve(items, branches[i]); });
+    std::vector<Branch> halves;
+    for (const Branch& branch : branches)
+    {
+      halves.push_back(branch.first());
+      halves.push_back(branch.second());
+    }
+    branches = std::move(halves);
   }
-  if (count > 0)
+  executor.forEachPart(branches.size(),
+    [&](std::size_t part)
+    {
+      const Branch& branch = branches[part];
+      order(items, branch);
+      for (std::uint32_t i = branch.begin; i < branch.end; ++i)
+      {
+        const TriangleCorners corners = cornersInOrder(mesh, items[i].index);
+        triangles_[i] = { corners, items[i].index, heightPart(corners) < SliverHeight };
+      }
+      build(branch);
+    });
+  join({ 0, 0, count });
+}
+
+NearestTriangle::Branch NearestTriangle::Branch::second() const
+{
+  return { node + 1 + BoxTreeShape::nodeCount(middle() - begin), middle(), end };
+}
+
+/// Across its longer side.
+void NearestTriangle::halve(std::span<Item> items, const Branch& branch)
+{
+  Eigen::AlignedBox3d centers;
+  for (const Item& item : items.subspan(branch.begin, branch.size()))
   {
-    nodes_.reserve(count);
-    build(0, count);
+    centers.extend(item.center);
+  }
+  Eigen::Index axis = 0;
+  (centers.max() - centers.min()).maxCoeff(&axis);
+  const auto first = items.begin();
+  std::nth_element(first + branch.begin, first + branch.middle(), first + branch.end,
+    [axis](const Item& a, const Item& b) { return a.center[axis] < b.center[axis]; });
+}
+
+/// All the way down to the leaves.
+void NearestTriangle::order(std::span<Item> items, const Branch& branch)
+{
+  if (branch.size() > BoxTreeShape::ItemsOfLeaf)
+  {
+    halve(items, branch);
+    order(items, branch.first());
+    order(items, branch.second());
   }
 }
 
-std::uint32_t NearestTriangle::build(std::uint32_t begin, std::uint32_t end)
+void NearestTriangle::build(const Branch& branch)
 {
-  const auto index = std::uint32_t(nodes_.size());
-  Node node{ {}, begin, end, 0 };
-  Eigen::AlignedBox3d centers;
-  for (std::uint32_t i = begin; i < end; ++i)
+  if (branch.size() == 0)
   {
-    const TriangleCorners& corners = triangles_[i].corners;
-    node.box.extend(boxAround(corners));
-    centers.extend(
-      Eigen::Vector3d(centerAlong(corners, 0), centerAlong(corners, 1), centerAlong(corners, 2)));
+    return;
   }
-  nodes_.push_back(node);
-  if (end - begin > TrianglesOfLeaf)
+  Node& node = nodes_[branch.node];
+  node = { {}, branch.begin, branch.end, 0 };
+  if (branch.size() > BoxTreeShape::ItemsOfLeaf)
   {
-    Eigen::Index axis = 0;
-    (centers.max() - centers.min()).maxCoeff(&axis);
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    const auto first = triangles_.begin();
-    std::nth_element(first + begin, first + middle, first + end,
-      [axis](const Triangle& a, const Triangle& b)
-      { return centerAlong(a.corners, axis) < centerAlong(b.corners, axis); });
-    build(begin, middle);
-    nodes_[index].secondChild = build(middle, end);
+    build(branch.first());
+    build(branch.second());
+    node.secondChild = branch.second().node;
+    node.box = nodes_[branch.first().node].box.merged(nodes_[node.secondChild].box);
+    return;
   }
-  return index;
+  for (std::uint32_t i = branch.begin; i < branch.end; ++i)
+  {
+    node.box.extend(boxAround(triangles_[i].corners));
+  }
+}
+
+/// What lies above the branches that are built by themselves.
+void NearestTriangle::join(const Branch& branch)
+{
+  if (branch.size() > TrianglesOfBranch)
+  {
+    join(branch.first());
+    join(branch.second());
+    Node& node = nodes_[branch.node];
+    node = { {}, branch.begin, branch.end, branch.second().node };
+    node.box = nodes_[branch.first().node].box.merged(nodes_[node.secondChild].box);
+  }
 }
 
 NearestTriangle::Found NearestTriangle::find(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
+#include "base/LargePageAllocator.h"
 #include "mesh/Mesh.h"
 #include "mesh/TriangleMesh.h"
 
@@ -9,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -33,7 +36,8 @@ public:
   };
 
   /// The mesh is copied. Takes O(n log n) for n triangles, of which there may be 4294967295 at most.
-  explicit NearestTriangle(const TriangleMesh& mesh);
+  explicit NearestTriangle(
+    const TriangleMesh& mesh, const Executor& executor = Executor::sequential());
 
   /// Finds nothing if there are no triangles, if the point is not finite, or if none is nearer than that.
   Found find(const Eigen::Vector3d& point,
@@ -58,10 +62,30 @@ private:
     bool isLeaf() const { return secondChild == 0; }
   };
 
-  std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+  /// A triangle of the tree while that is built, by the centre of its box.
+  struct Item
+  {
+    Eigen::Vector3d center;
+    std::uint32_t index;
+  };
+  /// A node, and its triangles.
+  struct Branch
+  {
+    std::uint32_t node, begin, end;
 
-  std::vector<Triangle> triangles_; ///< those of a leaf beside each other
-  std::vector<Node> nodes_;
+    std::uint32_t size() const { return end - begin; }
+    std::uint32_t middle() const { return begin + size() / 2; }
+    Branch first() const { return { node + 1, begin, middle() }; }
+    Branch second() const;
+  };
+
+  static void halve(std::span<Item> items, const Branch& branch);
+  static void order(std::span<Item> items, const Branch& branch);
+  void build(const Branch& branch);
+  void join(const Branch& branch);
+
+  LargeVector<Triangle> triangles_; ///< those of a leaf beside each other
+  LargeVector<Node> nodes_;
 };
 
 /// The triangles of a mesh, in its coordinates, with the indices of its vertices, to be searched.

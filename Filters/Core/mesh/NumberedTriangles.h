@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/Mesh.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -14,23 +17,53 @@ namespace neuralmesh
 class NumberedTriangles
 {
 public:
-  explicit NumberedTriangles(const Mesh& mesh)
+  explicit NumberedTriangles(const Mesh& mesh, const Executor& executor = Executor::sequential())
     : mesh_(mesh)
     , first_(mesh.indexEnd() + 1, 0)
   {
+    // Those of each part of the vertices, and how many come before it.
+    const std::size_t parts = (mesh.indexEnd() + VerticesPerPart - 1) / VerticesPerPart;
+    std::vector<std::size_t> before(parts + 1, 0);
+    const auto forEachVertex = [&](std::size_t part, const auto& body)
+    {
+      const std::size_t end = std::min(mesh.indexEnd(), (part + 1) * VerticesPerPart);
+      for (auto v = VertexIndex(part * VerticesPerPart); v < end; ++v)
+      {
+        body(v);
+      }
+    };
     for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
     {
       first_[v + 1] = first_[v] + mesh.ring(v).triangleCount();
     }
-    numbers_.resize(first_.back());
-    mesh.forEachTriangle(
-      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    executor.forEachPart(parts,
+      [&](std::size_t part)
       {
-        const auto number = std::uint32_t(triangles_.size());
-        triangles_.push_back({ a, b, c });
-        numbers_[place(a, b)] = number;
-        numbers_[place(b, c)] = number;
-        numbers_[place(c, a)] = number;
+        forEachVertex(part,
+          [&](VertexIndex v)
+          { forEachAt(v, [&](VertexIndex, VertexIndex) { ++before[part + 1]; }); });
+      });
+    std::partial_sum(before.begin(), before.end(), before.begin());
+    triangles_.resize(before.back());
+    numbers_.resize(first_.back());
+    executor.forEachPart(parts,
+      [&](std::size_t part)
+      {
+        std::size_t number = before[part];
+        forEachVertex(part,
+          [&](VertexIndex v)
+          {
+            forEachAt(v,
+              [&](VertexIndex b, VertexIndex c)
+              {
+                triangles_[number] = { v, b, c };
+                for (const std::size_t at : { place(v, b), place(b, c), place(c, v) })
+                {
+                  numbers_[at] = std::uint32_t(number);
+                }
+                ++number;
+              });
+          });
       });
   }
 
@@ -43,6 +76,24 @@ public:
   }
 
 private:
+  /// For the executor.
+  static constexpr std::size_t VerticesPerPart = 4096;
+
+  /// The triangles of which a vertex is the corner of the lowest index.
+  template <typename Use>
+  void forEachAt(VertexIndex v, const Use& use) const
+  {
+    const Ring& ring = mesh_.ring(v);
+    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+    {
+      const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
+      if (v < b && v < c)
+      {
+        use(b, c);
+      }
+    }
+  }
+
   std::size_t place(VertexIndex v, VertexIndex next) const
   {
     return first_[v] + mesh_.ring(v).find(next);

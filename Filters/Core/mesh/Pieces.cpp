@@ -136,7 +136,7 @@ std::size_t pieceCount(const Mesh& mesh)
   {
     for (const VertexIndex neighbor : mesh.ring(v))
     {
-      if (!sets.areJoined(v, neighbor))
+      if (v < neighbor && !sets.areJoined(v, neighbor))
       {
         sets.join(v, neighbor);
         --count;

@@ -20,7 +20,8 @@ namespace
 const double FoldCosine = std::cos(150. * std::numbers::pi / 180.);
 /// So much of a right angle is left that rounding does not matter.
 constexpr float LeastSquaredCosine = 0.04f;
-/// A part for the executor.
+/// Parts for the executor.
+constexpr std::size_t CandidatesPerRange = 4096;
 constexpr std::size_t FoldsPerRange = 4096;
 
 /// Brings the corners that `other` has, too, to the front; returns how many there are.
@@ -137,20 +138,52 @@ bool doIntersect(const Mesh& mesh, SimpleStars& isSimple, Triangle first, Triang
 std::vector<VertexIndex> verticesAlongCurve(
   const Mesh& mesh, const std::vector<VertexIndex>& vertices, const Executor& executor)
 {
-  std::vector<Vector4> positions;
-  positions.reserve(vertices.size());
-  Box bounds;
-  for (const VertexIndex v : vertices)
+  std::vector<Vector4> positions(vertices.size());
+  std::vector<Box> bounds((vertices.size() + CandidatesPerRange - 1) / CandidatesPerRange);
+  executor.forEachRange(vertices.size(), CandidatesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        positions[i] = mesh.position(vertices[i]);
+        bounds[begin / CandidatesPerRange].extend(positions[i]);
+      }
+    });
+  Box all;
+  for (const Box& box : bounds)
   {
-    positions.push_back(mesh.position(v));
-    bounds.extend(positions.back());
+    all.extend(box);
   }
-  std::vector<VertexIndex> order = mortonOrder(positions, bounds.low, bounds.high, executor);
-  for (VertexIndex& v : order)
-  {
-    v = vertices[v];
-  }
+  std::vector<VertexIndex> order = mortonOrder(positions, all.low, all.high, executor);
+  executor.forEachRange(order.size(), CandidatesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        order[i] = vertices[order[i]];
+      }
+    });
   return order;
+}
+
+/// What `find(i, found)` finds for the numbers below `count`, in their order.
+template <typename Found, typename Find>
+void addFound(
+  std::size_t count, const Executor& executor, std::vector<Found>& all, const Find& find)
+{
+  std::vector<std::vector<Found>> ranges((count + CandidatesPerRange - 1) / CandidatesPerRange);
+  executor.forEachRange(count, CandidatesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        find(i, ranges[begin / CandidatesPerRange]);
+      }
+    });
+  for (const std::vector<Found>& range : ranges)
+  {
+    all.insert(all.end(), range.begin(), range.end());
+  }
 }
 
 /// The triangles of a mesh, those first that are asked for, which are neighbours where they follow each other.
@@ -163,43 +196,48 @@ public:
   {
     // By their corners of the lowest index.
     std::vector<VertexIndex> vertices;
-    vertices.reserve(mesh.vertexCount());
-    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-    {
-      bool isAny = false;
-      forEachAt(v,
-        [&](VertexIndex b, VertexIndex c)
-        { isAny = isAny || isAsked[v] || isAsked[b] || isAsked[c]; });
-      if (isAny)
+    addFound(mesh.indexEnd(), executor, vertices,
+      [&](std::size_t i, std::vector<VertexIndex>& found)
       {
-        vertices.push_back(v);
-      }
-    }
+        const auto v = VertexIndex(i);
+        bool isAny = false;
+        forEachAt(v,
+          [&](VertexIndex b, VertexIndex c)
+          { isAny = isAny || isAsked[v] || isAsked[b] || isAsked[c]; });
+        if (isAny)
+        {
+          found.push_back(v);
+        }
+      });
     vertices = verticesAlongCurve(mesh, vertices, executor);
     triangles_.reserve(2 * mesh.vertexCount());
-    for (const VertexIndex v : vertices)
-    {
-      forEachAt(v,
-        [&](VertexIndex b, VertexIndex c)
-        {
-          if (isAsked[v] || isAsked[b] || isAsked[c])
+    addFound(vertices.size(), executor, triangles_,
+      [&](std::size_t i, std::vector<Triangle>& found)
+      {
+        const VertexIndex v = vertices[i];
+        forEachAt(v,
+          [&](VertexIndex b, VertexIndex c)
           {
-            triangles_.push_back({ v, b, c });
-          }
-        });
-    }
+            if (isAsked[v] || isAsked[b] || isAsked[c])
+            {
+              found.push_back({ v, b, c });
+            }
+          });
+      });
     askedCount_ = triangles_.size();
-    for (VertexIndex v = 0; v < mesh.indexEnd() && askedCount_ > 0; ++v)
-    {
-      forEachAt(v,
-        [&](VertexIndex b, VertexIndex c)
-        {
-          if (!isAsked[v] && !isAsked[b] && !isAsked[c])
+    addFound(askedCount_ > 0 ? mesh.indexEnd() : 0, executor, triangles_,
+      [&](std::size_t i, std::vector<Triangle>& found)
+      {
+        const auto v = VertexIndex(i);
+        forEachAt(v,
+          [&](VertexIndex b, VertexIndex c)
           {
-            triangles_.push_back({ v, b, c });
-          }
-        });
-    }
+            if (!isAsked[v] && !isAsked[b] && !isAsked[c])
+            {
+              found.push_back({ v, b, c });
+            }
+          });
+      });
   }
 
   const std::vector<Triangle>& triangles() const { return triangles_; }

@@ -87,6 +87,10 @@ std::vector<std::uint8_t> valencesOf(const Mesh& mesh)
 
 std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices)
 {
+  if (pieceCount(mesh) < 2)
+  {
+    return 0;
+  }
   const std::vector<Piece> pieces = findPieces(mesh);
   double all = 0., largest = 0.;
   for (const Piece& piece : pieces)

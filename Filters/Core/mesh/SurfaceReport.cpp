@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SurfaceReport.h"
 
-#include "base/DisjointSets.h"
+#include "base/ConcurrentSets.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -60,16 +61,20 @@ double quality(double twiceArea, double a, double b, double c)
   return 4. * twiceArea * twiceArea / ((a + b + c) * a * b * c);
 }
 
+/// Parts for the executor.
+constexpr std::size_t ReportedPerRange = 4096;
+
 class Reporter
 {
 public:
-  explicit Reporter(const TriangleMesh& mesh)
+  Reporter(const TriangleMesh& mesh, const Executor& executor)
     : mesh_(mesh)
+    , executor_(executor)
     , fans_(3 * mesh.triangles.size())
     , pieces_(mesh.triangles.size())
     , faces_(2 * mesh.triangles.size())
     , valences_(mesh.points.size(), 0)
-    , isOnBoundary_(mesh.points.size(), false)
+    , isOnBoundary_(mesh.points.size(), 0)
   {
   }
 
@@ -84,6 +89,13 @@ public:
   }
 
 private:
+  /// What the edges from a part of the points to those behind them tell.
+  struct EdgeCounts
+  {
+    std::size_t edges = 0, nonManifold = 0, inconsistent = 0, folded = 0;
+    std::vector<EdgeSide> boundary;
+  };
+
   void reportPoints()
   {
     report_.triangles = mesh_.triangles.size();
@@ -91,89 +103,152 @@ private:
       [](const Eigen::Vector3d& point) { return !point.allFinite(); }));
   }
 
+  /// All triangles on all threads, in parts.
+  template <typename Body>
+  void forEachTriangle(const Body& body) const
+  {
+    executor_.forEachRange(mesh_.triangles.size(), ReportedPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t t = begin; t < end; ++t)
+        {
+          body(t);
+        }
+      });
+  }
+
   void reportGeometry()
   {
-    Eigen::AlignedBox3d box;
-    double volume = 0., qualities = 0.;
-    std::optional<Eigen::Vector3d> origin; // near the mesh, for the precision of the volume
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+    // Near the mesh, for the precision of the volume.
+    std::optional<Eigen::Vector3d> origin;
+    for (std::size_t t = 0; t < mesh_.triangles.size() && !origin; ++t)
     {
-      const auto& [ia, ib, ic] = mesh_.triangles[t];
-      const Eigen::Vector3d &a = mesh_.points[ia], &b = mesh_.points[ib], &c = mesh_.points[ic];
-      const Eigen::Vector3d normal = twiceAreaNormal(mesh_, t);
-      const double twiceArea = normal.norm();
-      if (!(twiceArea > 0.))
+      if (twiceAreaNormal(mesh_, t).norm() > 0.)
       {
-        report_.degenerateTriangles += twiceArea == 0.;
-        report_.slivers += twiceArea == 0.;
+        origin = mesh_.points[mesh_.triangles[t][0]];
+      }
+    }
+    struct Shape
+    {
+      double twiceArea, volume, quality;
+    };
+    std::vector<Shape> shapes(mesh_.triangles.size());
+    std::vector<Eigen::AlignedBox3d> boxes(
+      (mesh_.triangles.size() + ReportedPerRange - 1) / ReportedPerRange);
+    forEachTriangle(
+      [&](std::size_t t)
+      {
+        const auto& [ia, ib, ic] = mesh_.triangles[t];
+        const Eigen::Vector3d &a = mesh_.points[ia], &b = mesh_.points[ib], &c = mesh_.points[ic];
+        const Eigen::Vector3d normal = twiceAreaNormal(mesh_, t);
+        const double twiceArea = normal.norm();
+        shapes[t] = { twiceArea, 0., 0. };
+        if (twiceArea > 0.)
+        {
+          boxes[t / ReportedPerRange].extend(a).extend(b).extend(c);
+          shapes[t].volume = normal.dot(a - *origin) / 6.;
+          shapes[t].quality = quality(twiceArea, (a - b).norm(), (b - c).norm(), (c - a).norm());
+        }
+      });
+    double volume = 0., qualities = 0.;
+    for (const Shape& shape : shapes)
+    {
+      if (!(shape.twiceArea > 0.))
+      {
+        report_.degenerateTriangles += shape.twiceArea == 0.;
+        report_.slivers += shape.twiceArea == 0.;
         continue;
       }
-      origin = origin.value_or(a);
-      box.extend(a).extend(b).extend(c);
-      report_.area += twiceArea / 2.;
-      volume += normal.dot(a - *origin) / 6.;
-      const double ratio = quality(twiceArea, (a - b).norm(), (b - c).norm(), (c - a).norm());
-      qualities += ratio;
-      report_.slivers += ratio < SliverQuality;
+      report_.area += shape.twiceArea / 2.;
+      volume += shape.volume;
+      qualities += shape.quality;
+      report_.slivers += shape.quality < SliverQuality;
+    }
+    Eigen::AlignedBox3d box;
+    for (const Eigen::AlignedBox3d& some : boxes)
+    {
+      box.extend(some);
     }
     volume_ = volume;
     report_.meanQuality = qualities / double(std::max<std::size_t>(1, report_.triangles));
     report_.diagonal = box.isEmpty() ? 0. : box.diagonal().norm();
   }
 
-  /// Calls `use` for every side of the triangles.
+  /// Calls `use` for every side of the triangles, on all threads.
   template <typename Use>
-  void forEachSide(Use use) const
+  void forEachSide(const Use& use) const
   {
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-    {
-      const auto& triangle = mesh_.triangles[t];
-      for (std::size_t k = 0; k < 3 && !usesPointTwice(triangle); ++k)
+    forEachTriangle(
+      [&](std::size_t t)
       {
-        const std::size_t next = (k + 1) % 3;
-        const bool upwards = triangle[k] < triangle[next];
-        const auto [low, high] = std::minmax(triangle[k], triangle[next]);
-        use(EdgeSide{ low, high, 3 * t + k, upwards ? 1u : 0u });
-      }
-    }
+        const auto& triangle = mesh_.triangles[t];
+        for (std::size_t k = 0; k < 3 && !usesPointTwice(triangle); ++k)
+        {
+          const std::size_t next = (k + 1) % 3;
+          const bool upwards = triangle[k] < triangle[next];
+          const auto [low, high] = std::minmax(triangle[k], triangle[next]);
+          use(EdgeSide{ low, high, 3 * t + k, upwards ? 1u : 0u });
+        }
+      });
   }
 
-  /// All sides, those of an edge one behind the other: in buckets by the lower point, then sorted.
-  std::vector<EdgeSide> sortedSides() const
+  static std::size_t increased(std::size_t& count)
   {
-    std::vector<std::size_t> ends(mesh_.points.size() + 1, 0);
-    forEachSide([&](const EdgeSide& side) { ++ends[side.low + 1]; });
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::vector<EdgeSide> sides(ends.back());
-    forEachSide([&](const EdgeSide& side) { sides[ends[side.low]++] = side; });
-    auto begin = sides.begin();
-    for (std::size_t point = 0; point < mesh_.points.size(); ++point)
-    {
-      const auto end = sides.begin() + std::ptrdiff_t(ends[point]);
-      std::sort(begin, end, [](const EdgeSide& a, const EdgeSide& b) { return a.high < b.high; });
-      begin = end;
-    }
-    return sides;
+    return std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed);
   }
 
+  /// All sides in buckets by the lower point, then those of an edge one behind the other; `ends` is where each bucket
+  /// begins.
   void visitEdges()
   {
-    const std::vector<EdgeSide> sides = sortedSides();
+    const std::size_t points = mesh_.points.size();
+    std::vector<std::size_t> ends(points + 1, 0);
+    forEachSide([&](const EdgeSide& side) { increased(ends[side.low + 1]); });
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<EdgeSide> sides(ends.back());
+    forEachSide([&](const EdgeSide& side) { sides[increased(ends[side.low])] = side; });
+    std::vector<EdgeCounts> counts((points + ReportedPerRange - 1) / ReportedPerRange);
+    executor_.forEachRange(points, ReportedPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t point = begin; point < end; ++point)
+        {
+          const std::size_t first = point > 0 ? ends[point - 1] : 0;
+          visitEdgesAt(
+            std::span(sides).subspan(first, ends[point] - first), counts[begin / ReportedPerRange]);
+        }
+      });
+    for (const EdgeCounts& some : counts)
+    {
+      edges_ += some.edges;
+      report_.nonManifoldEdges += some.nonManifold;
+      report_.inconsistentEdges += some.inconsistent;
+      report_.foldedEdges += some.folded;
+      boundary_.insert(boundary_.end(), some.boundary.begin(), some.boundary.end());
+    }
+  }
+
+  void visitEdgesAt(std::span<EdgeSide> sides, EdgeCounts& counts)
+  {
+    // Threads have put them here in any order.
+    std::sort(sides.begin(), sides.end(),
+      [](const EdgeSide& a, const EdgeSide& b)
+      { return a.high != b.high ? a.high < b.high : a.from < b.from; });
     for (auto first = sides.begin(); first != sides.end();)
     {
       const auto last = std::find_if(
         first, sides.end(), [&](const EdgeSide& side) { return !side.isSameEdge(*first); });
-      visitEdge({ first, last });
+      visitEdge({ first, last }, counts);
       first = last;
     }
   }
 
-  void visitEdge(std::span<const EdgeSide> sides)
+  void visitEdge(std::span<const EdgeSide> sides, EdgeCounts& counts)
   {
     const EdgeSide& first = sides.front();
-    ++edges_;
-    ++valences_[first.low];
-    ++valences_[first.high];
+    ++counts.edges;
+    increased(valences_[first.low]);
+    increased(valences_[first.high]);
     for (const EdgeSide& side : sides)
     {
       fans_.join(first.cornerAtLow(), side.cornerAtLow());
@@ -182,24 +257,26 @@ private:
     }
     if (sides.size() == 1)
     {
-      boundary_.push_back(first);
-      isOnBoundary_[first.low] = true;
-      isOnBoundary_[first.high] = true;
+      counts.boundary.push_back(first);
+      for (const Index point : { first.low, first.high })
+      {
+        std::atomic_ref(isOnBoundary_[point]).store(1, std::memory_order_relaxed);
+      }
     }
     else if (sides.size() == 2)
     {
-      visitInnerEdge(first, sides.back());
+      visitInnerEdge(first, sides.back(), counts);
     }
     else
     {
-      ++report_.nonManifoldEdges;
+      ++counts.nonManifold;
     }
   }
 
-  void visitInnerEdge(const EdgeSide& one, const EdgeSide& other)
+  void visitInnerEdge(const EdgeSide& one, const EdgeSide& other, EdgeCounts& counts)
   {
     const bool consistent = one.isUpwards() != other.isUpwards();
-    report_.inconsistentEdges += !consistent;
+    counts.inconsistent += !consistent;
     // The front of one triangle goes over into the front of the other, or into its back.
     const std::size_t turn = consistent ? 0 : 1;
     faces_.join(2 * one.triangle(), 2 * other.triangle() + turn);
@@ -207,7 +284,7 @@ private:
 
     const Eigen::Vector3d a = twiceAreaNormal(mesh_, one.triangle());
     const Eigen::Vector3d b = (consistent ? 1. : -1.) * twiceAreaNormal(mesh_, other.triangle());
-    report_.foldedEdges += a.dot(b) < FoldedCosine * a.norm() * b.norm();
+    counts.folded += a.dot(b) < FoldedCosine * a.norm() * b.norm();
   }
 
   void reportVertices()
@@ -220,7 +297,7 @@ private:
       {
         ++report_.vertices;
         ++report_.valences[valence];
-        regular += valence == (isOnBoundary_[v] ? 4 : 6);
+        regular += valence == (isOnBoundary_[v] != 0 ? 4 : 6);
       }
     }
     report_.unusedPoints = mesh_.points.size() - report_.vertices;
@@ -230,31 +307,34 @@ private:
 
   void reportFans()
   {
-    std::vector<unsigned char> fansAt(mesh_.points.size(), 0);
-    for (std::size_t corner = 0; corner < 3 * mesh_.triangles.size(); ++corner)
-    {
-      const auto& triangle = mesh_.triangles[corner / 3];
-      unsigned char& fans = fansAt[triangle[corner % 3]];
-      if (!usesPointTwice(triangle) && fans_.root(corner) == corner && fans < 2)
+    std::vector<std::size_t> fansAt(mesh_.points.size(), 0);
+    forEachTriangle(
+      [&](std::size_t t)
       {
-        report_.nonManifoldVertices += ++fans == 2;
-      }
-    }
+        const auto& triangle = mesh_.triangles[t];
+        for (std::size_t k = 0; k < 3 && !usesPointTwice(triangle); ++k)
+        {
+          if (fans_.root(3 * t + k) == 3 * t + k)
+          {
+            increased(fansAt[triangle[k]]);
+          }
+        }
+      });
+    report_.nonManifoldVertices = std::size_t(
+      std::count_if(fansAt.begin(), fansAt.end(), [](std::size_t fans) { return fans > 1; }));
   }
 
   void reportComponents()
   {
-    bool orientable = true;
-    std::size_t triangles = 0;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+    const auto countOf = [&](const auto& isCounted)
     {
-      if (!usesPointTwice(mesh_.triangles[t]))
-      {
-        ++triangles;
-        report_.components += pieces_.root(t) == t;
-        orientable = orientable && !faces_.areJoined(2 * t, 2 * t + 1);
-      }
-    }
+      return std::size_t(executor_.sum(mesh_.triangles.size(), ReportedPerRange,
+        [&](std::size_t t) { return !usesPointTwice(mesh_.triangles[t]) && isCounted(t); }));
+    };
+    const std::size_t triangles = countOf([](std::size_t) { return true; });
+    report_.components = countOf([&](std::size_t t) { return pieces_.root(t) == t; });
+    const bool orientable =
+      countOf([&](std::size_t t) { return faces_.areJoined(2 * t, 2 * t + 1); }) == 0;
     reportBoundary();
     const SurfaceReport& report = report_;
     if (triangles > 0 && report.isEdgeManifold() && report.isVertexManifold() && orientable)
@@ -272,7 +352,7 @@ private:
   void reportBoundary()
   {
     report_.boundaryEdges = boundary_.size();
-    DisjointSets loops(fans_);
+    ConcurrentSets loops(fans_);
     for (const EdgeSide& side : boundary_)
     {
       loops.join(side.cornerAtLow(), side.cornerAtHigh());
@@ -289,11 +369,12 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  DisjointSets fans_;   ///< corners that are connected by edges at their vertex
-  DisjointSets pieces_; ///< triangles
-  DisjointSets faces_;  ///< fronts (even) and backs (odd) of triangles
+  const Executor& executor_;
+  ConcurrentSets fans_;   ///< corners that are connected by edges at their vertex
+  ConcurrentSets pieces_; ///< triangles
+  ConcurrentSets faces_;  ///< fronts (even) and backs (odd) of triangles
   std::vector<std::size_t> valences_;
-  std::vector<bool> isOnBoundary_;
+  std::vector<std::uint8_t> isOnBoundary_;
   std::vector<EdgeSide> boundary_;
   std::size_t edges_ = 0;
   double volume_ = 0.;
@@ -301,5 +382,8 @@ private:
 };
 }
 
-SurfaceReport reportSurface(const TriangleMesh& mesh) { return Reporter(mesh).report(); }
+SurfaceReport reportSurface(const TriangleMesh& mesh, const Executor& executor)
+{
+  return Reporter(mesh, executor).report();
+}
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/TriangleMesh.h"
 
 #include <cstddef>
@@ -53,5 +54,6 @@ struct SurfaceReport
 };
 
 /// Takes O(n log n) for n triangles.
-SurfaceReport reportSurface(const TriangleMesh& mesh);
+SurfaceReport reportSurface(
+  const TriangleMesh& mesh, const Executor& executor = Executor::sequential());
 }

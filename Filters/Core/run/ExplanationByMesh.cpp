@@ -63,9 +63,9 @@ std::vector<std::array<bool, 3>> boundaryEdges(const std::vector<Triangle>& tria
 class ExplainingSurface
 {
 public:
-  explicit ExplainingSurface(const TriangleMesh& mesh)
+  ExplainingSurface(const TriangleMesh& mesh, const Executor& executor)
     : mesh_(mesh)
-    , nearest_(mesh)
+    , nearest_(mesh, executor)
     , isBoundary_(boundaryEdges(mesh.triangles))
   {
   }
@@ -158,7 +158,7 @@ std::optional<Explanation> explainByMesh(const PointCloud& cloud, const Triangle
     throw std::runtime_error("The mesh has no triangle with an area.");
   }
   std::optional<PointDistances> distances =
-    distancesOfAll(cloud, ExplainingSurface(surface.mesh()), progress, executor);
+    distancesOfAll(cloud, ExplainingSurface(surface.mesh(), executor), progress, executor);
   if (!distances)
   {
     return std::nullopt;

@@ -37,10 +37,10 @@ std::vector<std::size_t> evenlyPicked(std::size_t all, std::size_t most)
 class PlacesOfCloud
 {
 public:
-  PlacesOfCloud(const Mesh& mesh, const PointCloud& cloud)
+  PlacesOfCloud(const Mesh& mesh, const PointCloud& cloud, const Executor& executor)
     : mesh_(mesh)
     , cloud_(cloud)
-    , grid_(gridOf(mesh, cloud))
+    , grid_(gridOf(mesh, cloud, executor))
   {
   }
 
@@ -89,7 +89,7 @@ void findExactly(const Mesh& mesh, const PointCloud& cloud, float least, const E
     return;
   }
   const TriangleMesh triangles = trianglesIn(mesh);
-  const NearestTriangle nearest(triangles);
+  const NearestTriangle nearest(triangles, executor);
   executor.forEachRange(result.points.size(), DistancesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
@@ -157,28 +157,47 @@ private:
 PointDistances distancesTo(
   const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
 {
-  const PlacesOfCloud places(mesh, cloud);
+  return *distancesTo(
+    mesh, cloud, most, [](double) { return true; }, executor);
+}
+
+std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cloud,
+  std::size_t most, const Progress& progress, const Executor& executor)
+{
+  const PlacesOfCloud places(mesh, cloud, executor);
   PointDistances result;
   result.points = evenlyPicked(cloud.points().size(), most);
-  result.distances.resize(result.points.size());
-  result.isBeyondBoundary.resize(result.points.size());
-  result.meanEdge = mesh.meanEdge();
+  const std::size_t count = result.points.size();
+  result.distances.resize(count);
+  result.isBeyondBoundary.resize(count);
+  result.meanEdge = mesh.meanEdge(executor);
   const float median = places.medianOfSome(result.points, executor);
-  executor.forEachRange(result.points.size(), DistancesPerRange,
-    [&](std::size_t begin, std::size_t end)
+  for (std::size_t first = 0; first < count; first += PointsPerBlock)
+  {
+    if (!progress(double(first) / double(count)))
     {
-      for (std::size_t i = begin; i < end; ++i)
+      return std::nullopt;
+    }
+    executor.forEachRange(std::min(PointsPerBlock, count - first), DistancesPerRange,
+      [&](std::size_t begin, std::size_t end)
       {
-        const PlaceOnMesh place = places.of(result.points[i]);
-        float& distance = result.distances[i];
-        distance = std::sqrt(place.squaredDistance);
-        result.isBeyondBoundary[i] = isOnBoundary(place, mesh) ? 1 : 0;
-        if (distance > MediansToLookAgain * median)
+        for (std::size_t i = first + begin; i < first + end; ++i)
         {
-          distance = std::min(distance, places.distance(result.points[i]));
+          const PlaceOnMesh place = places.of(result.points[i]);
+          float& distance = result.distances[i];
+          distance = std::sqrt(place.squaredDistance);
+          result.isBeyondBoundary[i] = isOnBoundary(place, mesh) ? 1 : 0;
+          if (distance > MediansToLookAgain * median)
+          {
+            distance = std::min(distance, places.distance(result.points[i]));
+          }
         }
-      }
-    });
+      });
+  }
+  if (!progress(1.))
+  {
+    return std::nullopt;
+  }
   findExactly(mesh, cloud, MediansAway * median, executor, result);
   return result;
 }
@@ -186,13 +205,25 @@ PointDistances distancesTo(
 VertexSupport supportOf(
   const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
 {
+  return *supportOf(
+    mesh, cloud, most, [](double) { return true; }, executor);
+}
+
+std::optional<VertexSupport> supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
+  const Progress& progress, const Executor& executor)
+{
   const std::vector<std::size_t> points = evenlyPicked(cloud.points().size(), most);
-  const PlacesOfCloud places(mesh, cloud);
-  const float farthest = outlierDistance(places.medianOfSome(points, executor), mesh.meanEdge());
+  const PlacesOfCloud places(mesh, cloud, executor);
+  const float farthest =
+    outlierDistance(places.medianOfSome(points, executor), mesh.meanEdge(executor));
   SupportSum sum(mesh, cloud);
   std::vector<PlaceOnMesh> found(std::min(points.size(), PointsPerBlock));
   for (std::size_t first = 0; first < points.size(); first += PointsPerBlock)
   {
+    if (!progress(double(first) / double(points.size())))
+    {
+      return std::nullopt;
+    }
     const std::size_t size = std::min(PointsPerBlock, points.size() - first);
     executor.forEachRange(size, DistancesPerRange,
       [&](std::size_t begin, std::size_t end)

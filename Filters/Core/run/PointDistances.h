@@ -2,11 +2,13 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/Progress.h"
 #include "cloud/PointCloud.h"
 #include "mesh/Mesh.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace neuralmesh
@@ -40,8 +42,14 @@ struct VertexSupport
 /// vertex may be erased.
 PointDistances distancesTo(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
   const Executor& executor = Executor::sequential());
+/// The same; nothing if it was ended before.
+std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cloud,
+  std::size_t most, const Progress& progress, const Executor& executor = Executor::sequential());
 
 /// What the vertices of such a mesh rest on, by at most so many points.
 VertexSupport supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
   const Executor& executor = Executor::sequential());
+/// The same; nothing if it was ended before.
+std::optional<VertexSupport> supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
+  const Progress& progress, const Executor& executor = Executor::sequential());
 }

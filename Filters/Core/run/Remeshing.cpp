@@ -82,7 +82,7 @@ Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, M
 {
   Reconstruction result;
   result.times.enter(Phase::Start);
-  const NearestTriangle nearest(trianglesIn(surface));
+  const NearestTriangle nearest(trianglesIn(surface), executor);
   // All of it alike: sheets whose vertices are all at the boundary, too.
   while (surface.vertexCount() < std::size_t(parameters.numberOfVertices))
   {

@@ -188,12 +188,17 @@ Reconstruction Run::describe(LearntRun run, std::uint64_t asked, ProgressPart pa
     result.stopReason = whyEnded();
   }
   const bool isWhole = result.stopReason != StopReason::Cancelled;
+  const Progress describing = partOf(progress_, part.end, part.end);
   neuralmesh::describe(std::move(run.learnt), cloud(), isWhole ? &request_.cloud : nullptr,
-    request_.hints, result, request_.executor);
-  if (isWhole)
+    request_.hints, result, describing, request_.executor);
+  if (isWhole &&
+    !explainPoints(request_.cloud, cleaned_ ? &*cleaned_ : nullptr, request_.parameters.keepPieces,
+      request_.explainsAll, result, describing, request_.executor))
   {
-    explainPoints(request_.cloud, cleaned_ ? &*cleaned_ : nullptr, request_.parameters.keepPieces,
-      request_.explainsAll, result, request_.executor);
+    result.stopReason = StopReason::Cancelled;
+    result.quality.reset();
+    result.explanation.reset();
+    result.finish.reset();
   }
   Parameters requested = request_.parameters;
   requested.numberOfVertices = asked;

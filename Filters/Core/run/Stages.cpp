@@ -284,7 +284,8 @@ bool tellUncertainty(LearntMesh& learnt, const PointCloud& cloud, const Paramete
 }
 
 void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
-  const OrientationHints& hints, Reconstruction& result, const Executor& executor)
+  const OrientationHints& hints, Reconstruction& result, const Progress& progress,
+  const Executor& executor)
 {
   result.orientation = orientMesh(learnt.mesh, cloud, hints, executor);
   result.mesh = trianglesOf(learnt.mesh, cloud);
@@ -303,15 +304,15 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
     std::transform(deviations.begin(), deviations.end(), result.uncertainties.begin(),
       [&](float deviation) { return float(double(deviation) * cloud.unit()); });
   }
-  if (all)
+  if (all && progress(0.))
   {
     result.quality = measureQuality(*all, learnt.mesh, result.mesh, executor);
   }
   result.surface = std::move(learnt.mesh);
 }
 
-void explainPoints(const PointCloud& cloud, const PointCloud* left, double leastPiece,
-  bool explainsAll, Reconstruction& result, const Executor& executor)
+bool explainPoints(const PointCloud& cloud, const PointCloud* left, double leastPiece,
+  bool explainsAll, Reconstruction& result, const Progress& progress, const Executor& executor)
 {
   ExplanationRules rules;
   rules.leastPiece = leastPiece;
@@ -322,11 +323,23 @@ void explainPoints(const PointCloud& cloud, const PointCloud* left, double least
   const auto mostOf = [&](std::size_t some) { return explainsAll ? cloud.points().size() : some; };
   const std::size_t explained =
     std::max(FewestExplained, PointsPerVertexExplained * result.surface.vertexCount());
-  result.explanation = explain(
-    cloud, distancesTo(result.surface, cloud, mostOf(explained), executor), rules, executor);
+  std::optional<PointDistances> distances =
+    distancesTo(result.surface, cloud, mostOf(explained), partOf(progress, 0., 0.6), executor);
+  if (!distances || !progress(0.6))
+  {
+    return false;
+  }
+  result.explanation = explain(cloud, *std::move(distances), rules, executor);
   result.explanation->scatteredShare = scatteredShare(cloud, executor);
-  result.support = supportOf(result.surface, cloud,
-    mostOf(PointsPerVertexOfSupport * result.surface.vertexCount()), executor);
+  std::optional<VertexSupport> support = supportOf(result.surface, cloud,
+    mostOf(PointsPerVertexOfSupport * result.surface.vertexCount()), partOf(progress, 0.7, 1.),
+    executor);
+  if (!support || !progress(1.))
+  {
+    return false;
+  }
+  result.support = *std::move(support);
   result.gaps = spannedGaps(result.surface, result.support, cloud, result.explanation->asked);
+  return true;
 }
 }

@@ -79,13 +79,15 @@ bool tellUncertainty(LearntMesh& learnt, const PointCloud& cloud, const Paramete
   const Executor& executor = Executor::sequential(), const OrientationHints& hints = {});
 
 /// Turns the mesh to its outer side, and adds to `result` all that a user gets of it. Its quality is
-/// measured by `all` points, if there are any.
+/// measured by `all` points, if there are any, unless it is ended before.
 void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
-  const OrientationHints& hints, Reconstruction& result,
+  const OrientationHints& hints, Reconstruction& result, const Progress& progress,
   const Executor& executor = Executor::sequential());
 
 /// Adds to what is described what becomes of the points of the cloud, of all or of some; `left` are those
-/// without clusters of outliers, if it has some. Fewer points than the part `leastPiece` are a small piece.
-void explainPoints(const PointCloud& cloud, const PointCloud* left, double leastPiece,
-  bool explainsAll, Reconstruction& result, const Executor& executor = Executor::sequential());
+/// without clusters of outliers, if it has some. Fewer points than the part `leastPiece` are a small piece. Returns false
+/// if it was ended before: then some of it is missing.
+bool explainPoints(const PointCloud& cloud, const PointCloud* left, double leastPiece,
+  bool explainsAll, Reconstruction& result, const Progress& progress,
+  const Executor& executor = Executor::sequential());
 }

@@ -276,10 +276,17 @@ Reconstruction StreamingReconstruction::mesh(
   }
   const bool isMeasured = isFinished && result.isComplete();
   const PointCloud& all = withClusters_ ? *withClusters_ : *cloud_;
-  describe(std::move(learnt), *cloud_, isMeasured ? &all : nullptr, allHints, result);
-  if (isMeasured)
+  const Progress describing = partOf(progress, 1., 1.);
+  describe(std::move(learnt), *cloud_, isMeasured ? &all : nullptr, allHints, result, describing);
+  if (isMeasured &&
+    (!result.quality ||
+      !explainPoints(all, withClusters_ ? &*cloud_ : nullptr, parameters_.keepPieces, false, result,
+        describing)))
   {
-    explainPoints(all, withClusters_ ? &*cloud_ : nullptr, parameters_.keepPieces, false, result);
+    result.stopReason = StopReason::Cancelled;
+    result.quality.reset();
+    result.explanation.reset();
+    result.finish.reset();
   }
   result.warnings = warningsOf(result, all, parameters_);
   return result;

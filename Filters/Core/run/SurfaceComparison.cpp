@@ -314,7 +314,7 @@ std::optional<SurfaceComparison> compareSurfaces(const TriangleMesh& referenceMe
   Random random(rules.seed);
   reference.draw(rules.samples, random);
   result.draw(rules.samples, random);
-  const NearestTriangle onReference(reference.mesh()), onResult(result.mesh());
+  const NearestTriangle onReference(reference.mesh(), executor), onResult(result.mesh(), executor);
   constexpr double Middle = 0.5 * (BeginOfDistances + EndOfDistances);
   if (!reference.measure(onResult, partOf(progress, BeginOfDistances, Middle), executor) ||
     !result.measure(onReference, partOf(progress, Middle, EndOfDistances), executor) ||

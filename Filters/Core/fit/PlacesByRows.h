@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Executor.h"
+#include "cloud/PlaceOnMesh.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// Some of the vertices of a mesh: those from `begin` to before `end`.
+struct VertexRows
+{
+  VertexIndex begin = 0;
+  VertexIndex end = NoVertex;
+
+  bool has(VertexIndex v) const { return v >= begin && v < end; }
+};
+
+/// The vertices of a mesh in parts for the threads of an executor, one behind the other.
+class RowParts
+{
+public:
+  RowParts(std::size_t indexEnd, const Executor& executor)
+    : indexEnd_(indexEnd)
+  {
+    constexpr std::size_t PartsPerThread = 8, FewestRows = 256;
+    const std::size_t threads = executor.threadCount();
+    if (threads > 1)
+    {
+      const std::size_t rows = std::max(FewestRows, indexEnd / (PartsPerThread * threads));
+      shift_ = std::countr_zero(std::bit_ceil(rows));
+    }
+  }
+
+  std::size_t count() const
+  {
+    return std::max<std::size_t>(1, (indexEnd_ + (std::uint64_t(1) << shift_) - 1) >> shift_);
+  }
+  std::size_t of(VertexIndex v) const { return std::uint64_t(v) >> shift_; }
+  VertexRows rows(std::size_t part) const
+  {
+    return { VertexIndex(std::min<std::size_t>(indexEnd_, part << shift_)),
+      VertexIndex(std::min<std::size_t>(indexEnd_, (part + 1) << shift_)) };
+  }
+
+private:
+  std::size_t indexEnd_;
+  int shift_ = 32;
+};
+
+/// Calls `body(rows, i)` for the places that are used, as `isUsed(i)` tells, in their order, for each part of the
+/// vertices that has a corner of theirs: what it adds up at the vertices of these rows is the same, to the last bit,
+/// on any number of threads.
+template <typename IsUsed, typename Body>
+void forEachPlaceByRows(std::span<const PlaceOnMesh> places, const RowParts& parts,
+  const Executor& executor, const IsUsed& isUsed, const Body& body)
+{
+  if (parts.count() == 1)
+  {
+    const VertexRows all = parts.rows(0);
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      if (isUsed(i))
+      {
+        body(all, i);
+      }
+    }
+    return;
+  }
+  // Of each range of the places, those that lie in each part.
+  constexpr std::size_t PlacesPerRange = 16384;
+  const std::size_t ranges = (places.size() + PlacesPerRange - 1) / PlacesPerRange;
+  std::vector<std::vector<std::uint32_t>> placesOf(ranges * parts.count());
+  executor.forEachRange(places.size(), PlacesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      const auto lists =
+        std::span(placesOf).subspan(begin / PlacesPerRange * parts.count(), parts.count());
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Triangle& corners = places[i].triangle;
+        for (std::size_t corner = 0; corner < 3 && isUsed(i); ++corner)
+        {
+          std::vector<std::uint32_t>& list = lists[parts.of(corners[corner])];
+          if (list.empty() || list.back() != i)
+          {
+            list.push_back(std::uint32_t(i));
+          }
+        }
+      }
+    });
+  executor.forEachPart(parts.count(),
+    [&](std::size_t part)
+    {
+      const VertexRows rows = parts.rows(part);
+      for (std::size_t range = 0; range < ranges; ++range)
+      {
+        for (const std::uint32_t i : placesOf[range * parts.count() + part])
+        {
+          body(rows, i);
+        }
+      }
+    });
+}
+}
