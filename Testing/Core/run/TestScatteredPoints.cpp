@@ -32,7 +32,8 @@ Reconstruction runOver(const Points& points, std::uint64_t vertices)
 bool saysThatThereIsNoSurface(const Reconstruction& result)
 {
   return std::any_of(result.warnings.begin(), result.warnings.end(),
-    [](const std::string& warning) { return warning.starts_with("The cloud has no recognizable surface"); });
+    [](const std::string& warning)
+    { return warning.starts_with("The cloud has no recognizable surface"); });
 }
 
 /// Points anywhere in a box.
