@@ -45,7 +45,7 @@ def main() -> None:
 
 
 def _has_checkpoint(mesh_filter: Any) -> bool:
-    """Not where a number of vertices is found anew, nor of levels, nor of a surface, which is not learnt."""
+    """Whether the run can have a checkpoint: it learns a cloud, with one number of vertices."""
     return not (
         _is_size_to_be_found(mesh_filter)
         or mesh_filter.GetNumberOfLevels() > 0
