@@ -64,7 +64,7 @@ done
 # A mesh of each kind, with seed 1. NEURALMESH_SCANS has the scans that are not made here.
 [ -z "$(wanted_of ../../Testing/Benchmarks/scans.sh)" ] ||
   bash Testing/Benchmarks/scans.sh --seeds 1 --picture "$folder/battery.png" scan_bunny_r01 \
-    open_sphere_60 open_bunny_2 open_bunny_15 box_0.6 plate_n01 chair_n01 coupling density_100 islands \
+    open_sphere_60 open_bunny_2 open_bunny_15 box_0.3 plate_n01 chair_n01 coupling density_100 islands \
     kinect room building b9_training spheres hippo2 || [ $? -eq 1 ] # Some miss their goals.
 # Some minutes.
 [ -z "$(wanted_of ../../Testing/Benchmarks/uncertainty.sh)" ] ||
