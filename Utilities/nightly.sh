@@ -150,7 +150,7 @@ for step in "${steps[@]}"; do
   # In a shell of its own: a command that fails ends the step, and -e holds within it.
   set +e
   all=$(declare -p fuzzing_seconds random_runs random_first debian \
-    build_packages test_packages night_packages; declare -f)
+    build_packages test_packages night_packages engine_options; declare -f)
   { time bash -euo pipefail -c "$all; step_$step" > "nightly/$step.log" 2>&1; } 2> nightly/time.txt
   ended=$?
   set -e

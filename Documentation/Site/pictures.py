@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What PyVista draws on a page of the gallery: a picture, and a page with the scene in 3D."""
 
+import io
 import pathlib
 
 import pyvista
 from sphinx_gallery.scrapers import figure_rst
 from trame_vtk.tools.vtksz2html import write_html
 
+ICONS = "https://kitware.github.io/vtk-js/icon/"
 VIEW = """
 .. raw:: html
 
@@ -27,8 +29,10 @@ def save_plots(block, block_vars, gallery_conf):
         picture = pathlib.Path(next(block_vars["image_path_iterator"]))
         plotter.screenshot(picture)
         view = views / f"{picture.stem}.html"
-        with view.open("w", encoding="utf-8") as file:
-            write_html(plotter.last_vtksz, file)
+        page = io.StringIO()
+        write_html(plotter.last_vtksz, page)
+        # Its icons would come from the network.
+        view.write_text(page.getvalue().replace(ICONS, "data:,"), encoding="utf-8")
         text += figure_rst([str(picture)], str(sources)) + VIEW.format(path=view.relative_to(views.parent))
     pyvista.close_all()
     return text

@@ -123,7 +123,7 @@ class Site(unittest.TestCase):
                 width, seen = self.browser.execute_script(script)
                 self.assertEqual(seen, 400)
                 self.assertLessEqual(width, 400)
-                self.assertTrue(self.find("h1")[0].is_displayed())
+                self.assertTrue(self.find("article")[0].text)
                 self.assertEqual([entry for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"], [])
 
     def pixels(self, element):
