@@ -119,7 +119,7 @@ test_few_points()
   refused nan.xyz
   printf '1 2 3\n2 3 4\n' > two.xyz
   expect 0 reconstruct two.xyz mesh.obj
-  grep -q '^neuralmesh: warning: 100 vertices from 2 points' err || fail "there was no warning"
+  grep -q '^neuralmesh: warning: 100 vertices for 2 points' err || fail "there was no warning"
   [ "$(grep -c '^v ' mesh.obj)" -eq 100 ] || fail "not 100 vertices"
   printf 'nan 0 0\n' | cat - cloud.xyz > some.xyz
   expect 0 reconstruct some.xyz mesh.obj
