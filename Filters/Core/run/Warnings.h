@@ -13,7 +13,7 @@ namespace neuralmesh
 /// where the mesh is what the cloud is; of a run that was cancelled, only what is known of the sides.
 /// - more than 3 % of the points are farther from the mesh than points are from each other, and no
 ///   outliers; or a piece or limb of them is missing: where, and how many;
-/// - the mesh cuts off more than 0.04 % of the points at narrow rims: they are farther from it than from each other;
+/// - the mesh cuts off more than 0.035 % of the points at narrow rims: they are farther from it than from each other;
 /// - the mesh ends before six points, or more, at a sparse end of the cloud;
 /// - around more than half of the points others lie in all directions, so that they tell no surface;
 /// - the mesh has an opening where there are points;
