@@ -392,11 +392,14 @@ private:
     for (std::size_t i = 0; i < result_.reasons.size(); ++i)
     {
       const float distance = result_.asked.distances[i];
-      if (result_.reasons[i] != Reason::Explained || !(distance > noise_))
+      const bool isBeyond = result_.asked.isBeyondBoundary[i] != 0;
+      const bool isExplained = result_.reasons[i] == Reason::Explained;
+      // The farthest of a sparse end are no piece of their own.
+      if (!(isExplained || (isBeyond && result_.reasons[i] == Reason::SmallPiece)) ||
+        !(distance > noise_))
       {
         continue;
       }
-      const bool isBeyond = result_.asked.isBeyondBoundary[i] != 0;
       if (!isBeyond && spacings_[i] <= MostSpacingAtRims * usualSpacing_ &&
         distance > SpacingsAtRims * spacings_[i])
       {
