@@ -23,7 +23,9 @@ namespace
 /// and MediansAway.
 constexpr float SpacingsAway = 3.f;
 /// ... and is cut off beyond so many, though explained; or where the mesh ends, among sparse points.
-constexpr float SpacingsAtRims = 0.75f;
+constexpr float SpacingsAtRims = 1.f;
+/// A point with larger distances to others, against those that are usual, may be an outlier near the surface.
+constexpr float MostSpacingAtRims = 1.75f;
 constexpr float SpacingsBeyondEnds = 1.6f;
 /// If the mesh misses most points, their median tells no noise: then it is more than so many distances
 /// between points, and it is the layers of so many points that tell it.
@@ -390,16 +392,20 @@ private:
     for (std::size_t i = 0; i < result_.reasons.size(); ++i)
     {
       const float distance = result_.asked.distances[i];
-      if (result_.reasons[i] != Reason::Explained || !(distance > noise_))
+      const bool isBeyond = result_.asked.isBeyondBoundary[i] != 0;
+      const bool isExplained = result_.reasons[i] == Reason::Explained;
+      // The farthest of a sparse end are no piece of their own.
+      if (!(isExplained || (isBeyond && result_.reasons[i] == Reason::SmallPiece)) ||
+        !(distance > noise_))
       {
         continue;
       }
-      if (result_.asked.isBeyondBoundary[i] == 0 && distance > SpacingsAtRims * spacings_[i])
+      if (!isBeyond && spacings_[i] <= MostSpacingAtRims * usualSpacing_ &&
+        distance > SpacingsAtRims * spacings_[i])
       {
         take(result_.atRims, i);
       }
-      else if (result_.asked.isBeyondBoundary[i] != 0 && isSparse(i) &&
-        distance > SpacingsBeyondEnds * spacings_[i])
+      else if (isBeyond && isSparse(i) && distance > SpacingsBeyondEnds * spacings_[i])
       {
         take(result_.beyondEnds, i);
       }

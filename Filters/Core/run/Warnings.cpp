@@ -27,9 +27,9 @@ constexpr double MostBare = 0.04;
 constexpr double LeastGap = 0.0002;
 /// Of the points.
 constexpr double MostScattered = 0.5;
-constexpr double MostAtRims = 0.0004;
+constexpr double MostAtRims = 0.00035;
 /// Of those asked: fewer are cut off by chance.
-constexpr std::size_t FewestAtRims = 5;
+constexpr std::size_t FewestAtRims = 4;
 constexpr std::size_t FewestBeyondEnds = 6;
 /// Of the triangles.
 constexpr double MostSlivers = 0.002;
