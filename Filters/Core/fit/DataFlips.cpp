@@ -17,7 +17,7 @@ namespace
 {
 constexpr int MostFlipPasses = 3;
 /// A part for the executor.
-constexpr std::size_t VerticesAhead = 1024;
+constexpr std::size_t FlipVerticesPerRange = 1024;
 /// What a flip must gain, in mean squared distances of a sample: so much, and so much more or less for each
 /// squared excess of valence more or less.
 constexpr double LeastFlipGain = 0.5;
@@ -98,7 +98,7 @@ private:
       return;
     }
     mayFlip_.assign(mesh_.indexEnd(), 0);
-    executor_.forEachRange(mesh_.indexEnd(), VerticesAhead,
+    executor_.forEachRange(mesh_.indexEnd(), FlipVerticesPerRange,
       [&](std::size_t begin, std::size_t end)
       {
         FlipScratch scratch;

@@ -5,6 +5,7 @@
 #include "mesh/Renumbering.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -12,9 +13,10 @@ namespace neuralmesh
 {
 namespace
 {
-/// Parts for an executor, and what is looked at before it is added up.
+/// Parts for an executor.
 constexpr std::size_t MeshVerticesPerRange = 4096;
-constexpr std::size_t MeshVerticesPerBlock = 65536;
+constexpr std::size_t MeanEdgesPerRange = 512;
+constexpr std::size_t MeanEdgeRanges = 64;
 }
 
 Mesh::Mesh(LargeVector<Vector4> positions, LargeVector<Ring> rings)
@@ -62,38 +64,59 @@ Vector4 Mesh::normal(VertexIndex v) const
   return rotated(sum);
 }
 
-double Mesh::meanEdge() const { return meanEdge(Executor::sequential()); }
+double Mesh::meanEdge() const
+{
+  double sum = 0.;
+  std::size_t count = 0;
+  for (VertexIndex v = 0; v < indexEnd(); ++v)
+  {
+    for (const VertexIndex neighbor : ring(v))
+    {
+      sum += double(std::sqrt(squaredNorm(position(neighbor) - position(v))));
+      ++count;
+    }
+  }
+  return sum / double(count);
+}
 
 double Mesh::meanEdge(const Executor& executor) const
 {
-  // In blocks: the lengths on all threads, their sum in the order of the vertices.
-  std::vector<float> lengths(std::min(indexEnd(), MeshVerticesPerBlock) * Ring::Capacity);
+  if (executor.threadCount() == 1)
+  {
+    return meanEdge();
+  }
+  // In blocks: the lengths on all threads, those of a part one behind the other, their sum in the order of the vertices.
+  constexpr std::size_t LengthsOfRange = MeanEdgesPerRange * Ring::Capacity;
+  std::vector<float> lengths(MeanEdgeRanges * LengthsOfRange);
+  std::array<std::size_t, MeanEdgeRanges> counts{};
+  constexpr std::size_t VerticesOfBlock = MeanEdgeRanges * MeanEdgesPerRange;
   double sum = 0.;
   std::size_t count = 0;
-  for (std::size_t first = 0; first < indexEnd(); first += MeshVerticesPerBlock)
+  for (std::size_t first = 0; first < indexEnd(); first += VerticesOfBlock)
   {
-    const std::size_t size = std::min(MeshVerticesPerBlock, indexEnd() - first);
-    executor.forEachRange(size, MeshVerticesPerRange,
+    counts.fill(0);
+    executor.forEachRange(std::min(VerticesOfBlock, indexEnd() - first), MeanEdgesPerRange,
       [&](std::size_t begin, std::size_t end)
       {
+        const std::size_t range = begin / MeanEdgesPerRange;
+        float* length = &lengths[range * LengthsOfRange];
         for (std::size_t i = begin; i < end; ++i)
         {
           const auto v = VertexIndex(first + i);
-          float* length = &lengths[i * Ring::Capacity];
           for (const VertexIndex neighbor : ring(v))
           {
             *length++ = std::sqrt(squaredNorm(position(neighbor) - position(v)));
           }
+          counts[range] += valence(v);
         }
       });
-    for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t range = 0; range < MeanEdgeRanges; ++range)
     {
-      const unsigned valence = this->valence(VertexIndex(first + i));
-      for (unsigned slot = 0; slot < valence; ++slot)
+      for (const float length : std::span(lengths).subspan(range * LengthsOfRange, counts[range]))
       {
-        sum += double(lengths[i * Ring::Capacity + slot]);
+        sum += double(length);
       }
-      count += valence;
+      count += counts[range];
     }
   }
   return sum / double(count);

@@ -12,7 +12,7 @@ namespace
 {
 /// Parts for the executor.
 constexpr std::uint32_t TrianglesOfBranch = 4096;
-constexpr std::size_t TrianglesPerRange = 4096;
+constexpr std::size_t TreeTrianglesPerRange = 4096;
 /// Halves of 2^32 triangles, one after the other, and a node that waits for each.
 constexpr std::size_t DeepestTree = 40;
 /// A triangle whose height is less than this part of its longest edge is a sliver.
@@ -44,12 +44,10 @@ Eigen::Vector3d centerOfBox(const TriangleCorners& corners)
     0.5 * corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
 }
 
-/// In the order of their indices.
-TriangleCorners cornersInOrder(const TriangleMesh& mesh, std::size_t triangle)
+std::array<std::uint32_t, 3> inRisingOrder(std::array<std::uint32_t, 3> ids)
 {
-  auto ids = mesh.triangles[triangle];
   std::sort(ids.begin(), ids.end());
-  return { mesh.points[ids[0]], mesh.points[ids[1]], mesh.points[ids[2]] };
+  return ids;
 }
 
 /// Looks for the place nearest to a point on the triangles that it is shown. Whatever is rounded, a place
@@ -131,17 +129,19 @@ private:
 }
 
 NearestTriangle::NearestTriangle(const TriangleMesh& mesh, const Executor& executor)
-  : triangles_(mesh.triangles.size())
+  : points_(mesh.points)
+  , triangles_(mesh.triangles.size())
   , nodes_(BoxTreeShape::nodeCount(std::uint32_t(mesh.triangles.size())))
 {
   const auto count = std::uint32_t(mesh.triangles.size());
   std::vector<Item> items(count);
-  executor.forEachRange(count, TrianglesPerRange,
+  executor.forEachRange(count, TreeTrianglesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        items[i] = { centerOfBox(cornersInOrder(mesh, i)), std::uint32_t(i) };
+        const auto& [a, b, c] = mesh.triangles[i];
+        items[i] = { centerOfBox({ points_[a], points_[b], points_[c] }), std::uint32_t(i) };
       }
     });
   // Those of a level are equally large, but for one triangle.
@@ -165,8 +165,9 @@ NearestTriangle::NearestTriangle(const TriangleMesh& mesh, const Executor& execu
       order(items, branch);
       for (std::uint32_t i = branch.begin; i < branch.end; ++i)
       {
-        const TriangleCorners corners = cornersInOrder(mesh, items[i].index);
-        triangles_[i] = { corners, items[i].index, heightPart(corners) < SliverHeight };
+        Triangle& triangle = triangles_[i];
+        triangle = { inRisingOrder(mesh.triangles[items[i].index]), items[i].index, false };
+        triangle.isSliver = heightPart(cornersOf(triangle)) < SliverHeight;
       }
       build(branch);
     });
@@ -222,7 +223,7 @@ void NearestTriangle::build(const Branch& branch)
   }
   for (std::uint32_t i = branch.begin; i < branch.end; ++i)
   {
-    node.box.extend(boxAround(triangles_[i].corners));
+    node.box.extend(boxAround(cornersOf(triangles_[i])));
   }
 }
 
@@ -267,7 +268,7 @@ NearestTriangle::Found NearestTriangle::find(
     {
       for (std::uint32_t i = node.begin; i < node.end; ++i)
       {
-        nearest.lookAt(triangles_[i].corners, triangles_[i].index, triangles_[i].isSliver);
+        nearest.lookAt(cornersOf(triangles_[i]), triangles_[i].index, triangles_[i].isSliver);
       }
       continue;
     }

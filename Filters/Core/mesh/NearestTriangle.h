@@ -46,8 +46,8 @@ public:
 private:
   struct Triangle
   {
-    /// In the order of their indices, so that triangles with an edge in common see it alike.
-    std::array<Eigen::Vector3d, 3> corners;
+    /// In rising order, so that triangles with an edge in common see it alike.
+    std::array<std::uint32_t, 3> corners;
     std::uint32_t index;
     bool isSliver; ///< its plane is known with few digits only
   };
@@ -84,6 +84,13 @@ private:
   void build(const Branch& branch);
   void join(const Branch& branch);
 
+  std::array<Eigen::Vector3d, 3> cornersOf(const Triangle& triangle) const
+  {
+    const auto& [a, b, c] = triangle.corners;
+    return { points_[a], points_[b], points_[c] };
+  }
+
+  std::vector<Eigen::Vector3d> points_;
   LargeVector<Triangle> triangles_; ///< those of a leaf beside each other
   LargeVector<Node> nodes_;
 };

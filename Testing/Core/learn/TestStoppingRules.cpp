@@ -194,6 +194,8 @@ TEST(StoppingRules, ProgressIsEven)
     EXPECT_LT(told.front(), 0.05);
     EXPECT_GT(told.back(), 0.9);
     EXPECT_LE(told.back(), 1.);
+    // While the mesh is described nothing is added: it is only asked whether to go on.
+    told.erase(std::unique(told.begin(), told.end()), told.end());
     for (std::size_t i = 0; i < told.size(); ++i)
     {
       EXPECT_NEAR(told[i], double(i) / double(told.size()), 0.05);
