@@ -513,10 +513,10 @@ TEST_F(Checkpoints, AreOneFile)
   CheckpointPlan rare = this->plan();
   rare.interval = 1e6;
   int seen = 0;
-  const auto look = [&](double progress)
+  // At 1 all is learnt, and described.
+  const auto look = [&](double fraction)
   {
-    // The last one is written before the mesh is described.
-    seen += progress < 1. && fs::exists(this->path());
+    seen += fraction < 1. && fs::exists(this->path());
     return true;
   };
   reconstruct(cleanSphere(), parameters, look, {}, {}, rare);
