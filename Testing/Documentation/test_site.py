@@ -156,7 +156,7 @@ class Site(unittest.TestCase):
         summary.click()
         self.show(frame)
         self.browser.switch_to.frame(frame)
-        self.wait_until(lambda: self.find("canvas"))
+        self.wait_until(lambda: any(one.size["height"] > 0 for one in self.find("canvas")))
         canvas = self.find("canvas")[0]
         self.wait_until(lambda: (self.pixels(canvas) < 250).any(axis=2).mean() > 0.01)
         before = [self.pixels(canvas)]
