@@ -156,7 +156,7 @@ class Site(unittest.TestCase):
         summary.click()
         self.show(frame)
         self.browser.switch_to.frame(frame)
-        self.wait_until(lambda: self.find("canvas"))
+        self.wait_until(lambda: any(one.size["height"] > 0 for one in self.find("canvas")))
         canvas = self.find("canvas")[0]
         self.wait_until(lambda: (self.pixels(canvas) < 250).any(axis=2).mean() > 0.01)
         before = [self.pixels(canvas)]
@@ -167,13 +167,18 @@ class Site(unittest.TestCase):
             return (before[-1] == before[-2]).all()
 
         self.wait_until(is_still)
-        # A hand moves in many small steps: vtk.js takes one after a rest for the first of them.
-        actions = webdriver.ActionChains(self.browser, duration=20)
-        actions.move_to_element(canvas).click_and_hold()
-        for _ in range(10):
-            actions.move_by_offset(8, 3)
-        actions.release().perform()
-        self.wait_until(lambda: (self.pixels(canvas) != before[-1]).any(axis=2).mean() > 0.02)
+
+        def is_turned():
+            # A hand moves in many small steps: vtk.js takes one after a rest for the first of them. On a busy
+            # machine there are rests.
+            actions = webdriver.ActionChains(self.browser, duration=20)
+            actions.move_to_element(canvas).click_and_hold()
+            for _ in range(10):
+                actions.move_by_offset(8, 3)
+            actions.release().perform()
+            return (self.pixels(canvas) != before[-1]).any(axis=2).mean() > 0.02
+
+        self.wait_until(is_turned)
         self.browser.switch_to.default_content()
 
 
