@@ -46,9 +46,8 @@ def gather_pages(sources):
 
 def gather_made(build, sources):
     """What the build tree has: the page of parameters with its tables, and the reference of the classes."""
-    made = build / "Documentation"
-    for page in (*made.glob("*.md"), *made.glob("*/*.md")):
-        shutil.copy(page, sources / page.relative_to(build))
+    page = pathlib.Path("Documentation", "Guide", "Parameters.md")
+    shutil.copy(build / page, sources / page)
     shutil.copytree(build / "reference" / "html", sources / "extra" / "classes")
 
 

@@ -455,8 +455,7 @@ TEST(Warnings, EndsBeforeSparsePoints)
   EXPECT_TRUE(warnedOf(1.25).warnings.empty());
   EXPECT_TRUE(warnedOf(1.22).warnings.empty());
   const Reconstruction ended = warnedOf(1.13);
-  EXPECT_TRUE(
-    hasWarning(ended, "open where there are points: it does not reach about "));
+  EXPECT_TRUE(hasWarning(ended, "open where there are points: it does not reach about "));
   EXPECT_GE(ended.explanation->beyondEnds.count, 15u);
   EXPECT_LE(ended.explanation->beyondEnds.count, 21u);
   EXPECT_NEAR(ended.explanation->beyondEnds.farthest, 0.12, 1e-3);
