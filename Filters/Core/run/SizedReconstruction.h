@@ -8,7 +8,7 @@
 
 namespace neuralmesh
 {
-/// A run whose mesh has as many vertices as the cloud has something to tell for, or as few as meet a tolerance. The
+/// A run whose mesh has as many vertices as the points support, or as few as meet a tolerance. The
 /// number of vertices of the parameters does not count. Small meshes are made and measured first, and what they tell
 /// is checked in the end; the result has a `size`, unless the run was ended before. There must be such a run, see
 /// whyNoSize() and whyNoSizeFor().

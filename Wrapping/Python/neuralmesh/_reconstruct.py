@@ -105,7 +105,7 @@ def reconstruct(
                 sharper than feature_angle and that the points confirm. It is a vtkPolyData of lines and
                 corners, and the mesh has the point data `Crease`. It has no points if progress ended the run.
             levels: Levels of detail: numbers of vertices, in ascending order, instead of `vertices`. The
-                result is a list of meshes in that order. It takes up to twice as long as the largest mesh. If
+                result is a list of meshes in that order. It takes 1.3 to 3 times as long as the largest mesh. If
                 progress ended the run, the list ends with the mesh learnt so far. explain and feature_lines
                 are for the largest.
             progress: A function that is called with the fraction that is done, from 0 to 1. If it returns
