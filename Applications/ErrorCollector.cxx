@@ -9,10 +9,14 @@
 #include "vtkOutputWindow.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iostream>
 
 namespace
 {
+/** Warnings name places, and end with their tag. */
+constexpr std::size_t LongestMessage = 2000;
+
 /** The text behind VTK's "ERROR: In file, line n\nvtkClass (address): ", as one line. */
 std::string PlainText(const char* vtkMessage)
 {
@@ -27,7 +31,7 @@ std::string PlainText(const char* vtkMessage)
   {
     text.erase(0, object + 3);
   }
-  return neuralmesh::oneLine(text);
+  return neuralmesh::oneLine(text, LongestMessage);
 }
 
 void Show(const std::string& warning)

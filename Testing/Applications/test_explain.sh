@@ -52,6 +52,17 @@ test_of_a_run()
   cmp <(sed 's/without/mesh/g' out) with.json || fail "--explain changes the mesh"
 }
 
+# Promise: warnings are printed whole, with their tags, however many places with however many digits they name.
+test_whole_warnings()
+{
+  sphere 4000 500000 5400000 0 > first.xyz
+  { cat first.xyz; sphere 400 500004 5400000 0; sphere 400 500000 5400004 0; sphere 400 500000 5400000 4; } > many.xyz
+  expect 0 "$neuralmesh" reconstruct first.xyz first.vtp --vertices 500
+  expect 0 "$neuralmesh" reconstruct many.xyz mesh.vtp --vertices 500 --initial first.vtp
+  [ "$(awk '{ print length }' err | sort -n | tail -1)" -gt 325 ] || { cat err; fail "no long warning"; }
+  ! grep '^neuralmesh: warning: ' err | grep -v '\[[a-z-]*\]$' || fail "a warning without its tag"
+}
+
 # Promise: with --strict a warning is exit status 3, and the mesh is written; without it, 0.
 test_strict()
 {

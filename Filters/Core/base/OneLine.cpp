@@ -5,19 +5,21 @@ namespace neuralmesh
 {
 namespace
 {
-constexpr std::size_t LongestText = 300;
-
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 bool isShown(char c) { return c > ' ' && c <= '~'; }
 }
 
-std::string oneLine(std::string_view text)
+std::string oneLine(std::string_view text, std::size_t most)
 {
   std::string line;
+  while (!text.empty() && isBlank(text.back()))
+  {
+    text.remove_suffix(1);
+  }
   for (const char c : text)
   {
-    if (line.size() >= LongestText)
+    if (line.size() >= most)
     {
       return line + "...";
     }
@@ -29,10 +31,6 @@ std::string oneLine(std::string_view text)
     {
       line += ' ';
     }
-  }
-  if (!line.empty() && line.back() == ' ')
-  {
-    line.pop_back();
   }
   return line;
 }

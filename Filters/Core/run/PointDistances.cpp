@@ -22,6 +22,8 @@ constexpr std::size_t PointsPerBlock = 65536;
 /// than so many medians, those around it are looked at, too.
 constexpr float MediansToLookAgain = 4.f;
 constexpr std::size_t MedianPoints = 2000;
+/// Of a corner in a place: less is rounding.
+constexpr float LeastWeight = 1e-5f;
 
 std::vector<std::size_t> evenlyPicked(std::size_t all, std::size_t most)
 {
@@ -32,6 +34,26 @@ std::vector<std::size_t> evenlyPicked(std::size_t all, std::size_t most)
     points[i] = i * all / count;
   }
   return points;
+}
+
+/// Whether what is closest to a place lies beyond the boundary. At a corner of the boundary, the triangle of the place
+/// need not have an edge on it.
+bool isBeyondBoundary(const PlaceOnMesh& place, const Mesh& mesh)
+{
+  const Vector4 weights = place.weights();
+  for (unsigned i = 0; i < 3; ++i)
+  {
+    const VertexIndex next = place.triangle[(i + 1) % 3], last = place.triangle[(i + 2) % 3];
+    if (weights[int(i)] < LeastWeight && mesh.isBoundaryEdge(next, last))
+    {
+      return true;
+    }
+    if (weights[int(i)] > 1.f - LeastWeight && mesh.isBoundary(place.triangle[i]))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 class PlacesOfCloud
@@ -103,7 +125,7 @@ void findExactly(const Mesh& mesh, const PointCloud& cloud, float least, const E
           const PlaceOnMesh place =
             closestPlaceAt(point, mesh, triangles.triangles[found.triangle][0]);
           result.distances[i] = std::sqrt(place.squaredDistance);
-          result.isBeyondBoundary[i] = isOnBoundary(place, mesh) ? 1 : 0;
+          result.isBeyondBoundary[i] = isBeyondBoundary(place, mesh) ? 1 : 0;
         }
       }
     });
@@ -186,7 +208,7 @@ std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cl
           const PlaceOnMesh place = places.of(result.points[i]);
           float& distance = result.distances[i];
           distance = std::sqrt(place.squaredDistance);
-          result.isBeyondBoundary[i] = isOnBoundary(place, mesh) ? 1 : 0;
+          result.isBeyondBoundary[i] = isBeyondBoundary(place, mesh) ? 1 : 0;
           if (distance > MediansToLookAgain * median)
           {
             distance = std::min(distance, places.distance(result.points[i]));

@@ -238,8 +238,8 @@ void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud, WarningLi
   warnings.add(WarningTopic::GapIsSpanned,
     "The mesh spans gaps of the cloud: " + where +
       ". The nearest points are farther away than three times their spacing, so the surface is a "
-      "guess. Scan these places. If there is no surface, remove the triangles whose point data "
-      "Support is 0.");
+      "guess. Scan these places, or remove the triangles there. If gaps are to be filled, use "
+      "--boundaries close.");
 }
 
 /// Why triangles intersect, and what helps.

@@ -392,7 +392,7 @@ TEST(Warnings, CoarseIsNotMissing)
 // three of its distances to others; but none of a mesh that reaches its points.
 TEST(Warnings, RimsThatAreCutOff)
 {
-  constexpr double Thickness = 0.02, CutOff = 0.015;
+  constexpr double Thickness = 0.02, CutOff = 0.03;
   const PointCloud cloud(platePoints(20000, Thickness));
   const auto cutOffBy = [](double width, TriangleMesh mesh)
   {
