@@ -27,8 +27,9 @@ constexpr float SpacingsAtRims = 1.f;
 /// A point with larger distances to others, against those that are usual, may be an outlier near the surface.
 constexpr float MostSpacingAtRims = 1.75f;
 constexpr float SpacingsBeyondEnds = 1.6f;
-/// ... and of the mean edge: less is what any bend loses.
+/// ... and of the mean edge, or of the diagonal: less is what any bend loses.
 constexpr float EdgesCutOff = 0.5f;
+constexpr double DiagonalCutOff = 0.01;
 /// If the mesh misses most points, their median tells no noise: then it is more than so many distances
 /// between points, and it is the layers of so many points that tell it.
 constexpr float SpacingsOfNoise = 3.f;
@@ -391,6 +392,8 @@ private:
         points.place = cloud_.toInput(placeOf(i));
       }
     };
+    const double least =
+      std::min(EdgesCutOff * result_.asked.meanEdge, DiagonalCutOff * cloud_.diagonal());
     for (std::size_t i = 0; i < result_.reasons.size(); ++i)
     {
       const float distance = result_.asked.distances[i];
@@ -398,7 +401,7 @@ private:
       const bool isExplained = result_.reasons[i] == Reason::Explained;
       // The farthest of a sparse end are no piece of their own.
       if (!(isExplained || (isBeyond && result_.reasons[i] == Reason::SmallPiece)) ||
-        !(distance > noise_) || !(distance > EdgesCutOff * float(result_.asked.meanEdge)))
+        !(distance > noise_) || !(double(distance) > least))
       {
         continue;
       }

@@ -28,7 +28,7 @@ constexpr double UsualDensityExponent = 0.5;
 constexpr double DensityExponentIfOpen = 0.25;
 /// A piece with so many times the part of the vertices that is small of the area is none of outliers, however little
 /// area it has: its points are denser than others.
-constexpr double VerticesOfDensePiece = 20.;
+constexpr double VerticesOfDensePiece = 100.;
 /// With fewer vertices, claws and ears are no wider than edges, and would be lost while the mesh grows.
 constexpr std::uint64_t FewestDistributedLater = 10000;
 

@@ -2,6 +2,7 @@
 #include "run/Warnings.h"
 
 #include "base/WarningTopic.h"
+#include "mesh/Pieces.h"
 #include "run/BareArea.h"
 
 #include <algorithm>
@@ -215,6 +216,35 @@ void warnOfBareArea(double share, WarningList& warnings)
         " of the surface has almost no points: its triangles span gaps or reach out to stray "
         "points. Look at it before you use the mesh: its point data Support is 0. Remove stray "
         "points, and reconstruct distant bodies one by one.");
+  }
+}
+
+/// However little area a piece has, it is no surface of the cloud where none of its vertices rests on points.
+void warnOfBarePieces(
+  const Mesh& surface, const VertexSupport& support, const PointCloud& cloud, WarningList& warnings)
+{
+  if (support.weights.size() != surface.vertexCount())
+  {
+    return;
+  }
+  std::size_t count = 0;
+  Vector4 place;
+  for (const Piece& piece : findPieces(surface))
+  {
+    if (std::all_of(piece.vertices.begin(), piece.vertices.end(),
+          [&](VertexIndex v) { return !(support.weights[v] > 0.); }))
+    {
+      place = count == 0 ? surface.position(piece.vertices.front()) : place;
+      ++count;
+    }
+  }
+  if (count > 0)
+  {
+    warnings.add(WarningTopic::SurfaceWithoutPoints,
+      counted(count, "piece", "pieces") + " of the mesh without any points, as around " +
+        placeText(cloud.toInput(place), cloud) +
+        ": the first surface followed outliers there. Remove the piece, or drop small pieces "
+        "(--keep-pieces).");
   }
 }
 
@@ -456,6 +486,7 @@ std::vector<std::string> warningsOf(
   if (parameters.boundaries == Boundaries::Keep && parameters.closeHolesBelow == 0.)
   {
     warnOfBareArea(bareShare(result.mesh, result.support), warnings);
+    warnOfBarePieces(result.surface, result.support, cloud, warnings);
     warnOfGaps(result.gaps, cloud, warnings);
   }
   if (result.quality)

@@ -16,7 +16,7 @@ namespace neuralmesh
 /// - coarse: the mesh cuts off more than 0.035 % of the points at narrow rims;
 /// - open where points are: the mesh ends before six of the asked points where points are sparse;
 /// - no surface: more than half of the points have others around them in all directions;
-/// - surface without points: more than 4 % of the area, unless gaps were to be closed;
+/// - surface without points: more than 4 % of the area, or a piece, unless gaps were to be closed;
 /// - a gap is spanned: by more than 0.02 % of the area, unless gaps were to be closed;
 /// - between layers: more than 10 % of the vertices;
 /// - slivers: more than 0.2 % of the triangles;

@@ -526,4 +526,31 @@ TEST(Warnings, BareArea)
   EXPECT_TRUE(made(0., closing).warnings.empty());
   EXPECT_TRUE(made(0., filling).warnings.empty());
 }
+
+// Promise: a piece without points is told of, however small it is.
+TEST(Warnings, BarePieces)
+{
+  const PointCloud cloud(sphere(20000));
+  const auto warned = [&](const Eigen::Vector3d& place)
+  {
+    Reconstruction result;
+    result.mesh = makeSphere(16);
+    const std::size_t first = result.mesh.points.size();
+    for (const Eigen::Vector3d& point : makeSphere(1).points)
+    {
+      result.mesh.points.emplace_back(0.02 * point + place);
+    }
+    for (const auto& [a, b, c] : makeSphere(1).triangles)
+    {
+      result.mesh.triangles.push_back(
+        { std::uint32_t(a + first), std::uint32_t(b + first), std::uint32_t(c + first) });
+    }
+    result.surface = buildMesh(result.mesh, cloud);
+    result.support = supportOf(result.surface, cloud, All);
+    result.warnings = warningsOf(result, cloud);
+    return hasWarning(result, "1 piece of the mesh without any points, as around (");
+  };
+  EXPECT_TRUE(warned({ 2., 0., 0. }));
+  EXPECT_FALSE(warned({ 1.02, 0., 0. }));
+}
 }
