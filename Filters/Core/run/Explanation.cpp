@@ -13,6 +13,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace neuralmesh
@@ -50,8 +51,33 @@ constexpr double EdgesOfPiece = 2.;
 /// Of the points asked: fewer are a piece by chance.
 constexpr double LeastAskedInPiece = 4.;
 
+/// A small piece is a part of the scan if it has so many points, ...
+constexpr double FewestInSmallPart = 24.;
+/// ... and those are not sparser than usual, but for chance. Strewn outliers are.
+constexpr float MostSpacingOfSmallPart = 1.5f;
+
 constexpr std::size_t SpacingsAsked = 500;
 constexpr std::size_t ExplainedPerRange = 256;
+
+/// Of the variance of places, the part across the plane that fits them best.
+double variationOf(std::span<const NearPoint> near, std::span<const Vector4> places)
+{
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const NearPoint& point : near)
+  {
+    mean += places[point.index].toDouble() / double(near.size());
+  }
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const NearPoint& point : near)
+  {
+    const Eigen::Vector3d offset = places[point.index].toDouble() - mean;
+    covariance += offset * offset.transpose();
+  }
+  const double all = covariance.trace();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  // Few points are flat by chance.
+  return near.size() < NeighborsInVariation ? 1. : all > 0. ? solver.eigenvalues()[0] / all : 0.;
+}
 
 class Explainer
 {
@@ -74,8 +100,14 @@ public:
       survey();
       tellApart();
       findPieces();
-      std::stable_sort(result_.pieces.begin(), result_.pieces.end(),
-        [](const MissedPiece& a, const MissedPiece& b) { return a.points > b.points; });
+      for (std::vector<MissedPiece>* pieces : { &result_.pieces, &result_.smallParts })
+      {
+        std::stable_sort(pieces->begin(), pieces->end(),
+          [](const MissedPiece& a, const MissedPiece& b) { return a.points > b.points; });
+      }
+      result_.torn = findTornParts(
+        cloud_, result_.asked,
+        [this](std::size_t i) { return result_.reasons[i] == Reason::Explained; }, executor_);
     }
     count();
     findCutOff();
@@ -231,9 +263,24 @@ private:
     }
     if (double(piece.size()) < LeastAskedInPiece || (isSmall(piece) && !isOfSurface(piece)))
     {
+      if (isSmallPart(piece))
+      {
+        result_.smallParts.push_back(described(piece));
+      }
       take(piece, Reason::SmallPiece, [](std::size_t) { return true; });
       return;
     }
+    const MissedPiece missed = described(piece);
+    // A rim is as coarse as its edges are long.
+    if (!missed.isBeyondBoundary ||
+      missed.farthest > cloud_.unit() * double(result_.asked.meanEdge))
+    {
+      result_.pieces.push_back(missed);
+    }
+  }
+
+  MissedPiece described(const std::vector<std::size_t>& piece) const
+  {
     MissedPiece missed;
     missed.points = pointsPerAsked() * double(piece.size());
     std::size_t beyond = 0;
@@ -246,12 +293,28 @@ private:
       beyond += result_.asked.isBeyondBoundary[i];
     }
     missed.isBeyondBoundary = 2 * beyond > piece.size();
-    // A rim is as coarse as its edges are long.
-    if (!missed.isBeyondBoundary ||
-      missed.farthest > cloud_.unit() * double(result_.asked.meanEdge))
+    return missed;
+  }
+
+  /// Whether a small piece is no chance: there are enough points, as dense as others, and on a surface.
+  bool isSmallPart(const std::vector<std::size_t>& piece) const
+  {
+    if (double(piece.size()) < LeastAskedInPiece ||
+      pointsPerAsked() * double(piece.size()) < FewestInSmallPart)
     {
-      result_.pieces.push_back(missed);
+      return false;
     }
+    std::vector<float> spacings;
+    double variation = 0.;
+    std::array<NearPoint, NeighborsInVariation> near;
+    for (const std::size_t i : piece)
+    {
+      spacings.push_back(spacings_[i]);
+      const std::size_t found = nearest_.find(placeOf(i), near);
+      variation += variationOf(std::span(near).first(found), cloud_.points());
+    }
+    return medianOf(std::move(spacings)) <= MostSpacingOfSmallPart * usualSpacing_ &&
+      variation <= MostVariation * double(piece.size());
   }
 
   bool isSmall(const std::vector<std::size_t>& piece) const
@@ -311,24 +374,7 @@ private:
         continue;
       }
       const std::size_t found = nearest.find(places[m], near);
-      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-      for (std::size_t i = 0; i < found; ++i)
-      {
-        mean += places[near[i].index].toDouble() / double(found);
-      }
-      Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-      for (std::size_t i = 0; i < found; ++i)
-      {
-        const Eigen::Vector3d offset = places[near[i].index].toDouble() - mean;
-        covariance += offset * offset.transpose();
-      }
-      const double all = covariance.trace();
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
-        covariance, Eigen::EigenvaluesOnly);
-      // Few points are flat by chance.
-      variations_[missed[m]] = found < NeighborsInVariation ? 1.
-        : all > 0.                                          ? solver.eigenvalues()[0] / all
-                                                            : 0.;
+      variations_[missed[m]] = variationOf(std::span(near).first(found), places);
     }
   }
 

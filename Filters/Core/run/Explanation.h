@@ -4,6 +4,7 @@
 #include "base/Executor.h"
 #include "cloud/PointCloud.h"
 #include "run/PointDistances.h"
+#include "run/TornParts.h"
 
 #include <Eigen/Core>
 
@@ -62,6 +63,10 @@ struct Explanation
   std::array<double, Reasons>
     counts{};                      ///< of the points of the input, about; exact if all are asked
   std::vector<MissedPiece> pieces; ///< that are unreachable, the largest first
+  /// Of small pieces, those that a closer look shows as parts of the scan: their points lie as dense as others and
+  /// form a surface. The largest first.
+  std::vector<MissedPiece> smallParts;
+  TornParts torn; ///< of what is explained
   /// As rims are that are narrower than edges are long: farther from the mesh than from each other, and than any noise,
   /// and not beyond a boundary.
   CutOffPoints atRims;

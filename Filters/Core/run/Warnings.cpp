@@ -181,6 +181,34 @@ void warnOfPieces(
   }
 }
 
+/// What has few points is dropped with what is strewn; here it is more.
+void warnOfSmallParts(
+  const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
+{
+  if (!explanation.smallParts.empty())
+  {
+    warnings.add(WarningTopic::PartIsMissing,
+      "A small part of the cloud is missing in the mesh: " +
+        piecesText(explanation.smallParts, cloud) +
+        "These points lie as dense as others and form a surface, but they are so few that the "
+        "program takes them for stray points. If the part belongs to the scan, keep small pieces "
+        "(--keep-pieces 0). " +
+        std::string(HowToSee));
+  }
+}
+
+void warnOfTornParts(const TornParts& torn, const PointCloud& cloud, WarningList& warnings)
+{
+  if (torn.any())
+  {
+    warnings.add(WarningTopic::FallsIntoPieces,
+      "The mesh falls into pieces where the points are connected: it is torn at " +
+        counted(torn.tears, "place", "places") + ", as around " + placeText(torn.place, cloud) +
+        ". Points are sparse there, or the part is narrower than edges are long. Use more "
+        "vertices, more points, or another seed.");
+  }
+}
+
 void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
 {
   // The noise is unknown where the mesh misses the cloud.
@@ -204,7 +232,9 @@ void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, Warni
   {
     warnOfPieces(explanation, cloud, fate, warnings);
   }
+  warnOfSmallParts(explanation, cloud, warnings);
   warnOfCutOff(explanation, cloud, warnings);
+  warnOfTornParts(explanation.torn, cloud, warnings);
 }
 
 void warnOfBareArea(double share, WarningList& warnings)
