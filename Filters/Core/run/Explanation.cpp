@@ -56,6 +56,14 @@ constexpr double FewestInSmallPart = 24.;
 /// ... and those are not sparser than usual, but for chance. Strewn outliers are.
 constexpr float MostSpacingOfSmallPart = 1.5f;
 
+/// Of a fine mesh edges are not longer than so many distances between points. Where a few points that belong together
+/// are off it by such a part of their own distances, it lacks what they show.
+constexpr double SpacingsOfFineEdge = 3.;
+constexpr float SpacingsPassedBy = 0.25f;
+/// ... and of any mesh where more than half of those of a piece are.
+constexpr float SpacingsPassedByPiece = 0.5f;
+constexpr std::size_t FewestPassedBy = 8;
+
 constexpr std::size_t SpacingsAsked = 500;
 constexpr std::size_t ExplainedPerRange = 256;
 
@@ -100,7 +108,9 @@ public:
       survey();
       tellApart();
       findPieces();
-      for (std::vector<MissedPiece>* pieces : { &result_.pieces, &result_.smallParts })
+      findPassedBy();
+      for (std::vector<MissedPiece>* pieces :
+        { &result_.pieces, &result_.smallParts, &result_.passedBy })
       {
         std::stable_sort(pieces->begin(), pieces->end(),
           [](const MissedPiece& a, const MissedPiece& b) { return a.points > b.points; });
@@ -423,6 +433,65 @@ private:
           sets.join(first, other->second);
         }
       }
+    }
+  }
+
+  bool isExplainedBeyond(std::size_t i, float spacings) const
+  {
+    const float distance = result_.asked.distances[i];
+    return result_.reasons[i] == Reason::Explained && distance > noise_ &&
+      distance > spacings * spacings_[i];
+  }
+
+  /// A hole or a part as narrow as points are apart has no point that is far away.
+  void findPassedBy()
+  {
+    if (result_.asked.meanEdge <= SpacingsOfFineEdge * double(usualSpacing_))
+    {
+      std::vector<std::size_t> off;
+      std::vector<Vector4> places;
+      for (std::size_t i = 0; i < result_.reasons.size(); ++i)
+      {
+        if (isExplainedBeyond(i, SpacingsPassedBy))
+        {
+          off.push_back(i);
+          places.push_back(placeOf(i));
+        }
+      }
+      DisjointSets sets(off.size());
+      joinNeighbors(sets, off, places, float(std::sqrt(pointsPerAsked())));
+      std::map<std::size_t, std::vector<std::size_t>> groups;
+      for (std::size_t m = 0; m < off.size(); ++m)
+      {
+        groups[sets.root(m)].push_back(off[m]);
+      }
+      for (const auto& [root, group] : groups)
+      {
+        addPassedBy(group);
+      }
+    }
+    std::map<std::uint32_t, std::vector<std::size_t>> pieces;
+    for (std::size_t i = 0; i < result_.asked.pieces.size(); ++i)
+    {
+      pieces[result_.asked.pieces[i]].push_back(i);
+    }
+    for (auto& [number, piece] : pieces)
+    {
+      const std::size_t all = piece.size();
+      std::erase_if(
+        piece, [this](std::size_t i) { return !isExplainedBeyond(i, SpacingsPassedByPiece); });
+      if (2 * piece.size() > all)
+      {
+        addPassedBy(piece);
+      }
+    }
+  }
+
+  void addPassedBy(const std::vector<std::size_t>& group)
+  {
+    if (group.size() >= FewestPassedBy)
+    {
+      result_.passedBy.push_back(described(group));
     }
   }
 

@@ -67,6 +67,9 @@ struct Explanation
   /// form a surface. The largest first.
   std::vector<MissedPiece> smallParts;
   TornParts torn; ///< of what is explained
+  /// Points that belong together and are explained, though the mesh passes them by: where it has nearly as many vertices
+  /// as the cloud has points, or as most points of a piece of the mesh. The largest first.
+  std::vector<MissedPiece> passedBy;
   /// As rims are that are narrower than edges are long: farther from the mesh than from each other, and than any noise,
   /// and not beyond a boundary.
   CutOffPoints atRims;

@@ -126,13 +126,21 @@ void warnOfCutOff(const Explanation& explanation, const PointCloud& cloud, Warni
       [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == fate; });
   };
   const std::size_t atRims = explanation.atRims.count;
-  if (atRims >= FewestAtRims && double(atRims) > MostAtRims * double(explanation.reasons.size()) &&
-    !names(Fate::Coarse))
+  const bool isCutOff =
+    atRims >= FewestAtRims && double(atRims) > MostAtRims * double(explanation.reasons.size());
+  if (isCutOff && !names(Fate::Coarse))
   {
     warnings.add(WarningTopic::MeshIsCoarse,
       "The mesh is coarser than its cloud: it cuts off " +
         cutOffText(explanation.atRims, explanation, cloud) +
         "The surface is narrower there than edges are long. Use more vertices.");
+  }
+  if (!explanation.passedBy.empty() && !isCutOff && !names(Fate::Coarse))
+  {
+    warnings.add(WarningTopic::MeshIsCoarse,
+      "The mesh passes by points that belong together: " + piecesText(explanation.passedBy, cloud) +
+        "A narrow hole may be closed there, or a narrow part cut off. Use more vertices, or scan "
+        "more points.");
   }
   if (explanation.beyondEnds.count >= FewestBeyondEnds && !names(Fate::BeyondBoundary))
   {

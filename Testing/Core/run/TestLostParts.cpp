@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace neuralmesh::testing
@@ -119,6 +120,56 @@ TEST(TornParts, WhatTouchesIsNotTorn)
   {
     EXPECT_FALSE(explainedBy(shape, PointCloud(pointsOn(shape, 20000))).torn.any());
   }
+}
+
+// A bore that the mesh closes is told though its points lie no farther from the mesh than from each other; without it
+// nothing is.
+TEST(PassedBy, AClosedBore)
+{
+  constexpr double Radius = 0.04, Depth = 0.016;
+  constexpr std::size_t Count = 12000, OfBore = 60;
+  Random random(7);
+  Points points;
+  const TriangleMesh cube = makeCube(40);
+  for (const Eigen::Vector3d& point : pointsOn(cube, Count))
+  {
+    if (point.head<2>().norm() > Radius)
+    {
+      points.push_back(point);
+    }
+  }
+  const PointCloud without(points);
+  for (std::size_t i = 0; i < OfBore; ++i)
+  {
+    const double angle = 2. * 3.14159265358979 * random.uniform();
+    const double depth = Depth * random.uniform();
+    points.emplace_back(
+      Radius * std::cos(angle), Radius * std::sin(angle), i % 2 == 0 ? 0.5 - depth : depth - 0.5);
+  }
+  const PointCloud cloud(points);
+  EXPECT_TRUE(explainedBy(cube, without).passedBy.empty());
+  const Explanation explanation = explainedBy(cube, cloud);
+  EXPECT_EQ(explanation.passedBy.size(), 2u);
+  EXPECT_TRUE(explanation.pieces.empty());
+  EXPECT_TRUE(hasTag(warningsBy(cube, cloud), "mesh-is-coarse"));
+}
+
+// A small ball of which the mesh has but one triangle.
+TEST(PassedBy, APieceOfOneTriangle)
+{
+  TriangleMesh mesh = makeSphere();
+  const auto first = std::uint32_t(mesh.points.size());
+  for (const Eigen::Vector3d& corner : { Eigen::Vector3d(0., 1.38, 0.),
+         Eigen::Vector3d(0., 1.41, 0.0173), Eigen::Vector3d(0., 1.41, -0.0173) })
+  {
+    mesh.points.push_back(corner);
+  }
+  mesh.triangles.push_back({ first, first + 1, first + 2 });
+  const PointCloud cloud(ballAndSmallBall(51));
+  const Explanation explanation = explainedBy(mesh, cloud);
+  EXPECT_TRUE(explanation.pieces.empty());
+  ASSERT_EQ(explanation.passedBy.size(), 1u);
+  EXPECT_LT((explanation.passedBy[0].center - Eigen::Vector3d(0., 1.4, 0.)).norm(), 0.02);
 }
 
 TEST(SmallParts, ADenseBallIsTold)
