@@ -56,8 +56,8 @@ constexpr double FewestInSmallPart = 24.;
 /// ... and those are not sparser than usual, but for chance. Strewn outliers are.
 constexpr float MostSpacingOfSmallPart = 1.5f;
 
-/// Of a fine mesh edges are not longer than so many distances between points. Where a few points that belong together
-/// are off it by such a part of their own distances, it lacks what they show.
+/// Of a fine mesh edges are not longer than so many distances between points. Without noise, it lacks what a few points
+/// show that belong together and are off it by such a part of their own distances.
 constexpr double SpacingsOfFineEdge = 3.;
 constexpr float SpacingsPassedBy = 0.25f;
 /// ... and of any mesh where more than half of those of a piece are.
@@ -446,7 +446,8 @@ private:
   /// A hole or a part as narrow as points are apart has no point that is far away.
   void findPassedBy()
   {
-    if (result_.asked.meanEdge <= SpacingsOfFineEdge * double(usualSpacing_))
+    if (result_.asked.meanEdge <= SpacingsOfFineEdge * double(usualSpacing_) &&
+      noise_ <= SpacingsPassedBy * usualSpacing_)
     {
       std::vector<std::size_t> off;
       std::vector<Vector4> places;
@@ -469,6 +470,7 @@ private:
       {
         addPassedBy(group);
       }
+      return;
     }
     std::map<std::uint32_t, std::vector<std::size_t>> pieces;
     for (std::size_t i = 0; i < result_.asked.pieces.size(); ++i)

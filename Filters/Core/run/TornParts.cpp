@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,11 +20,13 @@ namespace
 constexpr std::size_t NeighborsAtTear = 16;
 /// Of these, so many of another piece go on where the own end.
 constexpr std::size_t FewestBeyond = 3;
-/// The middle of the own neighbours is so far back from where the others are, against how far all are: of half a disc
-/// it is 0.6, all around it is 0.2 at most, by chance.
-constexpr double LeastBack = 0.35;
+/// Along the way to the middle of the others, the own neighbours lie as far back, and the others as far on, against how
+/// far all lie: 0.85 where a disc or a rod is halved, 0.3 by chance where both lie all around.
+constexpr double LeastApart = 0.5;
 /// On both sides of a tear together: fewer points are at an end by chance.
 constexpr std::size_t FewestAtTear = 8;
+/// ... and of all that have both near them, these are a third at a tear, but a tenth at most where bodies touch.
+constexpr double LeastPartAtTear = 0.15;
 /// A piece has so many points of its own: others are scraps that lie on something else.
 constexpr std::size_t FewestOfTornPiece = 8;
 
@@ -54,81 +58,102 @@ public:
 
   TornParts run(const Executor& executor) const
   {
-    std::vector<std::uint32_t> beyond(places_.size(), NoPiece);
+    std::vector<Look> looks(places_.size());
     executor.forEachRange(places_.size(), TornPerRange,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          beyond[i] = pieceBeyond(std::uint32_t(i));
+          looks[i] = lookAround(std::uint32_t(i));
         }
       });
-    return tearsOf(beyond);
+    return tearsOf(looks);
   }
 
 private:
-  /// That goes on where the piece of a point ends; NoPiece if it does not end there, or nothing goes on.
-  std::uint32_t pieceBeyond(std::uint32_t i) const
+  struct Look
   {
-    const std::uint32_t own = pieces_[i];
+    std::uint32_t other = NoPiece; ///< the piece that is near a point beside its own
+    bool isAtEnd = false;          ///< whether its own ends there, and the other one goes on
+  };
+
+  Look lookAround(std::uint32_t i) const
+  {
     std::array<NearPoint, NeighborsAtTear + 1> near;
     const std::size_t found = nearest_->find(places_[i], near);
-    Eigen::Vector3d sumOfOwn = Eigen::Vector3d::Zero(), sumOfOther = sumOfOwn;
-    std::size_t count = 0, ofOwn = 0;
-    std::uint32_t other = NoPiece;
-    double squares = 0.;
-    for (std::size_t k = 0; k < found; ++k)
+    const auto isOfOther = [&](const NearPoint& point)
+    { return pieces_[point.index] != pieces_[i] && isOfTornPiece(point.index); };
+    const std::span<const NearPoint> around = std::span(near).first(found);
+    const auto first = std::ranges::find_if(around, isOfOther);
+    if (first == around.end())
     {
-      const std::uint32_t piece = pieces_[near[k].index];
-      if (near[k].index == i || counts_[piece] < FewestOfTornPiece)
+      return {};
+    }
+    const std::uint32_t other = pieces_[first->index];
+    std::vector<Eigen::Vector3d> own, others;
+    for (const NearPoint& point : around)
+    {
+      const std::uint32_t piece = pieces_[point.index];
+      if (point.index != i && (piece == pieces_[i] || piece == other))
       {
-        continue;
-      }
-      const Eigen::Vector3d offset = (places_[near[k].index] - places_[i]).toDouble();
-      squares += offset.squaredNorm();
-      if (piece == own)
-      {
-        sumOfOwn += offset;
-        ++ofOwn;
-      }
-      else if (other == NoPiece || piece == other)
-      {
-        other = piece;
-        sumOfOther += offset;
-        ++count;
+        (piece == other ? others : own).push_back((places_[point.index] - places_[i]).toDouble());
       }
     }
-    if (count < FewestBeyond || ofOwn < FewestBeyond || !(sumOfOther.norm() > 0.))
-    {
-      return NoPiece;
-    }
-    const double radius = std::sqrt(squares / double(count + ofOwn));
-    const double back = -sumOfOwn.dot(sumOfOther.normalized()) / double(ofOwn);
-    return back > LeastBack * radius ? other : NoPiece;
+    return own.size() >= FewestBeyond && others.size() >= FewestBeyond
+      ? Look{ other, areApart(own, others) }
+      : Look{};
   }
 
-  TornParts tearsOf(const std::vector<std::uint32_t>& beyond) const
+  bool isOfTornPiece(std::size_t i) const { return counts_[pieces_[i]] >= FewestOfTornPiece; }
+
+  static bool areApart(
+    const std::vector<Eigen::Vector3d>& own, const std::vector<Eigen::Vector3d>& others)
+  {
+    const Eigen::Vector3d way =
+      std::accumulate(others.begin(), others.end(), Eigen::Vector3d(0., 0., 0.)).normalized();
+    double squares = 0.;
+    const auto meanAlong = [&](const std::vector<Eigen::Vector3d>& offsets)
+    {
+      double sum = 0.;
+      for (const Eigen::Vector3d& offset : offsets)
+      {
+        const double along = offset.dot(way);
+        sum += along;
+        squares += along * along;
+      }
+      return sum / double(offsets.size());
+    };
+    const double back = -meanAlong(own), on = meanAlong(others);
+    const double least = LeastApart * std::sqrt(squares / double(own.size() + others.size()));
+    return back > least && on > least;
+  }
+
+  TornParts tearsOf(const std::vector<Look>& looks) const
   {
     struct Tear
     {
-      std::size_t points = 0;
+      std::size_t near = 0, points = 0;
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     };
     std::map<std::pair<std::uint32_t, std::uint32_t>, Tear> tears;
-    for (std::size_t i = 0; i < beyond.size(); ++i)
+    for (std::size_t i = 0; i < looks.size(); ++i)
     {
-      if (beyond[i] != NoPiece && counts_[pieces_[i]] >= FewestOfTornPiece)
+      if (looks[i].other != NoPiece && isOfTornPiece(i))
       {
-        Tear& tear = tears[std::minmax(pieces_[i], beyond[i])];
-        ++tear.points;
-        tear.sum += places_[i].toDouble();
+        Tear& tear = tears[std::minmax(pieces_[i], looks[i].other)];
+        ++tear.near;
+        if (looks[i].isAtEnd)
+        {
+          ++tear.points;
+          tear.sum += places_[i].toDouble();
+        }
       }
     }
     TornParts result;
     std::size_t most = 0;
     for (const auto& [pieces, tear] : tears)
     {
-      if (tear.points < FewestAtTear)
+      if (tear.points < FewestAtTear || double(tear.points) < LeastPartAtTear * double(tear.near))
       {
         continue;
       }

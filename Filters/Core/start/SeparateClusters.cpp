@@ -33,6 +33,8 @@ constexpr std::size_t NeighborsAtFirst = 8;
 /// Of the variance of the nearest points, the part across the plane that fits them best, on average. In space it is 0.1
 /// or more for eight of them and grows with their number; on a surface it falls to 0.06 or less at some scale.
 constexpr double LeastVariation = 0.09;
+/// Of all points of a group: what was strewn around a place is nearly as thick as wide, a tree or a pile is not.
+constexpr double LeastVariationOfAll = 0.18;
 /// Standard deviation over mean of distances from the middle, in deviations of the points: 0.42 of a normal distribution,
 /// 0.26 of an even one in a ball, 0.14 on a cube, 0 on a ball.
 constexpr double LeastSpread = 0.23;
@@ -279,7 +281,7 @@ bool areScattered(std::span<const Vector4> points)
     return false;
   }
   const GroupMoments moments = momentsOf(points);
-  if (moments.variation() < LeastVariation || !fillTheMiddle(points, moments))
+  if (moments.variation() < LeastVariationOfAll || !fillTheMiddle(points, moments))
   {
     return false;
   }

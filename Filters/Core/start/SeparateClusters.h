@@ -12,9 +12,9 @@
 
 namespace neuralmesh
 {
-/// Whether points fill a part of space, instead of lying on a surface: around them the cloud is as thick as it is wide
-/// at every scale, from that of the nearest neighbours to that of all points; and as a whole they are no shell, with
-/// few points in the middle. Of few points this is not told: then they do not.
+/// Whether points fill a ball, instead of lying on a surface: around them the cloud is as thick as it is wide at every
+/// scale, from that of the nearest neighbours to that of all points; and as a whole they are no shell, with few points in
+/// the middle. Of few points this is not told: then they do not.
 bool areScattered(std::span<const Vector4> points);
 
 /// Small groups of points that are apart from all others and lie on no surface. A body under noise looks the same if it

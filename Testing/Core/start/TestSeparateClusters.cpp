@@ -66,7 +66,7 @@ void add(Points& points, const Points& more)
 
 TEST(SeparateClusters, NormalDistributionsAreScattered)
 {
-  for (const std::size_t count : { 64, 150, 600, 5000 })
+  for (const std::size_t count : { 100, 150, 600, 5000 })
   {
     for (std::uint64_t seed = 1; seed <= 10; ++seed)
     {
