@@ -113,9 +113,9 @@ TEST(TornParts, WhatTouchesIsNotTorn)
 {
   TriangleMesh balls = makeSphere();
   append(balls, makeSphere(), { 2., 0., 0. });
-  // Two plates, a face of one on that of the other.
+  // Two plates, nearer to each other than points are.
   TriangleMesh plates = scaled(makeCube(20), { 1., 1., 0.1 });
-  append(plates, scaled(makeCube(20), { 0.8, 0.8, 0.1 }), { 0., 0., 0.1 });
+  append(plates, scaled(makeCube(20), { 0.8, 0.8, 0.1 }), { 0., 0., 0.102 });
   for (const TriangleMesh& shape : { balls, plates })
   {
     EXPECT_FALSE(explainedBy(shape, PointCloud(pointsOn(shape, 20000))).torn.any());
