@@ -453,7 +453,8 @@ private:
       std::vector<Vector4> places;
       for (std::size_t i = 0; i < result_.reasons.size(); ++i)
       {
-        if (isExplainedBeyond(i, SpacingsPassedBy))
+        // What lies beyond an end of the surface is told by warnings of its own.
+        if (result_.asked.isBeyondBoundary[i] == 0 && isExplainedBeyond(i, SpacingsPassedBy))
         {
           off.push_back(i);
           places.push_back(placeOf(i));

@@ -201,7 +201,8 @@ private:
       }
     }
     const double most = MostPartOfGroup * double(cloud_.points().size());
-    for (const std::vector<std::size_t>& piece : connectedPieces(grid_, std::move(areTogether)))
+    const auto pieces = connectedPieces(grid_, std::move(areTogether));
+    for (const std::vector<std::size_t>& piece : pieces)
     {
       std::size_t count = 0;
       for (const std::size_t voxel : piece)

@@ -6,6 +6,7 @@
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
 #include "Clusters.h"
+#include "OpenShapes.h"
 #include "run/Explanation.h"
 #include "run/Reconstruction.h"
 #include "run/Warnings.h"
@@ -152,6 +153,15 @@ TEST(PassedBy, AClosedBore)
   EXPECT_EQ(explanation.passedBy.size(), 2u);
   EXPECT_TRUE(explanation.pieces.empty());
   EXPECT_TRUE(hasTag(warningsBy(cube, cloud), "mesh-is-coarse"));
+}
+
+// Where an open sheet ends a little before its points, it is not taken for one that passes by them.
+TEST(PassedBy, NotBeyondARim)
+{
+  CloudOptions options;
+  options.count = 5000;
+  const PointCloud cloud(generateCloud(scaled(makeGrid(20), { 1.02, 1.02, 1. }), options));
+  EXPECT_TRUE(explainedBy(makeGrid(20), cloud).passedBy.empty());
 }
 
 // A small ball of which the mesh has but one triangle.
