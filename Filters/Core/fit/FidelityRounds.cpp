@@ -116,6 +116,11 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
     return false;
   }
   fit_.relaxCreases(DeviationsOfCreaseIfClean);
+  if (!distributes)
+  {
+    // Before, creases are not sharp yet, and tips may come to have more vertices.
+    fit_.endWithSamples();
+  }
   const std::vector<Vector4> before(mesh_.positions().begin(), mesh_.positions().end());
   if (!move(lambda_, partOf(progress, 0.7, 1.)))
   {

@@ -4,6 +4,7 @@
 #include "base/Median.h"
 #include "cloud/OppositeLayer.h"
 #include "cloud/VertexGrid.h"
+#include "fit/EmptyCaps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -259,6 +260,10 @@ void SurfaceFit::fillSystem()
   {
     pullBoundariesIn();
   }
+  if (endsWithSamples_)
+  {
+    pullTipsIn();
+  }
 }
 
 /// Samples beyond a boundary are on average half as far from it as the data goes: a step to where these
@@ -348,6 +353,20 @@ void SurfaceFit::pullBoundariesIn()
       const Vector4 edge = pointAt(place, mesh.positions());
       system_->add(place, edge + float(retreat) * (mesh.position(ring[1]) - edge), Vector4(),
         float(std::max(1., samples)));
+    }
+  }
+}
+
+/// ... and from each vertex beyond the samples one is added, where they end.
+void SurfaceFit::pullTipsIn()
+{
+  const EmptyCaps caps(mesh_, placedSamples(), variance(), executor_);
+  for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
+  {
+    if (const std::optional<EmptyCaps::End> end = caps.endAt(v))
+    {
+      const PlaceOnMesh place{ { v, mesh_.ring(v)[0], mesh_.ring(v)[1] }, 0.f, 0.f, 0.f };
+      system_->add(place, end->position, mesh_.normal(v), end->weight);
     }
   }
 }

@@ -78,6 +78,9 @@ public:
   /// From now on the surface slides less below its samples, and vertices keep to where they are where nothing
   /// pulls them: for rounds that come after the places have settled.
   void settle() { isSettled_ = true; }
+  /// From now on vertices that lie beyond the samples, at tips and in pits, are pulled to where these end; see
+  /// EmptyCaps.h.
+  void endWithSamples() { endsWithSamples_ = true; }
   /// From now on places are looked for beyond the triangles of the closest vertex, too.
   void findExactly() { isExact_ = true; }
   /// The samples are those of a surface, in the coordinates of the cloud, which must outlive the fit: none is an outlier,
@@ -181,6 +184,7 @@ private:
   Vector4 beyondBoundary(
     const Vector4& sample, const PlaceOnMesh& place, const Vector4& normal) const;
   void pullBoundariesIn();
+  void pullTipsIn();
   // In SurfaceFitHold.cpp
   bool isLost(std::size_t sample, float squaredBefore) const;
   template <typename Distance>
@@ -222,6 +226,7 @@ private:
   bool hasDistances_ = false; ///< whether those of the places are still those to the mesh
   bool reachesTheEnd_ = false;
   bool isSettled_ = false;
+  bool endsWithSamples_ = false;
   bool isExact_ = false;
   const NearestTriangle* surface_ = nullptr; ///< of which the samples are; null: of none
   std::vector<std::uint8_t>

@@ -4,6 +4,7 @@
 #include "cloud/MeshBuilder.h"
 #include "fit/CreaseSnapping.h"
 #include "fit/DataFlips.h"
+#include "fit/EmptyCaps.h"
 #include "fit/HeldOutPoints.h"
 #include "fit/Redistribution.h"
 #include "fit/SmoothnessByRisk.h"
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace neuralmesh::testing
 {
@@ -214,6 +216,34 @@ TEST(CreaseSnapping, FindsTheEdgesOfACube)
   }
   mesh.dropErased();
   EXPECT_LT(squaresOf(cloud, mesh), 0.7 * before);
+}
+
+// A vertex that sticks out of a sphere, or is pushed in, is told where the points end; of the others, no more than chance
+// has it.
+TEST(EmptyCaps, TellWhereSamplesEnd)
+{
+  const std::vector<Eigen::Vector3d> points = pointsOf(trueSphere(), 20000);
+  const PointCloud cloud(points);
+  const Mesh fitted = made(points, 1000, Fidelity::Draft).surface;
+  const auto edge = float(fitted.meanEdge());
+  const VertexIndex moved = 10;
+  const Vector4 normal = fitted.normal(moved), origin = fitted.position(moved);
+  for (const float part : { 1.f, -1.f })
+  {
+    Mesh mesh = fitted;
+    mesh.setPosition(moved, origin + part * edge / std::sqrt(squaredNorm(normal)) * normal);
+    const PlacedCloud placed(cloud, mesh);
+    const EmptyCaps caps(mesh, placed.samples, 0., Executor::sequential());
+    const std::optional<EmptyCaps::End> end = caps.endAt(moved);
+    ASSERT_TRUE(end) << part;
+    EXPECT_LT(squaredNorm(end->position - origin), 0.5f * edge * edge) << part;
+    std::size_t others = 0;
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      others += v != moved && caps.endAt(v) ? 1 : 0;
+    }
+    EXPECT_LE(others, mesh.vertexCount() / 20) << part;
+  }
 }
 
 // Samples are taken from a triangle and put on another, and the loads tell.
