@@ -64,6 +64,7 @@ public:
     , samples_(samples, mesh.indexEnd(), executor)
     , scale_(std::max(variance, samples_.total().squares / std::max(samples_.total().count, 1.)))
     , isAsked_(mesh.indexEnd(), 1)
+    , wasNear_(mesh.indexEnd(), 1)
     , changed_(mesh.indexEnd())
   {
   }
@@ -73,17 +74,19 @@ public:
     for (int pass = 0; pass < MostFlipPasses; ++pass)
     {
       isFlipped_.assign(mesh_.indexEnd(), 0);
+      isNear_.assign(mesh_.indexEnd(), 0);
       lookAhead();
       bool any = false;
       for (VertexIndex a = 0; a < mesh_.indexEnd(); ++a)
       {
-        any = flipAt(a) || any;
+        any = (mayFlipAt(a) && flipAt(a)) || any;
       }
       if (!any)
       {
         break;
       }
       isAsked_.swap(isFlipped_);
+      wasNear_.swap(isNear_);
     }
     return std::move(changed_);
   }
@@ -105,7 +108,7 @@ private:
         for (auto a = VertexIndex(begin); a < end; ++a)
         {
           const Ring& ring = mesh_.ring(a);
-          for (unsigned slot = 0; slot < ring.size(); ++slot)
+          for (unsigned slot = 0; slot < ring.size() && wasNear_[a] != 0; ++slot)
           {
             if (isToBeAsked(a, ring[slot]) && isCloserFlipped(diamondAt(a, slot), scratch))
             {
@@ -132,6 +135,12 @@ private:
   {
     return !mayFlip_.empty() && edge.c != NoVertex && edge.d != NoVertex &&
       (isFlipped_[edge.a] | isFlipped_[edge.b] | isFlipped_[edge.c] | isFlipped_[edge.d]) == 0;
+  }
+
+  /// Whether any of its edges is to be asked, but for those that were asked ahead and refused.
+  bool mayFlipAt(VertexIndex a) const
+  {
+    return isNear_[a] != 0 || (wasNear_[a] != 0 && (mayFlip_.empty() || mayFlip_[a] != 0));
   }
 
   /// Its ring may begin elsewhere now.
@@ -164,6 +173,11 @@ private:
         {
           isFlipped_[v] = 1;
           changed_.touch(v);
+          isNear_[v] = 1;
+          for (const VertexIndex neighbor : mesh_.ring(v))
+          {
+            isNear_[neighbor] = 1;
+          }
         }
       }
     }
@@ -305,6 +319,8 @@ private:
   double scale_;
   std::vector<std::uint8_t> isAsked_;   ///< of each vertex, whether its edges are, in this pass
   std::vector<std::uint8_t> isFlipped_; ///< ... or one of them was flipped
+  std::vector<std::uint8_t> isNear_;    ///< whether it or a neighbour had a flip, in this pass
+  std::vector<std::uint8_t> wasNear_;   ///< ... in the one before
   std::vector<std::uint16_t> mayFlip_; ///< of each edge at a vertex, a bit; empty if none was asked
   ChangedVertices changed_;
   FlipScratch scratch_;

@@ -42,7 +42,7 @@ std::vector<Vector4> pickedFrom(const PointCloud& cloud, const Executor& executo
 
 PointSpacing::PointSpacing(const PointCloud& cloud, const Executor& executor)
   : points_(pickedFrom(cloud, executor))
-  , nearest_(points_)
+  , nearest_(points_, executor)
   // On a surface, the distance falls with the root of their number.
   , scale_(float(
       std::sqrt(double(points_.size()) / double(std::max<std::size_t>(1, cloud.points().size())))))

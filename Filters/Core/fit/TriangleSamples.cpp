@@ -11,6 +11,8 @@ namespace
 /// Of the sum of squares of so many Gaussian samples, which is their number but for the root of twice as
 /// many.
 constexpr double ExcessDeviations = 2.;
+/// A part for the executor.
+constexpr std::size_t LoadsPerRange = 16384;
 
 /// Corners in rising order.
 Triangle inOrder(VertexIndex a, VertexIndex b, VertexIndex c)
@@ -50,14 +52,10 @@ TriangleSamples::TriangleSamples(
         put(std::uint32_t(i), corners, place.squaredDistance);
       }
     });
-  for (std::size_t i = 0; i < samples.points.size(); ++i)
-  {
-    if (isUsed(i))
-    {
-      const double weight = double(samples.weight(i));
-      total_ += { weight, weight * double(squaredDistances_[i]) };
-    }
-  }
+  const auto weightOf = [&](std::size_t i) { return isUsed(i) ? double(samples.weight(i)) : 0.; };
+  total_ = { executor.sum(samples.points.size(), LoadsPerRange, weightOf),
+    executor.sum(samples.points.size(), LoadsPerRange,
+      [&](std::size_t i) { return isUsed(i) ? weightOf(i) * double(squaredDistances_[i]) : 0.; }) };
 }
 
 const TriangleSamples::Entry* TriangleSamples::find(const Triangle& corners) const

@@ -339,7 +339,8 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
     return false;
   }
   result.support = *std::move(support);
-  result.gaps = spannedGaps(result.surface, result.support, cloud, result.explanation->asked);
+  result.gaps =
+    spannedGaps(result.surface, result.support, cloud, result.explanation->asked, executor);
   return true;
 }
 }

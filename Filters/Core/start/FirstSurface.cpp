@@ -261,6 +261,7 @@ public:
   FirstFit(const PointCloud& cloud, Mesh& mesh, const Executor& executor)
     : cloud_(cloud)
     , mesh_(mesh)
+    , executor_(executor)
     , fit_(cloud, mesh, FitSamples * mesh.vertexCount(), executor)
   {
   }
@@ -269,7 +270,7 @@ public:
   {
     for (int round = 0; round < FitRounds; ++round)
     {
-      flipEdges(mesh_);
+      flipEdges(mesh_, EdgesToFlip::All, executor_);
       const Progress ofRound =
         partOf(progress, double(round) / FitRounds, double(round + 1) / FitRounds);
       if (!fit_.findPlaces(partOf(ofRound, 0., 0.5)) ||
@@ -277,7 +278,7 @@ public:
       {
         return false;
       }
-      flipEdges(mesh_);
+      flipEdges(mesh_, EdgesToFlip::All, executor_);
     }
     return fit_.findPlaces(partOf(progress, 1., 1.));
   }
@@ -287,14 +288,15 @@ public:
 
   void openGaps(double bridgeWidth, double leastPiece)
   {
-    openDataGaps(
-      cloud_, mesh_, fit_.places(), fit_.medianDistance(), { bridgeWidth, true, leastPiece });
-    mesh_.dropErased();
+    openDataGaps(cloud_, mesh_, fit_.places(), fit_.medianDistance(),
+      { bridgeWidth, true, leastPiece }, executor_);
+    mesh_.dropErased(executor_);
   }
 
 private:
   const PointCloud& cloud_;
   Mesh& mesh_;
+  const Executor& executor_;
   SurfaceFit fit_;
 };
 
@@ -511,7 +513,7 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
   const auto skin = solid ? std::nullopt : finestSkin(cloud, skins);
   const Progress ofGrid = partOf(progress, PartOfGrids, 0.5 * (1. + PartOfGrids));
   const Progress ofFront = partOf(progress, 0.5 * (1. + PartOfGrids), 1.);
-  const NearestPoints nearest(cloud.points());
+  const NearestPoints nearest(cloud.points(), executor);
   std::optional<Candidate> grid;
   if (solid)
   {
