@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace neuralmesh
@@ -16,8 +16,6 @@ namespace neuralmesh
 namespace
 {
 constexpr int MostFlipPasses = 3;
-/// A part for the executor.
-constexpr std::size_t FlipVerticesPerRange = 1024;
 /// What a flip must gain, in mean squared distances of a sample: so much, and so much more or less for each
 /// squared excess of valence more or less.
 constexpr double LeastFlipGain = 0.5;
@@ -61,6 +59,7 @@ public:
   SampleFlips(Mesh& mesh, const PlacedSamples& samples, double variance, const Executor& executor)
     : mesh_(mesh)
     , executor_(executor)
+    , parts_(RowParts::byWork(mesh.indexEnd()))
     , samples_(samples, mesh.indexEnd(), executor)
     , scale_(std::max(variance, samples_.total().squares / std::max(samples_.total().count, 1.)))
     , isAsked_(mesh.indexEnd(), 1)
@@ -75,16 +74,11 @@ public:
     {
       isFlipped_.assign(mesh_.indexEnd(), 0);
       isNear_.assign(mesh_.indexEnd(), 0);
-      lookAhead();
-      bool any = false;
-      for (VertexIndex a = 0; a < mesh_.indexEnd(); ++a)
-      {
-        any = (mayFlipAt(a) && flipAt(a)) || any;
-      }
-      if (!any)
+      if (!flipOnce())
       {
         break;
       }
+      changed_.any = true;
       isAsked_.swap(isFlipped_);
       wasNear_.swap(isNear_);
     }
@@ -92,31 +86,47 @@ public:
   }
 
 private:
-  /// Asks of all edges, on all threads, which may be flipped as the mesh is at the beginning of the pass.
-  void lookAhead()
+  /// Asks of all edges, in turn, but in parts of the mesh at the same time: first of the edges at vertices within a part,
+  /// and then of the rest. Returns whether any was flipped.
+  bool flipOnce()
   {
-    if (executor_.threadCount() == 1)
-    {
-      // All are asked when their turn comes.
-      return;
-    }
-    mayFlip_.assign(mesh_.indexEnd(), 0);
-    executor_.forEachRange(mesh_.indexEnd(), FlipVerticesPerRange,
-      [&](std::size_t begin, std::size_t end)
+    std::vector<std::uint8_t> anyOf(parts_.count(), 0);
+    std::vector<std::vector<VertexIndex>> atRims(parts_.count());
+    executor_.forEachPart(parts_.count(),
+      [&](std::size_t part)
       {
+        const VertexRows rows = parts_.rows(part);
         FlipScratch scratch;
-        for (auto a = VertexIndex(begin); a < end; ++a)
+        for (VertexIndex a = rows.begin; a < rows.end; ++a)
         {
-          const Ring& ring = mesh_.ring(a);
-          for (unsigned slot = 0; slot < ring.size() && wasNear_[a] != 0; ++slot)
+          if (!isWithin(a, rows))
           {
-            if (isToBeAsked(a, ring[slot]) && isCloserFlipped(diamondAt(a, slot), scratch))
-            {
-              mayFlip_[a] = std::uint16_t(mayFlip_[a] | 1u << slot);
-            }
+            atRims[part].push_back(a);
+          }
+          else if (mayFlipAt(a) && flipAt(a, scratch))
+          {
+            anyOf[part] = 1;
           }
         }
       });
+    bool any = std::find(anyOf.begin(), anyOf.end(), 1) != anyOf.end();
+    FlipScratch scratch;
+    for (const std::vector<VertexIndex>& atRim : atRims)
+    {
+      for (const VertexIndex a : atRim)
+      {
+        any = (mayFlipAt(a) && flipAt(a, scratch)) || any;
+      }
+    }
+    return any;
+  }
+
+  /// Whether the vertex and all of its neighbours are in some rows: so are all whose rings a flip of an edge of it asks
+  /// for or changes.
+  bool isWithin(VertexIndex a, const VertexRows& rows) const
+  {
+    const Ring& ring = mesh_.ring(a);
+    return std::all_of(ring.begin(), ring.end(), [&](VertexIndex v) { return rows.has(v); });
   }
 
   bool isToBeAsked(VertexIndex a, VertexIndex b) const
@@ -124,64 +134,52 @@ private:
     return a < b && (isAsked_[a] != 0 || isAsked_[b] != 0);
   }
 
+  /// Whether any edge at the vertex is.
+  bool mayFlipAt(VertexIndex a) const { return wasNear_[a] != 0 || isNear_[a] != 0; }
+
   Diamond diamondAt(VertexIndex a, unsigned slot) const
   {
     const Ring& ring = mesh_.ring(a);
     return { a, ring[slot], ring.next(slot), ring.previous(slot) };
   }
 
-  /// What was asked ahead holds as long as none of the four vertices has had a flip since.
-  bool hasAnswer(const Diamond& edge) const
-  {
-    return !mayFlip_.empty() && edge.c != NoVertex && edge.d != NoVertex &&
-      (isFlipped_[edge.a] | isFlipped_[edge.b] | isFlipped_[edge.c] | isFlipped_[edge.d]) == 0;
-  }
-
-  /// Whether any of its edges is to be asked, but for those that were asked ahead and refused.
-  bool mayFlipAt(VertexIndex a) const
-  {
-    return isNear_[a] != 0 || (wasNear_[a] != 0 && (mayFlip_.empty() || mayFlip_[a] != 0));
-  }
-
-  /// Its ring may begin elsewhere now.
-  void forgetAnswers(VertexIndex v)
-  {
-    if (!mayFlip_.empty())
-    {
-      mayFlip_[v] = std::numeric_limits<std::uint16_t>::max();
-    }
-  }
-
   /// Whether any edge to a vertex of a higher index was flipped.
-  bool flipAt(VertexIndex a)
+  bool flipAt(VertexIndex a, FlipScratch& scratch)
   {
     bool any = false;
     const Ring before = mesh_.ring(a);
-    for (unsigned i = 0; i < before.size(); ++i)
+    for (const VertexIndex b : before)
     {
-      const unsigned slot = mesh_.ring(a).find(before[i]);
-      if (!isToBeAsked(a, before[i]) || slot == mesh_.ring(a).size())
+      const unsigned slot = mesh_.ring(a).find(b);
+      if (!isToBeAsked(a, b) || slot == mesh_.ring(a).size())
       {
         continue;
       }
       const Diamond edge = diamondAt(a, slot);
-      const bool isRefused = hasAnswer(edge) && (mayFlip_[a] >> i & 1u) == 0;
-      if (!isRefused && isCloserFlipped(edge, scratch_) && flip(edge))
+      if (isCloserFlipped(edge, scratch) && flip(edge, scratch))
       {
         any = true;
         for (const VertexIndex v : { edge.a, edge.b, edge.c, edge.d })
         {
           isFlipped_[v] = 1;
-          changed_.touch(v);
-          isNear_[v] = 1;
-          for (const VertexIndex neighbor : mesh_.ring(v))
-          {
-            isNear_[neighbor] = 1;
-          }
+          changed_.isTouched[v] = 1;
+          markNear(v);
         }
       }
     }
     return any;
+  }
+
+  /// Neighbours may be in other parts, whose threads do not look at those of them.
+  void markNear(VertexIndex v)
+  {
+    const auto mark = [this](VertexIndex u)
+    { std::atomic_ref(isNear_[u]).store(1, std::memory_order_relaxed); };
+    mark(v);
+    for (const VertexIndex neighbor : mesh_.ring(v))
+    {
+      mark(neighbor);
+    }
   }
 
   /// Whether samples come closer by enough, but for folds; where each goes is in `scratch` then.
@@ -276,19 +274,17 @@ private:
     return sum;
   }
 
-  /// As `scratch_` has it, unless a fold comes out.
-  bool flip(const Diamond& edge)
+  /// As `scratch` has it, unless a fold comes out.
+  bool flip(const Diamond& edge, FlipScratch& scratch)
   {
     const auto& [a, b, c, d] = edge;
     mesh_.flip(a, b);
     if (foldsAt(a, c) || foldsAt(a, d) || foldsAt(b, c) || foldsAt(b, d))
     {
       mesh_.flip(c, d);
-      forgetAnswers(a);
-      forgetAnswers(b);
       return false;
     }
-    auto& [found, bundle, moves] = scratch_;
+    auto& [found, bundle, moves] = scratch;
     found.clear();
     samples_.take(a, b, c, found);
     samples_.take(a, b, d, found);
@@ -315,15 +311,14 @@ private:
 
   Mesh& mesh_;
   const Executor& executor_;
+  RowParts parts_;
   TriangleSamples samples_;
   double scale_;
   std::vector<std::uint8_t> isAsked_;   ///< of each vertex, whether its edges are, in this pass
   std::vector<std::uint8_t> isFlipped_; ///< ... or one of them was flipped
   std::vector<std::uint8_t> isNear_;    ///< whether it or a neighbour had a flip, in this pass
   std::vector<std::uint8_t> wasNear_;   ///< ... in the one before
-  std::vector<std::uint16_t> mayFlip_; ///< of each edge at a vertex, a bit; empty if none was asked
   ChangedVertices changed_;
-  FlipScratch scratch_;
 };
 }
 

@@ -241,7 +241,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
 void Finish::dropShrunkPieces()
 {
   const StoredMesh before(mesh_, executor_);
-  if (dropPieces(mesh_, ShrunkPart, AnyVertices) > 0)
+  if (dropPieces(mesh_, ShrunkPart, AnyVertices, executor_) > 0)
   {
     refine(
       mesh_, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);

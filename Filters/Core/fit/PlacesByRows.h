@@ -38,6 +38,15 @@ public:
     }
   }
 
+  /// Parts that depend on the number of vertices alone.
+  static RowParts byWork(std::size_t indexEnd)
+  {
+    constexpr std::size_t FewestRows = 4096, MostParts = 64;
+    RowParts parts(indexEnd, Executor::sequential());
+    parts.shift_ = std::countr_zero(std::bit_ceil(std::max(FewestRows, indexEnd / MostParts)));
+    return parts;
+  }
+
   std::size_t count() const
   {
     return std::max<std::size_t>(1, (indexEnd_ + (std::uint64_t(1) << shift_) - 1) >> shift_);

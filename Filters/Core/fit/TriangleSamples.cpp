@@ -31,7 +31,7 @@ double SampleLoad::excess(double variance) const
 TriangleSamples::TriangleSamples(
   const PlacedSamples& samples, std::size_t indexEnd, const Executor& executor)
   : samples_(samples)
-  , parts_(indexEnd, executor)
+  , parts_(executor.threadCount() > 1 ? RowParts::byWork(indexEnd) : RowParts(indexEnd, executor))
   , entries_(indexEnd, None)
   , triangles_(parts_.count())
   , next_(std::make_unique_for_overwrite<std::uint32_t[]>(samples.points.size()))

@@ -48,7 +48,8 @@ struct SampleLoad
 
 /// Which samples lie on which triangle of a mesh: a triangle is named by its corners, in any order. Each
 /// triangle with samples is in a list of its least corner, so that edges can be flipped. Who only asks may do so
-/// on several threads.
+/// on several threads; and where an executor has some, they may change triangles at the same time whose least corners
+/// are in different parts of RowParts::byWork().
 class TriangleSamples
 {
 public:

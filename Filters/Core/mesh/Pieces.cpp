@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/Pieces.h"
 
-#include "base/DisjointSets.h"
+#include "base/ConcurrentSets.h"
 #include "mesh/BoundaryManager.h"
 
 #include <Eigen/Geometry>
@@ -12,6 +12,9 @@ namespace neuralmesh
 {
 namespace
 {
+/// A part for the executor.
+constexpr std::size_t VerticesOfPiecesPart = 4096;
+
 /// Adds up area and volume, with a vertex of the piece as the origin, for precision.
 class PieceMeasure
 {
@@ -128,27 +131,36 @@ double areaOf(const Mesh& mesh)
   return area;
 }
 
-std::size_t pieceCount(const Mesh& mesh)
+std::size_t pieceCount(const Mesh& mesh, const Executor& executor)
 {
-  DisjointSets sets(mesh.indexEnd());
-  std::size_t count = mesh.vertexCount();
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  ConcurrentSets sets(mesh.indexEnd());
+  const auto countWhere = [&](const auto& isCounted)
   {
-    for (const VertexIndex neighbor : mesh.ring(v))
+    return executor.sum(mesh.indexEnd(), VerticesOfPiecesPart,
+      [&](std::size_t v) { return isCounted(VertexIndex(v)) ? 1. : 0.; });
+  };
+  executor.forEachRange(mesh.indexEnd(), VerticesOfPiecesPart,
+    [&](std::size_t begin, std::size_t end)
     {
-      if (v < neighbor && !sets.areJoined(v, neighbor))
+      for (auto v = VertexIndex(begin); v < end; ++v)
       {
-        sets.join(v, neighbor);
-        --count;
+        for (const VertexIndex neighbor : mesh.ring(v))
+        {
+          if (neighbor < v)
+          {
+            sets.join(v, neighbor);
+          }
+        }
       }
-    }
-  }
-  return count;
+    });
+  return std::size_t(
+    countWhere([&](VertexIndex v) { return mesh.isAlive(v) && sets.root(v) == v; }));
 }
 
-long genusOf(const Mesh& mesh)
+long genusOf(const Mesh& mesh, const Executor& executor)
 {
-  const auto pieces = long(pieceCount(mesh)), loops = long(BoundaryManager(mesh).loopCount());
+  const auto pieces = long(pieceCount(mesh, executor)),
+             loops = long(BoundaryManager(mesh).loopCount());
   long sides = 0; // of the edges
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/Mesh.h"
 
 #include <vector>
@@ -25,7 +26,7 @@ std::vector<Piece> findPieces(const Mesh& mesh);
 /// Of all triangles.
 double areaOf(const Mesh& mesh);
 
-std::size_t pieceCount(const Mesh& mesh);
+std::size_t pieceCount(const Mesh& mesh, const Executor& executor = Executor::sequential());
 /// Handles of all pieces together.
-long genusOf(const Mesh& mesh);
+long genusOf(const Mesh& mesh, const Executor& executor = Executor::sequential());
 }

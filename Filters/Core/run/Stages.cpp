@@ -173,7 +173,8 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   plan.gaps = gaps;
   plan.closedOutline = parameters.closeHolesBelow / cloud.unit();
   plan.vertexCount = std::max(vertexCount, learnt.mesh.vertexCount());
-  dropPieces(learnt.mesh, parameters.keepPieces, VerticesOfDensePiece * parameters.keepPieces);
+  dropPieces(
+    learnt.mesh, parameters.keepPieces, VerticesOfDensePiece * parameters.keepPieces, executor);
   const bool isSimplified = plan.vertexCount > vertexCount;
   if (isSimplified)
   {
