@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/DataFlips.h"
 
+#include "base/BucketOrder.h"
 #include "fit/SampleBundle.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/TriangleShape.h"
@@ -16,6 +17,8 @@ namespace neuralmesh
 namespace
 {
 constexpr int MostFlipPasses = 3;
+/// A part for the executor.
+constexpr std::size_t FlipVerticesPerRange = 4096;
 /// What a flip must gain, in mean squared distances of a sample: so much, and so much more or less for each
 /// squared excess of valence more or less.
 constexpr double LeastFlipGain = 0.5;
@@ -48,9 +51,10 @@ struct FlipScratch
     bool isAtA;
   };
 
-  std::vector<std::uint32_t> found; ///< samples
-  SampleBundle bundle;              ///< of these
-  std::vector<Move> moves;
+  std::size_t writer = 0;
+  std::vector<std::uint32_t> found = {}; ///< samples
+  SampleBundle bundle = {};              ///< of these
+  std::vector<Move> moves = {};
 };
 
 class SampleFlips
@@ -59,13 +63,24 @@ public:
   SampleFlips(Mesh& mesh, const PlacedSamples& samples, double variance, const Executor& executor)
     : mesh_(mesh)
     , executor_(executor)
-    , parts_(RowParts::byWork(mesh.indexEnd()))
+    , partOf_(partsAround(mesh, executor))
+    , vertices_(
+        mesh.indexEnd(), FlipVerticesPerRange, RowParts::byWork(mesh.indexEnd()).count(),
+        [this](std::size_t begin, std::size_t end, const auto& use)
+        {
+          for (std::size_t v = begin; v < end; ++v)
+          {
+            use(v, partOf_[v]);
+          }
+        },
+        executor)
     , samples_(samples, mesh.indexEnd(), executor)
     , scale_(std::max(variance, samples_.total().squares / std::max(samples_.total().count, 1.)))
     , isAsked_(mesh.indexEnd(), 1)
     , wasNear_(mesh.indexEnd(), 1)
     , changed_(mesh.indexEnd())
   {
+    samples_.setWriters(vertices_.bucketCount() + 1);
   }
 
   ChangedVertices run()
@@ -90,16 +105,16 @@ private:
   /// and then of the rest. Returns whether any was flipped.
   bool flipOnce()
   {
-    std::vector<std::uint8_t> anyOf(parts_.count(), 0);
-    std::vector<std::vector<VertexIndex>> atRims(parts_.count());
-    executor_.forEachPart(parts_.count(),
+    const std::size_t parts = vertices_.bucketCount();
+    std::vector<std::uint8_t> anyOf(parts, 0);
+    std::vector<std::vector<VertexIndex>> atRims(parts);
+    executor_.forEachPart(parts,
       [&](std::size_t part)
       {
-        const VertexRows rows = parts_.rows(part);
-        FlipScratch scratch;
-        for (VertexIndex a = rows.begin; a < rows.end; ++a)
+        FlipScratch scratch{ part };
+        for (const VertexIndex a : vertices_.items(part))
         {
-          if (!isWithin(a, rows))
+          if (!isWithin(a, part))
           {
             atRims[part].push_back(a);
           }
@@ -110,7 +125,7 @@ private:
         }
       });
     bool any = std::find(anyOf.begin(), anyOf.end(), 1) != anyOf.end();
-    FlipScratch scratch;
+    FlipScratch scratch{ parts };
     for (const std::vector<VertexIndex>& atRim : atRims)
     {
       for (const VertexIndex a : atRim)
@@ -121,12 +136,32 @@ private:
     return any;
   }
 
-  /// Whether the vertex and all of its neighbours are in some rows: so are all whose rings a flip of an edge of it asks
-  /// for or changes.
-  bool isWithin(VertexIndex a, const VertexRows& rows) const
+  /// Of the index, but of the lowest one around a vertex: those that have come later, and have the last indices, are in
+  /// the parts in which they lie.
+  static std::vector<std::uint8_t> partsAround(const Mesh& mesh, const Executor& executor)
+  {
+    const RowParts parts = RowParts::byWork(mesh.indexEnd());
+    std::vector<std::uint8_t> result(mesh.indexEnd());
+    executor.forEachRange(result.size(), FlipVerticesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (auto v = VertexIndex(begin); v < end; ++v)
+        {
+          const Ring& ring = mesh.ring(v);
+          const VertexIndex lowest =
+            ring.isEmpty() ? v : *std::min_element(ring.begin(), ring.end());
+          result[v] = std::uint8_t(parts.of(std::min(v, lowest)));
+        }
+      });
+    return result;
+  }
+
+  /// Whether the vertex and all of its neighbours are in a part: so are all whose rings a flip of an edge of it asks for
+  /// or changes.
+  bool isWithin(VertexIndex a, std::size_t part) const
   {
     const Ring& ring = mesh_.ring(a);
-    return std::all_of(ring.begin(), ring.end(), [&](VertexIndex v) { return rows.has(v); });
+    return std::all_of(ring.begin(), ring.end(), [&](VertexIndex v) { return partOf_[v] == part; });
   }
 
   bool isToBeAsked(VertexIndex a, VertexIndex b) const
@@ -258,7 +293,7 @@ private:
     const Vector4 c = mesh_.position(edge.c), d = mesh_.position(edge.d);
     const TriangleDistances atA(a, d, c), atB(b, c, d);
     double sum = 0.;
-    auto& [found, bundle, moves] = scratch;
+    auto& [writer, found, bundle, moves] = scratch;
     moves.clear();
     bundle.assign(samples_, found);
     for (const FourVectors& points : bundle.points())
@@ -284,13 +319,13 @@ private:
       mesh_.flip(c, d);
       return false;
     }
-    auto& [found, bundle, moves] = scratch;
+    auto& [writer, found, bundle, moves] = scratch;
     found.clear();
     samples_.take(a, b, c, found);
     samples_.take(a, b, d, found);
     for (std::size_t i = 0; i < found.size(); ++i)
     {
-      samples_.put(found[i], moves[i].isAtA ? a : b, c, d, moves[i].squaredDistance);
+      samples_.put(found[i], moves[i].isAtA ? a : b, c, d, moves[i].squaredDistance, writer);
     }
     return true;
   }
@@ -311,7 +346,8 @@ private:
 
   Mesh& mesh_;
   const Executor& executor_;
-  RowParts parts_;
+  std::vector<std::uint8_t> partOf_; ///< of each vertex
+  BucketOrder vertices_;             ///< by their parts
   TriangleSamples samples_;
   double scale_;
   std::vector<std::uint8_t> isAsked_;   ///< of each vertex, whether its edges are, in this pass

@@ -89,7 +89,7 @@ std::vector<EmptyPiece> findEmptyPieces(const Mesh& mesh, const NumberedTriangle
   {
     return {};
   }
-  ConcurrentSets sets(samples.size());
+  ConcurrentSets sets(samples.size(), executor);
   joinEmpty(triangles, mesh.indexEnd(), isEmpty, executor, sets);
   // A set is known by its first triangle: so pieces are in the order of these.
   std::vector<EmptyPiece> pieces;

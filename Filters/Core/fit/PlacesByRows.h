@@ -70,9 +70,9 @@ template <typename IsUsed, typename Body>
 void forEachPlaceByRows(std::span<const PlaceOnMesh> places, const RowParts& parts,
   const Executor& executor, const IsUsed& isUsed, const Body& body)
 {
-  if (parts.count() == 1)
+  if (parts.count() == 1 || executor.threadCount() == 1)
   {
-    const VertexRows all = parts.rows(0);
+    const VertexRows all;
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       if (isUsed(i))

@@ -133,7 +133,7 @@ double areaOf(const Mesh& mesh)
 
 std::size_t pieceCount(const Mesh& mesh, const Executor& executor)
 {
-  ConcurrentSets sets(mesh.indexEnd());
+  ConcurrentSets sets(mesh.indexEnd(), executor);
   const auto countWhere = [&](const auto& isCounted)
   {
     return executor.sum(mesh.indexEnd(), VerticesOfPiecesPart,

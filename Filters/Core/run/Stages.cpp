@@ -289,6 +289,7 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
   const Executor& executor)
 {
   result.orientation = orientMesh(learnt.mesh, cloud, hints, executor);
+  const bool goesOn = progress(0.);
   result.mesh = trianglesOf(learnt.mesh, cloud);
   result.normals = pointNormals(result.mesh);
   const auto activities = learnt.mesh.values(learnt.activity);
@@ -305,9 +306,10 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
     std::transform(deviations.begin(), deviations.end(), result.uncertainties.begin(),
       [&](float deviation) { return float(double(deviation) * cloud.unit()); });
   }
-  if (all && progress(0.))
+  if (all && goesOn && progress(0.))
   {
-    result.quality = measureQuality(*all, learnt.mesh, result.mesh, executor);
+    result.quality =
+      measureQuality(*all, learnt.mesh, result.mesh, executor, DistanceTo::SurfaceAgain, progress);
   }
   result.surface = std::move(learnt.mesh);
 }
