@@ -20,14 +20,19 @@ void runHere(std::size_t count, void (*part)(const void*, std::size_t), const vo
 }
 
 /// Threads look out for what they wait for so long before they sleep: to be woken takes longer than most of what one
-/// thread does by itself in between.
-constexpr std::chrono::microseconds LookOut(30);
+/// thread does by itself in between. Not where there are more of them than the machine runs at the same time.
+constexpr std::chrono::microseconds LookOut(20);
 constexpr int LooksAtOnce = 64;
 
 /// Until `isThere()`, or for some time.
 template <typename IsThere>
-void lookFor(const IsThere& isThere)
+void lookFor(unsigned threads, const IsThere& isThere)
 {
+  static const unsigned AtOnce = std::thread::hardware_concurrency();
+  if (threads > AtOnce)
+  {
+    return;
+  }
   const auto end = std::chrono::steady_clock::now() + LookOut;
   do
   {
@@ -96,7 +101,7 @@ ThreadPool::ThreadPool(unsigned threadCount)
     workers_.reserve(wanted);
     for (unsigned i = 1; i < wanted; ++i)
     {
-      workers_.emplace_back([this] { work(); });
+      workers_.emplace_back([this, wanted] { work(wanted); });
     }
   }
   catch (const std::system_error&)
@@ -144,7 +149,7 @@ void ThreadPool::run(std::size_t count, Part part, const void* context) const
   }
   takeParts(job_);
   --running_;
-  lookFor([this] { return running_ == 0; });
+  lookFor(threadCount(), [this] { return running_ == 0; });
   std::unique_lock lock(mutex_);
   ended_.wait(lock, [this] { return running_ == 0; });
   const std::exception_ptr error = std::exchange(job_, {}).error;
@@ -156,12 +161,13 @@ void ThreadPool::run(std::size_t count, Part part, const void* context) const
   }
 }
 
-void ThreadPool::work()
+/// On one of so many threads.
+void ThreadPool::work(unsigned threads)
 {
   std::size_t seenJobs = 0;
   for (;;)
   {
-    lookFor([&] { return begunJobs_ != seenJobs; });
+    lookFor(threads, [&] { return begunJobs_ != seenJobs; });
     std::unique_lock lock(mutex_);
     ++sleeping_;
     begun_.wait(lock, [&] { return isClosing_ || begunJobs_ != seenJobs; });

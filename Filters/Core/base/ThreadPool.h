@@ -38,7 +38,7 @@ private:
     std::exception_ptr error;
   };
 
-  void work();
+  void work(unsigned threads);
   void takeParts(const Job& job) const;
 
   mutable std::atomic_flag isAtWork_;

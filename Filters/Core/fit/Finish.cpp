@@ -217,7 +217,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   {
     return false;
   }
-  if (!repair(*surfaceFit, guard, partOf(report, 1., 1.)))
+  if (!repair(*surfaceFit, guard, partOf(report, 1., 1.)) || !report(1.))
   {
     return false;
   }

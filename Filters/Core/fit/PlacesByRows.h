@@ -5,6 +5,7 @@
 #include "cloud/PlaceOnMesh.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -82,25 +83,41 @@ void forEachPlaceByRows(std::span<const PlaceOnMesh> places, const RowParts& par
     }
     return;
   }
-  // Of each range of the places, those that lie in each part.
+  // Of each range of the places, those that lie in each part: runs, as places that follow each other are mostly near.
+  struct Run
+  {
+    std::uint32_t begin, end;
+  };
   constexpr std::size_t PlacesPerRange = 16384;
   const std::size_t ranges = (places.size() + PlacesPerRange - 1) / PlacesPerRange;
-  std::vector<std::vector<std::uint32_t>> placesOf(ranges * parts.count());
+  std::vector<std::vector<Run>> runsOf(ranges * parts.count());
   executor.forEachRange(places.size(), PlacesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
-      const auto lists =
-        std::span(placesOf).subspan(begin / PlacesPerRange * parts.count(), parts.count());
-      for (std::size_t i = begin; i < end; ++i)
+      const auto runs =
+        std::span(runsOf).subspan(begin / PlacesPerRange * parts.count(), parts.count());
+      for (auto i = std::uint32_t(begin); i < end; ++i)
       {
-        const Triangle& corners = places[i].triangle;
-        for (std::size_t corner = 0; corner < 3 && isUsed(i); ++corner)
+        if (!isUsed(i))
         {
-          std::vector<std::uint32_t>& list = lists[parts.of(corners[corner])];
-          if (list.empty() || list.back() != i)
+          continue;
+        }
+        const auto addTo = [i](std::vector<Run>& ofPart)
+        {
+          if (ofPart.empty() || ofPart.back().end < i)
           {
-            list.push_back(std::uint32_t(i));
+            ofPart.push_back({ i, i });
           }
+          ofPart.back().end = i + 1;
+        };
+        const Triangle& corners = places[i].triangle;
+        const std::array<std::size_t, 3> partsOf{ parts.of(corners[0]), parts.of(corners[1]),
+          parts.of(corners[2]) };
+        addTo(runs[partsOf[0]]);
+        if (partsOf[1] != partsOf[0] || partsOf[2] != partsOf[0])
+        {
+          addTo(runs[partsOf[1]]);
+          addTo(runs[partsOf[2]]);
         }
       }
     });
@@ -110,9 +127,12 @@ void forEachPlaceByRows(std::span<const PlaceOnMesh> places, const RowParts& par
       const VertexRows rows = parts.rows(part);
       for (std::size_t range = 0; range < ranges; ++range)
       {
-        for (const std::uint32_t i : placesOf[range * parts.count() + part])
+        for (const Run run : runsOf[range * parts.count() + part])
         {
-          body(rows, i);
+          for (std::uint32_t i = run.begin; i < run.end; ++i)
+          {
+            body(rows, i);
+          }
         }
       }
     });

@@ -365,7 +365,7 @@ std::optional<Candidate> solidCandidate(const PointCloud& cloud, const NearestPo
     return {};
   }
   const Evidence evidence =
-    evidenceFor(cloud, nearest, solid.mesh, solid.isLeaky ? AskedIfLeaky : UsuallyAsked);
+    evidenceFor(cloud, nearest, solid.mesh, solid.isLeaky ? AskedIfLeaky : UsuallyAsked, executor);
   Candidate result{ std::move(solid), evidence };
   result.isBetweenLayers = isBetweenLayers || evidence.medianInEdges >= MostMedianOfSolid;
   result.explains = result.surface.isCertain && !result.isBetweenLayers &&
@@ -385,7 +385,7 @@ std::optional<Candidate> sheetCandidate(const PointCloud& cloud, const NearestPo
   }
   Candidate result{ std::move(*sheet) };
   const Mesh& mesh = result.surface.mesh;
-  result.evidence = evidenceFor(cloud, nearest, mesh);
+  result.evidence = evidenceFor(cloud, nearest, mesh, UsuallyAsked, executor);
   result.explains = result.evidence.unexplained < LeastUnexplainedBySheet &&
     result.evidence.medianInEdges < MostMedianOfSheet && pieceCount(mesh) == 1 &&
     BoundaryManager(mesh).loopCount() <= MostLoopsOfSheet;
@@ -541,7 +541,7 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
       grid->evidence.unexplained < LeastUnexplained &&
       genusOf(front->mesh) > genusOf(grid->surface.mesh);
     if ((front->isCertain || !isClosed) && !hasMoreHandles &&
-      evidenceFor(cloud, nearest, front->mesh).unexplained <= most)
+      evidenceFor(cloud, nearest, front->mesh, UsuallyAsked, executor).unexplained <= most)
     {
       return front;
     }
