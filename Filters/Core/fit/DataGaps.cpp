@@ -71,9 +71,10 @@ public:
     , nearest_(points_, executor)
   {
   }
-  /// So many of a cloud.
+  /// So many of a cloud, which must outlive them.
   SomePoints(const PointCloud& cloud, std::size_t count, const Executor& executor)
-    : SomePoints(picked(cloud, count), executor)
+    : points_(picked(cloud, count))
+    , nearest_(points_.empty() ? cloud.points() : std::span<const Vector4>(points_), executor)
   {
   }
 
@@ -86,10 +87,15 @@ public:
   double distance(Vector4 point) const { return std::sqrt(double(closest(point).squaredDistance)); }
 
 private:
+  /// None if these are all.
   static std::vector<Vector4> picked(const PointCloud& cloud, std::size_t count)
   {
     const std::size_t all = cloud.points().size();
     std::vector<Vector4> points;
+    if (count == all)
+    {
+      return points;
+    }
     points.reserve(count);
     for (std::size_t i = 0; i < count; ++i)
     {

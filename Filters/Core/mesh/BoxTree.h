@@ -4,6 +4,7 @@
 #include "base/Executor.h"
 #include "base/PackedVectors.h"
 #include "base/Vector4.h"
+#include "base/ZeroedArray.h"
 
 #include <array>
 #include <bit>
@@ -93,7 +94,7 @@ public:
   template <typename Use>
   void forEachOverlap(const Use& use) const
   {
-    if (nodes_.empty())
+    if (nodes_.size() == 0)
     {
       return;
     }
@@ -317,6 +318,6 @@ private:
   std::uint32_t count_;
   const BoxOf& boxOf_;
   const Executor& executor_;
-  std::vector<Node> nodes_;
+  ZeroedArray<Node> nodes_;
 };
 }

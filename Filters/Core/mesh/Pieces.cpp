@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <span>
 
 namespace neuralmesh
 {
@@ -26,21 +27,40 @@ public:
   {
   }
 
-  void addTriangles()
+  void addTriangles(const Executor& executor)
   {
-    for (const VertexIndex v : piece_.vertices)
+    struct Sum
     {
-      const Ring& ring = mesh_.ring(v);
-      piece_.isClosed = piece_.isClosed && !ring.isOpen();
-      const Eigen::Vector3d a = at(v);
-      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+      double area = 0., volume = 0.;
+      bool isClosed = true;
+    };
+    const std::span<const VertexIndex> vertices = piece_.vertices;
+    std::vector<Sum> sums((vertices.size() + VerticesOfPiecesPart - 1) / VerticesOfPiecesPart);
+    executor.forEachRange(vertices.size(), VerticesOfPiecesPart,
+      [&](std::size_t begin, std::size_t end)
       {
-        const VertexIndex second = ring[slot], third = ring[ring.after(slot)];
-        if (v < second && v < third)
+        Sum sum;
+        for (const VertexIndex v : vertices.subspan(begin, end - begin))
         {
-          piece_.area += add(a, at(second), at(third));
+          const Ring& ring = mesh_.ring(v);
+          sum.isClosed = sum.isClosed && !ring.isOpen();
+          const Eigen::Vector3d a = at(v);
+          for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+          {
+            const VertexIndex second = ring[slot], third = ring[ring.after(slot)];
+            if (v < second && v < third)
+            {
+              sum.area += add(a, at(second), at(third), sum.volume);
+            }
+          }
         }
-      }
+        sums[begin / VerticesOfPiecesPart] = sum;
+      });
+    for (const Sum& sum : sums)
+    {
+      piece_.area += sum.area;
+      piece_.volume += sum.volume;
+      piece_.isClosed = piece_.isClosed && sum.isClosed;
     }
   }
 
@@ -65,7 +85,7 @@ public:
       const Eigen::Vector3d centroid = sum / double(loop.size());
       for (const VertexIndex v : loop)
       {
-        piece_.closingArea += add(centroid, at(v), at(mesh_.ring(v).back()));
+        piece_.closingArea += add(centroid, at(v), at(mesh_.ring(v).back()), piece_.volume);
       }
     }
   }
@@ -74,9 +94,10 @@ private:
   Eigen::Vector3d at(VertexIndex v) const { return mesh_.position(v).toDouble() - origin_; }
 
   /// Adds the volume below a triangle; returns its area.
-  double add(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+  static double add(
+    const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double& volume)
   {
-    piece_.volume += a.dot(b.cross(c)) / 6.;
+    volume += a.dot(b.cross(c)) / 6.;
     return 0.5 * (b - a).cross(c - a).norm();
   }
 
@@ -86,7 +107,7 @@ private:
 };
 }
 
-std::vector<Piece> findPieces(const Mesh& mesh)
+std::vector<Piece> findPieces(const Mesh& mesh, const Executor& executor)
 {
   std::vector<Piece> pieces;
   std::vector<bool> isFound(mesh.indexEnd(), false), isClosed(mesh.indexEnd(), false);
@@ -112,7 +133,7 @@ std::vector<Piece> findPieces(const Mesh& mesh)
       }
     }
     PieceMeasure measure(mesh, piece);
-    measure.addTriangles();
+    measure.addTriangles(executor);
     measure.closeLoops(isClosed);
   }
   return pieces;

@@ -21,7 +21,7 @@ struct Piece
 };
 
 /// The pieces of a mesh, in the order of their lowest vertices.
-std::vector<Piece> findPieces(const Mesh& mesh);
+std::vector<Piece> findPieces(const Mesh& mesh, const Executor& executor = Executor::sequential());
 
 /// Of all triangles.
 double areaOf(const Mesh& mesh);
