@@ -3,7 +3,7 @@
 
 #include "base/ByteBlocks.h"
 #include "base/Executor.h"
-#include "base/LargePageAllocator.h"
+#include "base/ZeroedArray.h"
 #include "cloud/PlaceOnMesh.h"
 
 #include <cstddef>
