@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
+#include "base/ZeroedArray.h"
+
 #include <atomic>
 #include <cstddef>
-#include <numeric>
 #include <utility>
-#include <vector>
 
 namespace neuralmesh
 {
@@ -14,10 +15,17 @@ namespace neuralmesh
 class ConcurrentSets
 {
 public:
-  explicit ConcurrentSets(std::size_t count)
+  explicit ConcurrentSets(std::size_t count, const Executor& executor = Executor::sequential())
     : parent_(count)
   {
-    std::iota(parent_.begin(), parent_.end(), std::size_t(0));
+    executor.forEachRange(count, NumbersPerRange,
+      [this](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          parent_[i] = i;
+        }
+      });
   }
 
   /// The number that stands for the set of `i`, as long as nobody joins it.
@@ -59,11 +67,13 @@ public:
   bool areJoined(std::size_t a, std::size_t b) { return root(a) == root(b); }
 
 private:
+  static constexpr std::size_t NumbersPerRange = 65536;
+
   std::size_t parentOf(std::size_t i)
   {
     return std::atomic_ref(parent_[i]).load(std::memory_order_relaxed);
   }
 
-  std::vector<std::size_t> parent_;
+  ZeroedArray<std::size_t> parent_;
 };
 }

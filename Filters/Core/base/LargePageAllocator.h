@@ -83,6 +83,17 @@ struct LargePageAllocator
 #endif
   }
 
+  /// Whether so many values are 0 when they come.
+  static bool comesZeroed(std::size_t count)
+  {
+#ifdef __linux__
+    return isLarge(count);
+#else
+    static_cast<void>(count);
+    return false;
+#endif
+  }
+
   friend bool operator==(LargePageAllocator, LargePageAllocator) { return true; }
 
 private:

@@ -12,8 +12,14 @@ namespace
 {
 constexpr int BitsPerDigit = 12;
 constexpr std::size_t DigitCount = std::size_t(1) << BitsPerDigit;
-/// A part for the executor; many more than there are digits.
-constexpr std::size_t SortedPerRange = std::size_t(1) << 18;
+/// Parts for the executor, about so many, but none smaller than there are digits to count.
+constexpr std::size_t PartsOfSort = 64;
+constexpr std::size_t LeastSortedPerRange = 4 * DigitCount;
+
+std::size_t sortedPerRange(std::size_t count)
+{
+  return std::max(LeastSortedPerRange, count / PartsOfSort);
+}
 
 struct MortonEntry
 {
@@ -29,12 +35,13 @@ void sortByDigit(const std::vector<MortonEntry>& entries, std::vector<MortonEntr
   const auto digit = [shift](const MortonEntry& entry)
   { return std::size_t(entry.key >> shift) % DigitCount; };
   // Where the entries of each digit in each range go.
-  const std::size_t ranges = (entries.size() + SortedPerRange - 1) / SortedPerRange;
+  const std::size_t grain = sortedPerRange(entries.size());
+  const std::size_t ranges = (entries.size() + grain - 1) / grain;
   std::vector<std::uint32_t> places(ranges * DigitCount);
-  executor.forEachRange(entries.size(), SortedPerRange,
+  executor.forEachRange(entries.size(), grain,
     [&](std::size_t begin, std::size_t end)
     {
-      std::uint32_t* const counts = &places[begin / SortedPerRange * DigitCount];
+      std::uint32_t* const counts = &places[begin / grain * DigitCount];
       for (std::size_t i = begin; i < end; ++i)
       {
         ++counts[digit(entries[i])];
@@ -48,10 +55,10 @@ void sortByDigit(const std::vector<MortonEntry>& entries, std::vector<MortonEntr
       next += std::exchange(places[range * DigitCount + d], next);
     }
   }
-  executor.forEachRange(entries.size(), SortedPerRange,
+  executor.forEachRange(entries.size(), grain,
     [&](std::size_t begin, std::size_t end)
     {
-      std::uint32_t* const place = &places[begin / SortedPerRange * DigitCount];
+      std::uint32_t* const place = &places[begin / grain * DigitCount];
       for (std::size_t i = begin; i < end; ++i)
       {
         sorted[place[digit(entries[i])]++] = entries[i];
@@ -76,8 +83,9 @@ std::vector<std::uint32_t> mortonOrder(
   std::span<const Vector4> points, Vector4 boxMin, Vector4 boxMax, const Executor& executor)
 {
   const MortonCurve curve(boxMin, boxMax);
+  const std::size_t grain = sortedPerRange(points.size());
   std::vector<MortonEntry> entries(points.size()), sorted(points.size());
-  executor.forEachRange(points.size(), SortedPerRange,
+  executor.forEachRange(points.size(), grain,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -91,7 +99,7 @@ std::vector<std::uint32_t> mortonOrder(
     entries.swap(sorted);
   }
   std::vector<std::uint32_t> order(points.size());
-  executor.forEachRange(points.size(), SortedPerRange,
+  executor.forEachRange(points.size(), grain,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/LargePageAllocator.h"
 #include "base/Vector4.h"
+#include "base/ZeroedArray.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -34,7 +35,7 @@ public:
   void set(std::size_t i, Vector4 v) { write(values_.data() + 3 * i, v); }
   void add(std::size_t i, Vector4 v) { set(i, (*this)[i] + v); }
   /// All are 0.
-  void clear() { values_.assign(values_.size(), 0.f); }
+  void clear() { std::fill(values_.begin(), values_.end(), 0.f); }
 
   static Vector4 read(const float* from)
   {
@@ -54,6 +55,6 @@ public:
   }
 
 private:
-  LargeVector<float> values_;
+  ZeroedArray<float> values_;
 };
 }

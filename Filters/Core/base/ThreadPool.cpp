@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/ThreadPool.h"
 
+#include <chrono>
 #include <csignal>
 #include <new>
 #include <system_error>
@@ -16,6 +17,36 @@ void runHere(std::size_t count, void (*part)(const void*, std::size_t), const vo
   {
     part(context, i);
   }
+}
+
+/// Threads look out for what they wait for so long before they sleep: to be woken takes longer than most of what one
+/// thread does by itself in between. Not where there are more of them than the machine runs at the same time.
+constexpr std::chrono::microseconds LookOut(20);
+constexpr int LooksAtOnce = 64;
+
+/// Until `isThere()`, or for some time.
+template <typename IsThere>
+void lookFor(unsigned threads, const IsThere& isThere)
+{
+  static const unsigned AtOnce = std::thread::hardware_concurrency();
+  if (threads > AtOnce)
+  {
+    return;
+  }
+  const auto end = std::chrono::steady_clock::now() + LookOut;
+  do
+  {
+    for (int look = 0; look < LooksAtOnce; ++look)
+    {
+      if (isThere())
+      {
+        return;
+      }
+#if defined(__x86_64__) || defined(__i386__)
+      __builtin_ia32_pause();
+#endif
+    }
+  } while (std::chrono::steady_clock::now() < end);
 }
 
 class SequentialExecutor final : public Executor
@@ -70,7 +101,7 @@ ThreadPool::ThreadPool(unsigned threadCount)
     workers_.reserve(wanted);
     for (unsigned i = 1; i < wanted; ++i)
     {
-      workers_.emplace_back([this] { work(); });
+      workers_.emplace_back([this, wanted] { work(wanted); });
     }
   }
   catch (const std::system_error&)
@@ -103,11 +134,24 @@ void ThreadPool::run(std::size_t count, Part part, const void* context) const
     runHere(count, part, context);
     return;
   }
+  const bool mustWake = [&]
+  {
+    const std::lock_guard lock(mutex_);
+    job_ = { part, context, count, nullptr };
+    next_ = 0;
+    running_ = 1;
+    ++begunJobs_;
+    return sleeping_ > 0;
+  }();
+  if (mustWake)
+  {
+    begun_.notify_all();
+  }
+  takeParts(job_);
+  --running_;
+  lookFor(threadCount(), [this] { return running_ == 0; });
   std::unique_lock lock(mutex_);
-  job_ = { part, context, count, 0, 0, nullptr };
-  begun_.notify_all();
-  takeParts(lock);
-  ended_.wait(lock, [this] { return job_.running == 0; });
+  ended_.wait(lock, [this] { return running_ == 0; });
   const std::exception_ptr error = std::exchange(job_, {}).error;
   lock.unlock();
   isAtWork_.clear();
@@ -117,50 +161,57 @@ void ThreadPool::run(std::size_t count, Part part, const void* context) const
   }
 }
 
-void ThreadPool::work()
+/// On one of so many threads.
+void ThreadPool::work(unsigned threads)
 {
-  std::unique_lock lock(mutex_);
+  std::size_t seenJobs = 0;
   for (;;)
   {
-    begun_.wait(lock, [this] { return isClosing_ || job_.next < job_.count; });
+    lookFor(threads, [&] { return begunJobs_ != seenJobs; });
+    std::unique_lock lock(mutex_);
+    ++sleeping_;
+    begun_.wait(lock, [&] { return isClosing_ || begunJobs_ != seenJobs; });
+    --sleeping_;
     if (isClosing_)
     {
       return;
     }
-    takeParts(lock);
+    seenJobs = begunJobs_;
+    if (!(next_ < job_.count))
+    {
+      // It came too late.
+      continue;
+    }
+    ++running_;
+    lock.unlock();
+    takeParts(job_);
+    lock.lock();
+    if (--running_ == 0)
+    {
+      lock.unlock();
+      ended_.notify_all();
+    }
   }
 }
 
 /// Runs parts as long as there are any that no thread has taken.
-void ThreadPool::takeParts(std::unique_lock<std::mutex>& lock) const
+void ThreadPool::takeParts(const Job& job) const
 {
-  Job& job = job_;
-  ++job.running;
-  while (job.next < job.count)
+  for (std::size_t taken = next_++; taken < job.count; taken = next_++)
   {
-    const std::size_t taken = job.next++;
-    const Part part = job.part;
-    const void* const context = job.context;
-    lock.unlock();
-    std::exception_ptr error;
     try
     {
-      part(context, taken);
+      job.part(job.context, taken);
     }
     catch (...)
     {
-      error = std::current_exception();
+      const std::lock_guard lock(mutex_);
+      if (!job_.error)
+      {
+        job_.error = std::current_exception();
+      }
+      next_ = job.count;
     }
-    lock.lock();
-    if (error && !job.error)
-    {
-      job.error = error;
-      job.next = job.count;
-    }
-  }
-  if (--job.running == 0)
-  {
-    ended_.notify_all();
   }
 }
 }

@@ -29,25 +29,27 @@ protected:
   void run(std::size_t count, Part part, const void* context) const override;
 
 private:
-  /// Parts that are run, and how far that is.
+  /// Parts that are run.
   struct Job
   {
     Part part = nullptr;
     const void* context = nullptr;
     std::size_t count = 0;
-    std::size_t next = 0;    ///< that no thread has taken
-    std::size_t running = 0; ///< threads at it
     std::exception_ptr error;
   };
 
-  void work();
-  void takeParts(std::unique_lock<std::mutex>& lock) const;
+  void work(unsigned threads);
+  void takeParts(const Job& job) const;
 
   mutable std::atomic_flag isAtWork_;
+  mutable std::atomic<std::size_t> next_{ 0 };    ///< part that no thread has taken
+  mutable std::atomic<std::size_t> running_{ 0 }; ///< threads at the job
+  mutable std::atomic<std::size_t> begunJobs_{ 0 };
   mutable std::mutex mutex_; ///< of all below
   mutable std::condition_variable begun_;
   mutable std::condition_variable ended_;
   mutable Job job_;
+  mutable std::size_t sleeping_ = 0; ///< threads that wait to be told of a job
   bool isClosing_ = false;
   std::vector<std::thread> workers_;
 };

@@ -10,6 +10,8 @@ constexpr int TriesWithin = 4;
 /// Where points coincide so many times as many are looked at, up to so many.
 constexpr std::size_t MoreForPlaces = 4;
 constexpr std::size_t MostForPlaces = 256;
+/// For the executor.
+constexpr std::size_t BoxesOfPart = 1024;
 }
 
 void NearestPoints::Boxes::set(std::size_t i, const Box& box)
@@ -21,23 +23,31 @@ void NearestPoints::Boxes::set(std::size_t i, const Box& box)
   }
 }
 
-NearestPoints::NearestPoints(std::span<const Vector4> points)
+NearestPoints::NearestPoints(std::span<const Vector4> points, const Executor& executor)
   : points_(points)
 {
   std::vector<Box> boxes((points.size() + Fan - 1) / Fan);
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    boxes[i / Fan].extend(points[i]);
-  }
+  executor.forEachRange(points.size(), Fan * BoxesOfPart,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        boxes[i / Fan].extend(points[i]);
+      }
+    });
   while (!boxes.empty())
   {
     std::vector<Boxes> groups((boxes.size() + Fan - 1) / Fan);
     std::vector<Box> coarser(groups.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-    {
-      groups[i / Fan].set(i % Fan, boxes[i]);
-      coarser[i / Fan].extend(boxes[i]);
-    }
+    executor.forEachRange(boxes.size(), Fan * BoxesOfPart,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          groups[i / Fan].set(i % Fan, boxes[i]);
+          coarser[i / Fan].extend(boxes[i]);
+        }
+      });
     levels_.push_back(std::move(groups));
     boxes = coarser.size() > 1 ? std::move(coarser) : std::vector<Box>();
   }

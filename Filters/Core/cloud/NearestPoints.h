@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "base/Vector4.h"
 #include "mesh/BoxTree.h"
 
@@ -41,7 +42,8 @@ private:
 class NearestPoints
 {
 public:
-  explicit NearestPoints(std::span<const Vector4> points);
+  explicit NearestPoints(
+    std::span<const Vector4> points, const Executor& executor = Executor::sequential());
 
   std::span<const Vector4> points() const { return points_; }
 

@@ -91,7 +91,7 @@ bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
   {
     return false;
   }
-  flipEdges(mesh, EdgesToFlip::Flat);
+  flipEdges(mesh, EdgesToFlip::Flat, executor);
   SurfaceFit fit(cloud, mesh, std::size_t(samplesPerVertex * double(count)), executor);
   fit.settle();
   fit.findExactly();

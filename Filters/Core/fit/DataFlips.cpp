@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/DataFlips.h"
 
+#include "base/BucketOrder.h"
 #include "fit/SampleBundle.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/TriangleShape.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace neuralmesh
@@ -17,7 +18,7 @@ namespace
 {
 constexpr int MostFlipPasses = 3;
 /// A part for the executor.
-constexpr std::size_t FlipVerticesPerRange = 1024;
+constexpr std::size_t FlipVerticesPerRange = 4096;
 /// What a flip must gain, in mean squared distances of a sample: so much, and so much more or less for each
 /// squared excess of valence more or less.
 constexpr double LeastFlipGain = 0.5;
@@ -50,9 +51,10 @@ struct FlipScratch
     bool isAtA;
   };
 
-  std::vector<std::uint32_t> found; ///< samples
-  SampleBundle bundle;              ///< of these
-  std::vector<Move> moves;
+  std::size_t writer = 0;
+  std::vector<std::uint32_t> found = {}; ///< samples
+  SampleBundle bundle = {};              ///< of these
+  std::vector<Move> moves = {};
 };
 
 class SampleFlips
@@ -61,11 +63,24 @@ public:
   SampleFlips(Mesh& mesh, const PlacedSamples& samples, double variance, const Executor& executor)
     : mesh_(mesh)
     , executor_(executor)
+    , partOf_(partsAround(mesh, executor))
+    , vertices_(
+        mesh.indexEnd(), FlipVerticesPerRange, RowParts::byWork(mesh.indexEnd()).count(),
+        [this](std::size_t begin, std::size_t end, const auto& use)
+        {
+          for (std::size_t v = begin; v < end; ++v)
+          {
+            use(v, partOf_[v]);
+          }
+        },
+        executor)
     , samples_(samples, mesh.indexEnd(), executor)
     , scale_(std::max(variance, samples_.total().squares / std::max(samples_.total().count, 1.)))
     , isAsked_(mesh.indexEnd(), 1)
+    , wasNear_(mesh.indexEnd(), 1)
     , changed_(mesh.indexEnd())
   {
+    samples_.setWriters(vertices_.bucketCount() + 1);
   }
 
   ChangedVertices run()
@@ -73,47 +88,80 @@ public:
     for (int pass = 0; pass < MostFlipPasses; ++pass)
     {
       isFlipped_.assign(mesh_.indexEnd(), 0);
-      lookAhead();
-      bool any = false;
-      for (VertexIndex a = 0; a < mesh_.indexEnd(); ++a)
-      {
-        any = flipAt(a) || any;
-      }
-      if (!any)
+      isNear_.assign(mesh_.indexEnd(), 0);
+      if (!flipOnce())
       {
         break;
       }
+      changed_.any = true;
       isAsked_.swap(isFlipped_);
+      wasNear_.swap(isNear_);
     }
     return std::move(changed_);
   }
 
 private:
-  /// Asks of all edges, on all threads, which may be flipped as the mesh is at the beginning of the pass.
-  void lookAhead()
+  /// Asks of all edges, in turn, but in parts of the mesh at the same time: first of the edges at vertices within a part,
+  /// and then of the rest. Returns whether any was flipped.
+  bool flipOnce()
   {
-    if (executor_.threadCount() == 1)
-    {
-      // All are asked when their turn comes.
-      return;
-    }
-    mayFlip_.assign(mesh_.indexEnd(), 0);
-    executor_.forEachRange(mesh_.indexEnd(), FlipVerticesPerRange,
-      [&](std::size_t begin, std::size_t end)
+    const std::size_t parts = vertices_.bucketCount();
+    std::vector<std::uint8_t> anyOf(parts, 0);
+    std::vector<std::vector<VertexIndex>> atRims(parts);
+    executor_.forEachPart(parts,
+      [&](std::size_t part)
       {
-        FlipScratch scratch;
-        for (auto a = VertexIndex(begin); a < end; ++a)
+        FlipScratch scratch{ part };
+        for (const VertexIndex a : vertices_.items(part))
         {
-          const Ring& ring = mesh_.ring(a);
-          for (unsigned slot = 0; slot < ring.size(); ++slot)
+          if (!isWithin(a, part))
           {
-            if (isToBeAsked(a, ring[slot]) && isCloserFlipped(diamondAt(a, slot), scratch))
-            {
-              mayFlip_[a] = std::uint16_t(mayFlip_[a] | 1u << slot);
-            }
+            atRims[part].push_back(a);
+          }
+          else if (mayFlipAt(a) && flipAt(a, scratch))
+          {
+            anyOf[part] = 1;
           }
         }
       });
+    bool any = std::find(anyOf.begin(), anyOf.end(), 1) != anyOf.end();
+    FlipScratch scratch{ parts };
+    for (const std::vector<VertexIndex>& atRim : atRims)
+    {
+      for (const VertexIndex a : atRim)
+      {
+        any = (mayFlipAt(a) && flipAt(a, scratch)) || any;
+      }
+    }
+    return any;
+  }
+
+  /// Of the index, but of the lowest one around a vertex: those that have come later, and have the last indices, are in
+  /// the parts in which they lie.
+  static std::vector<std::uint8_t> partsAround(const Mesh& mesh, const Executor& executor)
+  {
+    const RowParts parts = RowParts::byWork(mesh.indexEnd());
+    std::vector<std::uint8_t> result(mesh.indexEnd());
+    executor.forEachRange(result.size(), FlipVerticesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (auto v = VertexIndex(begin); v < end; ++v)
+        {
+          const Ring& ring = mesh.ring(v);
+          const VertexIndex lowest =
+            ring.isEmpty() ? v : *std::min_element(ring.begin(), ring.end());
+          result[v] = std::uint8_t(parts.of(std::min(v, lowest)));
+        }
+      });
+    return result;
+  }
+
+  /// Whether the vertex and all of its neighbours are in a part: so are all whose rings a flip of an edge of it asks for
+  /// or changes.
+  bool isWithin(VertexIndex a, std::size_t part) const
+  {
+    const Ring& ring = mesh_.ring(a);
+    return std::all_of(ring.begin(), ring.end(), [&](VertexIndex v) { return partOf_[v] == part; });
   }
 
   bool isToBeAsked(VertexIndex a, VertexIndex b) const
@@ -121,53 +169,52 @@ private:
     return a < b && (isAsked_[a] != 0 || isAsked_[b] != 0);
   }
 
+  /// Whether any edge at the vertex is.
+  bool mayFlipAt(VertexIndex a) const { return wasNear_[a] != 0 || isNear_[a] != 0; }
+
   Diamond diamondAt(VertexIndex a, unsigned slot) const
   {
     const Ring& ring = mesh_.ring(a);
     return { a, ring[slot], ring.next(slot), ring.previous(slot) };
   }
 
-  /// What was asked ahead holds as long as none of the four vertices has had a flip since.
-  bool hasAnswer(const Diamond& edge) const
-  {
-    return !mayFlip_.empty() && edge.c != NoVertex && edge.d != NoVertex &&
-      (isFlipped_[edge.a] | isFlipped_[edge.b] | isFlipped_[edge.c] | isFlipped_[edge.d]) == 0;
-  }
-
-  /// Its ring may begin elsewhere now.
-  void forgetAnswers(VertexIndex v)
-  {
-    if (!mayFlip_.empty())
-    {
-      mayFlip_[v] = std::numeric_limits<std::uint16_t>::max();
-    }
-  }
-
   /// Whether any edge to a vertex of a higher index was flipped.
-  bool flipAt(VertexIndex a)
+  bool flipAt(VertexIndex a, FlipScratch& scratch)
   {
     bool any = false;
     const Ring before = mesh_.ring(a);
-    for (unsigned i = 0; i < before.size(); ++i)
+    for (const VertexIndex b : before)
     {
-      const unsigned slot = mesh_.ring(a).find(before[i]);
-      if (!isToBeAsked(a, before[i]) || slot == mesh_.ring(a).size())
+      const unsigned slot = mesh_.ring(a).find(b);
+      if (!isToBeAsked(a, b) || slot == mesh_.ring(a).size())
       {
         continue;
       }
       const Diamond edge = diamondAt(a, slot);
-      const bool isRefused = hasAnswer(edge) && (mayFlip_[a] >> i & 1u) == 0;
-      if (!isRefused && isCloserFlipped(edge, scratch_) && flip(edge))
+      if (isCloserFlipped(edge, scratch) && flip(edge, scratch))
       {
         any = true;
         for (const VertexIndex v : { edge.a, edge.b, edge.c, edge.d })
         {
           isFlipped_[v] = 1;
-          changed_.touch(v);
+          changed_.isTouched[v] = 1;
+          markNear(v);
         }
       }
     }
     return any;
+  }
+
+  /// Neighbours may be in other parts, whose threads do not look at those of them.
+  void markNear(VertexIndex v)
+  {
+    const auto mark = [this](VertexIndex u)
+    { std::atomic_ref(isNear_[u]).store(1, std::memory_order_relaxed); };
+    mark(v);
+    for (const VertexIndex neighbor : mesh_.ring(v))
+    {
+      mark(neighbor);
+    }
   }
 
   /// Whether samples come closer by enough, but for folds; where each goes is in `scratch` then.
@@ -246,7 +293,7 @@ private:
     const Vector4 c = mesh_.position(edge.c), d = mesh_.position(edge.d);
     const TriangleDistances atA(a, d, c), atB(b, c, d);
     double sum = 0.;
-    auto& [found, bundle, moves] = scratch;
+    auto& [writer, found, bundle, moves] = scratch;
     moves.clear();
     bundle.assign(samples_, found);
     for (const FourVectors& points : bundle.points())
@@ -262,25 +309,23 @@ private:
     return sum;
   }
 
-  /// As `scratch_` has it, unless a fold comes out.
-  bool flip(const Diamond& edge)
+  /// As `scratch` has it, unless a fold comes out.
+  bool flip(const Diamond& edge, FlipScratch& scratch)
   {
     const auto& [a, b, c, d] = edge;
     mesh_.flip(a, b);
     if (foldsAt(a, c) || foldsAt(a, d) || foldsAt(b, c) || foldsAt(b, d))
     {
       mesh_.flip(c, d);
-      forgetAnswers(a);
-      forgetAnswers(b);
       return false;
     }
-    auto& [found, bundle, moves] = scratch_;
+    auto& [writer, found, bundle, moves] = scratch;
     found.clear();
     samples_.take(a, b, c, found);
     samples_.take(a, b, d, found);
     for (std::size_t i = 0; i < found.size(); ++i)
     {
-      samples_.put(found[i], moves[i].isAtA ? a : b, c, d, moves[i].squaredDistance);
+      samples_.put(found[i], moves[i].isAtA ? a : b, c, d, moves[i].squaredDistance, writer);
     }
     return true;
   }
@@ -301,13 +346,15 @@ private:
 
   Mesh& mesh_;
   const Executor& executor_;
+  std::vector<std::uint8_t> partOf_; ///< of each vertex
+  BucketOrder vertices_;             ///< by their parts
   TriangleSamples samples_;
   double scale_;
   std::vector<std::uint8_t> isAsked_;   ///< of each vertex, whether its edges are, in this pass
   std::vector<std::uint8_t> isFlipped_; ///< ... or one of them was flipped
-  std::vector<std::uint16_t> mayFlip_; ///< of each edge at a vertex, a bit; empty if none was asked
+  std::vector<std::uint8_t> isNear_;    ///< whether it or a neighbour had a flip, in this pass
+  std::vector<std::uint8_t> wasNear_;   ///< ... in the one before
   ChangedVertices changed_;
-  FlipScratch scratch_;
 };
 }
 

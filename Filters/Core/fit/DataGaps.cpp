@@ -2,7 +2,7 @@
 #include "fit/DataGaps.h"
 
 #include "base/DisjointSets.h"
-#include "cloud/VertexGrid.h"
+#include "cloud/NearestPoints.h"
 #include "fit/EmptyPieces.h"
 #include "fit/LocalSpacing.h"
 #include "fit/Webs.h"
@@ -14,6 +14,7 @@
 #include "mesh/SmallPieces.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -61,38 +62,40 @@ constexpr double WidestHole = 5.;
 /// ... if the surface around goes on there.
 constexpr float CosineOfHole = 0.3f;
 
-/// The closest of some points.
+/// The closest of some points, which should be near to each other where they follow each other.
 class SomePoints
 {
 public:
-  SomePoints(const PointCloud& cloud, std::vector<Vector4> points)
+  SomePoints(std::vector<Vector4> points, const Executor& executor)
     : points_(std::move(points))
+    , nearest_(points_, executor)
   {
-    const Vector4 size = cloud.bulkMax() - cloud.bulkMin();
-    const float cell = 2.f * std::sqrt(squaredNorm(size) / float(points_.size()));
-    grid_.reset(cloud.bulkMin(), cloud.bulkMax(), cell, points_.size());
-    for (std::size_t i = 0; i < points_.size(); ++i)
-    {
-      grid_.insert(VertexIndex(i), points_[i]);
-    }
   }
-  /// So many of a cloud.
-  SomePoints(const PointCloud& cloud, std::size_t count)
-    : SomePoints(cloud, picked(cloud, count))
+  /// So many of a cloud, which must outlive them.
+  SomePoints(const PointCloud& cloud, std::size_t count, const Executor& executor)
+    : points_(picked(cloud, count))
+    , nearest_(points_.empty() ? cloud.points() : std::span<const Vector4>(points_), executor)
   {
   }
 
-  std::size_t closest(Vector4 point) const { return grid_.closest(point, points_); }
-  double distance(Vector4 point) const
+  NearPoint closest(Vector4 point) const
   {
-    return std::sqrt(double(squaredNorm(points_[closest(point)] - point)));
+    std::array<NearPoint, 1> found;
+    nearest_.find(point, found);
+    return found[0];
   }
+  double distance(Vector4 point) const { return std::sqrt(double(closest(point).squaredDistance)); }
 
 private:
+  /// None if these are all.
   static std::vector<Vector4> picked(const PointCloud& cloud, std::size_t count)
   {
     const std::size_t all = cloud.points().size();
     std::vector<Vector4> points;
+    if (count == all)
+    {
+      return points;
+    }
     points.reserve(count);
     for (std::size_t i = 0; i < count; ++i)
     {
@@ -102,22 +105,22 @@ private:
   }
 
   std::vector<Vector4> points_;
-  VertexGrid grid_;
+  NearestPoints nearest_;
 };
 
 /// Where samples are sparse: how far they are from each other around those that are closest.
 class SparseSpacing
 {
 public:
-  SparseSpacing(const PointCloud& cloud, const Mesh& mesh, std::span<const PlaceOnMesh> places,
-    const Executor& executor)
-    : cloud_(cloud)
-    , mesh_(mesh)
+  SparseSpacing(const Mesh& mesh, std::span<const PlaceOnMesh> places, const Executor& executor)
+    : mesh_(mesh)
     , places_(places)
+    , executor_(executor)
     , spacing_(mesh, places, executor)
     , least_(SparseGapSpacings * double(spacing_.usual()))
-    , isAnywhere_(std::any_of(places.begin(), places.end(),
-        [this](const PlaceOnMesh& place) { return double(spacing_.samplesAt(place)) > least_; }))
+    , isAnywhere_(executor.sum(places.size(), PlacesCountedPerRange,
+                    [this](std::size_t i)
+                    { return double(spacing_.samplesAt(places_[i])) > least_ ? 1. : 0.; }) > 0.)
   {
   }
 
@@ -137,16 +140,16 @@ public:
         {
           points.push_back(pointAt(place, mesh_.positions()));
         }
-        points_.emplace(cloud_, std::move(points));
+        points_.emplace(std::move(points), executor_);
       });
-    const double spacing = double(spacing_.samplesAt(places_[points_->closest(point)]));
+    const double spacing = double(spacing_.samplesAt(places_[points_->closest(point).index]));
     return spacing > least_ ? spacing : 0.;
   }
 
 private:
-  const PointCloud& cloud_;
   const Mesh& mesh_;
   std::span<const PlaceOnMesh> places_;
+  const Executor& executor_;
   LocalSpacing spacing_;
   double least_;
   bool isAnywhere_;
@@ -217,11 +220,11 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   std::once_flag hasPoints;
   const auto distance = [&](std::uint32_t t)
   {
-    std::call_once(hasPoints, [&] { points.emplace(cloud, places.size()); });
+    std::call_once(hasPoints, [&] { points.emplace(cloud, places.size(), executor); });
     return points->distance(centerOf(mesh, triangles.all()[t]));
   };
   // Where samples are sparse, their number on average tells nothing.
-  SparseSpacing sparse(cloud, mesh, places, executor);
+  SparseSpacing sparse(mesh, places, executor);
   const auto sparseSpacing = [&](std::uint32_t t)
   { return sparse.at(centerOf(mesh, triangles.all()[t])); };
   const auto isTooSmall = [&](std::uint32_t t)
@@ -233,6 +236,11 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   const bool isFine = places.size() < LeastSamplesPerTriangle * triangles.all().size();
   const double meanDensity = isFine ? double(places.size()) / areaOf(mesh) : 0.;
   const double meanSpacing = isFine ? 1. / std::sqrt(meanDensity) : 0.;
+  if (isFine)
+  {
+    // All threads would wait for the points.
+    std::call_once(hasPoints, [&] { points.emplace(cloud, places.size(), executor); });
+  }
   std::vector<std::uint8_t> isEmpty(samples.size());
   executor.forEachRange(samples.size(), TrianglesPerRange,
     [&](std::size_t begin, std::size_t end)
@@ -245,8 +253,7 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
           : 0;
       }
     });
-  std::vector<EmptyPiece> pieces =
-    findEmptyPieces(mesh, triangles, samples, { isEmpty.begin(), isEmpty.end() });
+  std::vector<EmptyPiece> pieces = findEmptyPieces(mesh, triangles, samples, isEmpty, executor);
   // Small triangles around a piece may have too few samples to tell.
   const auto densityAt = [&](const EmptyPiece& piece)
   { return isFine && piece.samplesAround < LeastExpectedSamples ? meanDensity : piece.density(); };
@@ -308,7 +315,7 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
     return result;
   }
   result.joined = mergeBoundaries(mesh, boundaries, plan.bridgeWidth, LoopDistance::Mean);
-  const SomePoints points(cloud, places.size());
+  const SomePoints points(cloud, places.size(), executor);
   const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
   const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
   // A bridge may be wide; what goes on where points are is filled anyway.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/EmptyPieces.h"
 
-#include "base/DisjointSets.h"
+#include "base/ConcurrentSets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,73 +22,100 @@ Vector4 centerOf(const Mesh& mesh, const Triangle& triangle)
     (mesh.position(triangle[0]) + mesh.position(triangle[1]) + mesh.position(triangle[2]));
 }
 
-std::vector<EmptyPiece> findEmptyPieces(const Mesh& mesh, const NumberedTriangles& triangles,
-  std::span<const std::uint32_t> samples, const std::vector<bool>& isEmpty)
+namespace
 {
-  if (std::find(isEmpty.begin(), isEmpty.end(), true) == isEmpty.end())
+/// Parts for the executor.
+constexpr std::size_t VerticesOfEmptyPart = 4096;
+constexpr std::size_t PiecesOfPart = 64;
+
+/// Joins the empty triangles that have a vertex in common.
+void joinEmpty(const NumberedTriangles& triangles, std::size_t vertices,
+  std::span<const std::uint8_t> isEmpty, const Executor& executor, ConcurrentSets& sets)
+{
+  executor.forEachRange(vertices, VerticesOfEmptyPart,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        const auto around = triangles.at(v);
+        const auto first = std::find_if(
+          around.begin(), around.end(), [&](std::uint32_t t) { return isEmpty[t] != 0; });
+        for (auto t = first; t != around.end(); ++t)
+        {
+          if (isEmpty[*t] != 0)
+          {
+            sets.join(*t, *first);
+          }
+        }
+      }
+    });
+}
+
+/// Adds up what a piece is, and what lies around it, in the order of the triangles.
+void describe(EmptyPiece& piece, const Mesh& mesh, const NumberedTriangles& triangles,
+  std::span<const std::uint32_t> samples, std::span<const std::uint8_t> isEmpty)
+{
+  std::vector<std::uint32_t> around;
+  for (const std::uint32_t t : piece.triangles)
+  {
+    piece.area += areaOf(mesh, triangles.all()[t]);
+    for (const VertexIndex v : triangles.all()[t])
+    {
+      piece.isAtBoundary = piece.isAtBoundary || mesh.isBoundary(v);
+      for (const std::uint32_t other : triangles.at(v))
+      {
+        if (isEmpty[other] == 0)
+        {
+          around.push_back(other);
+        }
+      }
+    }
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  for (const std::uint32_t t : around)
+  {
+    piece.areaAround += areaOf(mesh, triangles.all()[t]);
+    piece.samplesAround += samples[t];
+  }
+}
+}
+
+std::vector<EmptyPiece> findEmptyPieces(const Mesh& mesh, const NumberedTriangles& triangles,
+  std::span<const std::uint32_t> samples, std::span<const std::uint8_t> isEmpty,
+  const Executor& executor)
+{
+  if (std::find(isEmpty.begin(), isEmpty.end(), 1) == isEmpty.end())
   {
     return {};
   }
-  DisjointSets sets(samples.size());
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    const auto around = triangles.at(v);
-    const auto first =
-      std::find_if(around.begin(), around.end(), [&](std::uint32_t t) { return isEmpty[t]; });
-    for (const std::uint32_t t : around)
-    {
-      if (isEmpty[t])
-      {
-        sets.join(t, *first);
-      }
-    }
-  }
+  ConcurrentSets sets(samples.size(), executor);
+  joinEmpty(triangles, mesh.indexEnd(), isEmpty, executor, sets);
+  // A set is known by its first triangle: so pieces are in the order of these.
   std::vector<EmptyPiece> pieces;
   std::vector<std::uint32_t> pieceOf(samples.size(), 0);
-  const auto pieceWith = [&](std::uint32_t t) -> EmptyPiece&
-  {
-    std::uint32_t& number = pieceOf[sets.root(t)];
-    if (number == 0)
-    {
-      pieces.emplace_back();
-      number = std::uint32_t(pieces.size());
-    }
-    return pieces[number - 1];
-  };
-  std::vector<std::size_t> touched;
   for (std::uint32_t t = 0; t < samples.size(); ++t)
   {
-    if (isEmpty[t])
+    if (isEmpty[t] == 0)
     {
-      EmptyPiece& piece = pieceWith(t);
-      piece.area += areaOf(mesh, triangles.all()[t]);
-      piece.triangles.push_back(t);
-      const auto& corners = triangles.all()[t];
-      piece.isAtBoundary = piece.isAtBoundary ||
-        std::any_of(
-          corners.begin(), corners.end(), [&](VertexIndex v) { return mesh.isBoundary(v); });
       continue;
     }
-    touched.clear();
-    for (const VertexIndex v : triangles.all()[t])
+    const std::size_t first = sets.root(t);
+    if (first == t)
     {
-      for (const std::uint32_t other : triangles.at(v))
-      {
-        if (!isEmpty[other])
-        {
-          continue;
-        }
-        const std::size_t root = sets.root(other);
-        if (std::find(touched.begin(), touched.end(), root) == touched.end())
-        {
-          touched.push_back(root);
-          EmptyPiece& piece = pieceWith(other);
-          piece.areaAround += areaOf(mesh, triangles.all()[t]);
-          piece.samplesAround += samples[t];
-        }
-      }
+      pieceOf[t] = std::uint32_t(pieces.size());
+      pieces.emplace_back();
     }
+    pieces[pieceOf[first]].triangles.push_back(t);
   }
+  executor.forEachRange(pieces.size(), PiecesOfPart,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        describe(pieces[i], mesh, triangles, samples, isEmpty);
+      }
+    });
   return pieces;
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/Mesh.h"
 #include "mesh/NumberedTriangles.h"
 
@@ -25,8 +26,10 @@ struct EmptyPiece
   double density() const { return areaAround > 0. ? samplesAround / areaAround : 0.; }
 };
 
-/// The pieces of those triangles that are empty, connected by vertices. `samples` tells of each triangle how many it
+/// The pieces of those triangles that are not 0 in `isEmpty`, connected by vertices, in the order of their first
+/// triangles. `samples` tells of each triangle how many it
 /// has.
 std::vector<EmptyPiece> findEmptyPieces(const Mesh& mesh, const NumberedTriangles& triangles,
-  std::span<const std::uint32_t> samples, const std::vector<bool>& isEmpty);
+  std::span<const std::uint32_t> samples, std::span<const std::uint8_t> isEmpty,
+  const Executor& executor = Executor::sequential());
 }

@@ -146,7 +146,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   const auto refineAll = [&](double at)
   {
     const bool isDone = refine(mesh_, plan_.vertexCount, partOf(progress, at, at));
-    flipEdges(mesh_);
+    flipEdges(mesh_, EdgesToFlip::All, executor_);
     return isDone;
   };
   if (rounds == 0 && mesh_.vertexCount() < plan_.vertexCount && !refineAll(0.))
@@ -180,7 +180,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     {
       if (trimsOutlines() && openGaps(*surfaceFit, true))
       {
-        flipEdges(mesh_);
+        flipEdges(mesh_, EdgesToFlip::All, executor_);
         beginAnew();
         if (!surfaceFit->findPlaces(partOf(part, PartOfPlaces, PartOfPlaces)))
         {
@@ -210,14 +210,14 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
         beginAnew();
       }
       // A fitted surface is smoother than the learnt one, and lets more edges be flipped.
-      flipEdges(mesh_);
+      flipEdges(mesh_, EdgesToFlip::All, executor_);
     }
   }
   if (hasMore && !improve(*surfaceFit, partOf(report, endOfFirst, 1.)))
   {
     return false;
   }
-  if (!repair(*surfaceFit, guard, partOf(report, 1., 1.)))
+  if (!repair(*surfaceFit, guard, partOf(report, 1., 1.)) || !report(1.))
   {
     return false;
   }
@@ -242,7 +242,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
 void Finish::dropOddPieces()
 {
   const StoredMesh before(mesh_, executor_);
-  const std::size_t shrunk = dropPieces(mesh_, ShrunkPart, AnyVertices);
+  const std::size_t shrunk = dropPieces(mesh_, ShrunkPart, AnyVertices, executor_);
   const std::size_t scraps = plan_.surface ? 0 : dropScraps(mesh_);
   if (shrunk + scraps > 0)
   {

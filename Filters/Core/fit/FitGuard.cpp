@@ -15,6 +15,8 @@ namespace neuralmesh
 namespace
 {
 constexpr std::size_t MostOfGuard = 5000;
+/// A part for the executor.
+constexpr std::size_t AskedPerRange = 64;
 /// A point is missed beyond so many of its own distances to its neighbours ...
 constexpr float MissedSpacings = 3.f;
 /// ... and of the median distance to the mesh: no noise is there.
@@ -106,28 +108,31 @@ bool FitGuard::losesPoints(const std::vector<float>& after, bool isRepaired)
 {
   const float least = MissedMedians * float(median(after));
   constexpr float Change = LeastChangeOfMissed * LeastChangeOfMissed;
-  const auto limitOf = [&](std::size_t i)
-  {
-    if (!spacing_)
-    {
-      spacing_.emplace(cloud_, executor_);
-    }
-    const float limit = std::max(least, MissedSpacings * spacing_->at(cloud_.points()[points_[i]]));
-    return limit * limit;
-  };
   /// How many are missed by `now`, and were not by `then`.
   const auto newlyMissed = [&](const std::vector<float>& now, const std::vector<float>& then)
   {
-    std::size_t count = 0;
+    const auto mayBe = [&](std::size_t i)
+    { return now[i] > least * least && now[i] > Change * then[i]; };
+    std::vector<std::size_t> asked;
     for (std::size_t i = 0; i < points_.size(); ++i)
     {
-      if (now[i] > least * least && now[i] > Change * then[i])
+      if (mayBe(i))
       {
-        const float limit = limitOf(i);
-        count += now[i] > limit && then[i] <= limit ? 1 : 0;
+        asked.push_back(i);
       }
     }
-    return count;
+    if (!asked.empty() && !spacing_)
+    {
+      spacing_.emplace(cloud_, executor_);
+    }
+    const auto isMissed = [&](std::size_t i)
+    {
+      const float limit =
+        std::max(least, MissedSpacings * spacing_->at(cloud_.points()[points_[i]]));
+      return now[i] > limit * limit && then[i] <= limit * limit;
+    };
+    return std::size_t(executor_.sum(
+      asked.size(), AskedPerRange, [&](std::size_t i) { return isMissed(asked[i]) ? 1. : 0.; }));
   };
   const std::size_t lost = newlyMissed(after, before_);
   if (lost == 0)

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace neuralmesh
 {
@@ -73,7 +72,9 @@ LocalSpacing::LocalSpacing(
       spacings_[v] = std::sqrt(area / std::max(1.f, count));
     });
   // Each triangle counts at three vertices.
-  const double area = std::accumulate(areas.begin(), areas.end(), 0.) / 3.;
+  const double area =
+    executor.sum(areas.size(), SpacingsPerRange, [&](std::size_t v) { return double(areas[v]); }) /
+    3.;
   usual_ = float(std::sqrt(area / double(std::max<std::size_t>(1, places.size()))));
 }
 }

@@ -18,7 +18,7 @@ constexpr std::size_t MostPoints = 20000;
 }
 
 MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles,
-  const Executor& executor, DistanceTo to)
+  const Executor& executor, DistanceTo to, const Progress& progress)
 {
   const std::vector<std::size_t> points = heldOutPoints(cloud, MostPoints);
   const std::vector<float> squared = squaredDistances(cloud, points, mesh, executor, to);
@@ -42,10 +42,17 @@ MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const Tria
   MeshQuality quality;
   quality.residual = weights > 0. ? cloud.unit() * std::sqrt(sum / weights) : 0.;
   quality.outlierShare = double(outliers) / double(points.size());
+  if (!progress(0.4))
+  {
+    return quality;
+  }
   quality.surface = reportSurface(triangles, executor);
   // What is closed has one inside.
   quality.turnedShare = quality.surface.boundaryLoops > 0 ? turnedShare(triangles) : 0.;
-  quality.narrowHandles = findNarrowHandles(mesh, executor);
+  if (progress(0.7))
+  {
+    quality.narrowHandles = findNarrowHandles(mesh, executor);
+  }
   return quality;
 }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/Progress.h"
 #include "cloud/PointCloud.h"
 #include "fit/HeldOutPoints.h"
 #include "mesh/Mesh.h"
@@ -24,7 +25,9 @@ struct MeshQuality
 };
 
 /// `triangles` are those of the mesh. Of very many points only some are measured; to the nearest triangle, of a surface,
-/// none is an outlier.
-MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles,
-  const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::SurfaceAgain);
+/// none is an outlier. Where `progress` ends it, the rest is as if nothing were found.
+MeshQuality measureQuality(
+  const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles,
+  const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::SurfaceAgain,
+  const Progress& progress = [](double) { return true; });
 }

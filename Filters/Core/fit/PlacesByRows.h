@@ -5,6 +5,7 @@
 #include "cloud/PlaceOnMesh.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,15 @@ public:
     }
   }
 
+  /// Parts that depend on the number of vertices alone.
+  static RowParts byWork(std::size_t indexEnd)
+  {
+    constexpr std::size_t FewestRows = 4096, MostParts = 64;
+    RowParts parts(indexEnd, Executor::sequential());
+    parts.shift_ = std::countr_zero(std::bit_ceil(std::max(FewestRows, indexEnd / MostParts)));
+    return parts;
+  }
+
   std::size_t count() const
   {
     return std::max<std::size_t>(1, (indexEnd_ + (std::uint64_t(1) << shift_) - 1) >> shift_);
@@ -61,9 +71,9 @@ template <typename IsUsed, typename Body>
 void forEachPlaceByRows(std::span<const PlaceOnMesh> places, const RowParts& parts,
   const Executor& executor, const IsUsed& isUsed, const Body& body)
 {
-  if (parts.count() == 1)
+  if (parts.count() == 1 || executor.threadCount() == 1)
   {
-    const VertexRows all = parts.rows(0);
+    const VertexRows all;
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       if (isUsed(i))
@@ -73,25 +83,41 @@ void forEachPlaceByRows(std::span<const PlaceOnMesh> places, const RowParts& par
     }
     return;
   }
-  // Of each range of the places, those that lie in each part.
+  // Of each range of the places, those that lie in each part: runs, as places that follow each other are mostly near.
+  struct Run
+  {
+    std::uint32_t begin, end;
+  };
   constexpr std::size_t PlacesPerRange = 16384;
   const std::size_t ranges = (places.size() + PlacesPerRange - 1) / PlacesPerRange;
-  std::vector<std::vector<std::uint32_t>> placesOf(ranges * parts.count());
+  std::vector<std::vector<Run>> runsOf(ranges * parts.count());
   executor.forEachRange(places.size(), PlacesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
-      const auto lists =
-        std::span(placesOf).subspan(begin / PlacesPerRange * parts.count(), parts.count());
-      for (std::size_t i = begin; i < end; ++i)
+      const auto runs =
+        std::span(runsOf).subspan(begin / PlacesPerRange * parts.count(), parts.count());
+      for (auto i = std::uint32_t(begin); i < end; ++i)
       {
-        const Triangle& corners = places[i].triangle;
-        for (std::size_t corner = 0; corner < 3 && isUsed(i); ++corner)
+        if (!isUsed(i))
         {
-          std::vector<std::uint32_t>& list = lists[parts.of(corners[corner])];
-          if (list.empty() || list.back() != i)
+          continue;
+        }
+        const auto addTo = [i](std::vector<Run>& ofPart)
+        {
+          if (ofPart.empty() || ofPart.back().end < i)
           {
-            list.push_back(std::uint32_t(i));
+            ofPart.push_back({ i, i });
           }
+          ofPart.back().end = i + 1;
+        };
+        const Triangle& corners = places[i].triangle;
+        const std::array<std::size_t, 3> partsOf{ parts.of(corners[0]), parts.of(corners[1]),
+          parts.of(corners[2]) };
+        addTo(runs[partsOf[0]]);
+        if (partsOf[1] != partsOf[0] || partsOf[2] != partsOf[0])
+        {
+          addTo(runs[partsOf[1]]);
+          addTo(runs[partsOf[2]]);
         }
       }
     });
@@ -101,9 +127,12 @@ void forEachPlaceByRows(std::span<const PlaceOnMesh> places, const RowParts& par
       const VertexRows rows = parts.rows(part);
       for (std::size_t range = 0; range < ranges; ++range)
       {
-        for (const std::uint32_t i : placesOf[range * parts.count() + part])
+        for (const Run run : runsOf[range * parts.count() + part])
         {
-          body(rows, i);
+          for (std::uint32_t i = run.begin; i < run.end; ++i)
+          {
+            body(rows, i);
+          }
         }
       }
     });

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/PointSpacing.h"
 
-#include "base/Morton.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace neuralmesh
 {
@@ -15,37 +14,33 @@ constexpr std::size_t MostOfSpacing = std::size_t(1) << 20;
 /// A part for the executor.
 constexpr std::size_t PickedPerRange = 16384;
 
-/// As many as are allowed, evenly picked, along a Morton curve.
+/// As many as are allowed, evenly picked; none if these are all.
 std::vector<Vector4> pickedFrom(const PointCloud& cloud, const Executor& executor)
 {
   const std::size_t all = cloud.points().size();
-  const std::size_t count = std::min(all, MostOfSpacing);
-  const auto forEach = [&](const auto& body)
+  if (all <= MostOfSpacing)
   {
-    executor.forEachRange(count, PickedPerRange,
-      [&](std::size_t begin, std::size_t end)
+    return {};
+  }
+  std::vector<Vector4> picked(MostOfSpacing);
+  executor.forEachRange(picked.size(), PickedPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
       {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          body(i);
-        }
-      });
-  };
-  std::vector<Vector4> picked(count), sorted(count);
-  forEach([&](std::size_t i) { picked[i] = cloud.points()[i * all / count]; });
-  const std::vector<std::uint32_t> order =
-    mortonOrder(picked, cloud.bulkMin(), cloud.bulkMax(), executor);
-  forEach([&](std::size_t i) { sorted[i] = picked[order[i]]; });
-  return sorted;
+        picked[i] = cloud.points()[i * all / MostOfSpacing];
+      }
+    });
+  return picked;
 }
 }
 
 PointSpacing::PointSpacing(const PointCloud& cloud, const Executor& executor)
   : points_(pickedFrom(cloud, executor))
-  , nearest_(points_)
+  , nearest_(points_.empty() ? cloud.points() : std::span<const Vector4>(points_), executor)
   // On a surface, the distance falls with the root of their number.
-  , scale_(float(
-      std::sqrt(double(points_.size()) / double(std::max<std::size_t>(1, cloud.points().size())))))
+  , scale_(float(std::sqrt(
+      double(nearest_.points().size()) / double(std::max<std::size_t>(1, cloud.points().size())))))
 {
 }
 

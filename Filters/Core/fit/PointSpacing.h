@@ -13,6 +13,7 @@ namespace neuralmesh
 /// How far the points of a cloud are from each other, at any place of it: the mean distance to the
 /// six nearest places with points. O(n) to make, and a query takes O(log n) however unevenly the
 /// points are spread. Of more than a million points it takes so many, evenly picked; 21 bytes for each.
+/// The cloud must outlive it.
 class PointSpacing
 {
 public:
@@ -27,7 +28,7 @@ public:
   float at(Vector4 point) const;
 
 private:
-  std::vector<Vector4> points_; ///< along a Morton curve
+  std::vector<Vector4> points_; ///< those picked; none if these are all of the cloud
   NearestPoints nearest_;       ///< of them
   float scale_ = 1.f;           ///< by which all points lie closer than those picked
 };

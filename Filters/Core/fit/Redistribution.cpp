@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/Redistribution.h"
 
+#include "base/ParallelSort.h"
 #include "fit/SampleBundle.h"
 #include "mesh/TriangleShape.h"
 
@@ -158,7 +159,13 @@ private:
           find(v, ranges[begin / VerticesPerSearch]);
         }
       });
+    std::size_t count = 0;
+    for (const std::vector<Found>& range : ranges)
+    {
+      count += range.size();
+    }
     std::vector<Found> all;
+    all.reserve(count);
     for (const std::vector<Found>& range : ranges)
     {
       all.insert(all.end(), range.begin(), range.end());
@@ -193,8 +200,9 @@ private:
           }
         }
       });
-    std::stable_sort(splits.begin(), splits.end(),
-      [](const WantedSplit& a, const WantedSplit& b) { return a.gain > b.gain; });
+    stableSort(
+      splits, [](const WantedSplit& a, const WantedSplit& b) { return a.gain > b.gain; },
+      executor_);
     return splits;
   }
 
@@ -215,8 +223,9 @@ private:
           found.push_back({ cost, v, NoVertex });
         }
       });
-    std::stable_sort(removals.begin(), removals.end(),
-      [](const CheapRemoval& a, const CheapRemoval& b) { return a.cost < b.cost; });
+    stableSort(
+      removals, [](const CheapRemoval& a, const CheapRemoval& b) { return a.cost < b.cost; },
+      executor_);
     return removals;
   }
 

@@ -81,7 +81,7 @@ bool removeUnbroken(Mesh& mesh, const StoredMesh& before, const Executor& execut
     {
       mesh = before.mesh(executor);
     }
-    const std::vector<AppliedChange> changes = removeSlivers(mesh, LeastQuality, refused);
+    const std::vector<AppliedChange> changes = removeSlivers(mesh, LeastQuality, refused, executor);
     if (changes.empty())
     {
       return false;

@@ -68,9 +68,9 @@ StoredPlaces::StoredPlaces(std::span<const PlaceOnMesh> places, const Executor& 
 {
 }
 
-LargeVector<PlaceOnMesh> StoredPlaces::places(const Executor& executor) const
+ZeroedArray<PlaceOnMesh> StoredPlaces::places(const Executor& executor) const
 {
-  LargeVector<PlaceOnMesh> result(count_);
+  ZeroedArray<PlaceOnMesh> result(count_);
   executor.forEachRange(count_, ByteBlocks::ItemsOfBlock,
     [&](std::size_t begin, std::size_t end)
     { readPlaces(bytes_.from(begin), std::span(result).subspan(begin, end - begin)); });

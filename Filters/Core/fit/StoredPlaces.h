@@ -3,7 +3,7 @@
 
 #include "base/ByteBlocks.h"
 #include "base/Executor.h"
-#include "base/LargePageAllocator.h"
+#include "base/ZeroedArray.h"
 #include "cloud/PlaceOnMesh.h"
 
 #include <cstddef>
@@ -19,7 +19,7 @@ public:
   StoredPlaces(std::span<const PlaceOnMesh> places, const Executor& executor);
 
   /// The places, with a distance of 0.
-  LargeVector<PlaceOnMesh> places(const Executor& executor) const;
+  ZeroedArray<PlaceOnMesh> places(const Executor& executor) const;
 
 private:
   std::size_t count_;

@@ -85,7 +85,7 @@ SurfaceFit::SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCo
     }
   }
   normals_ = GivenNormals(std::move(normals));
-  places_.resize(count);
+  places_ = ZeroedArray<PlaceOnMesh>(count);
   isUsed_.resize(count);
 }
 
@@ -386,10 +386,7 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
   }
   const std::span<Vector4> positions = mesh_.movablePositions();
   PackedVectors before(positions.size());
-  for (std::size_t v = 0; v < positions.size(); ++v)
-  {
-    before.set(v, positions[v]);
-  }
+  forEachVertex([&](VertexIndex v) { before.set(v, positions[v]); });
   const bool isDone = laidAside(before,
     [&]
     {
@@ -424,32 +421,24 @@ void SurfaceFit::follow(const ChangedVertices& changed)
     return;
   }
   std::vector<VertexIndex> newOf(mesh_.indexEnd());
-  for (VertexIndex v = 0; v < newOf.size(); ++v)
-  {
-    newOf[v] = changed.alive(mesh_, v);
-  }
+  forEachVertex([&](VertexIndex v) { newOf[v] = changed.alive(mesh_, v); });
   const std::vector<VertexIndex> oldOf = mesh_.dropErased(executor_);
   std::vector<VertexIndex> place(newOf.size());
   std::vector<VertexIndex> opposite(oldOf.size());
   const std::vector<std::uint8_t> wasKept = isKept_;
   isKept_.resize(isKept_.empty() ? 0 : oldOf.size());
-  for (VertexIndex v = 0; v < oldOf.size(); ++v)
-  {
-    place[oldOf[v]] = v;
-  }
-  for (VertexIndex& v : newOf)
-  {
-    v = place[v];
-  }
-  for (VertexIndex v = 0; v < oldOf.size(); ++v)
-  {
-    VertexIndex old = oldOf[v];
-    while (old >= opposite_.size())
+  forEachVertex([&](VertexIndex v) { place[oldOf[v]] = v; });
+  const auto nowOf = [&](VertexIndex old) { return place[newOf[old]]; };
+  forEachVertex(
+    [&](VertexIndex v)
     {
-      old = changed.heir[old];
-    }
-    opposite[v] = opposite_[old] == NoVertex ? NoVertex : newOf[opposite_[old]];
-  }
+      VertexIndex old = oldOf[v];
+      while (old >= opposite_.size())
+      {
+        old = changed.heir[old];
+      }
+      opposite[v] = opposite_[old] == NoVertex ? NoVertex : nowOf(opposite_[old]);
+    });
   opposite_ = std::move(opposite);
   executor_.forEachRange(places_.size(), SamplesPerRange,
     [&](std::size_t begin, std::size_t end)
@@ -459,8 +448,7 @@ void SurfaceFit::follow(const ChangedVertices& changed)
         Triangle& triangle = places_[i].triangle;
         const bool isChanged = std::any_of(triangle.begin(), triangle.end(),
           [&](VertexIndex v) { return changed.isTouched[v] != 0; });
-        std::transform(triangle.begin(), triangle.end(), triangle.begin(),
-          [&](VertexIndex v) { return newOf[v]; });
+        std::transform(triangle.begin(), triangle.end(), triangle.begin(), nowOf);
         if (isChanged)
         {
           places_[i] = closestPlaceAround(

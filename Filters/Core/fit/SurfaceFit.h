@@ -4,6 +4,7 @@
 #include "base/Executor.h"
 #include "base/PackedVectors.h"
 #include "base/Progress.h"
+#include "base/ZeroedArray.h"
 #include "cloud/PlaceOnMesh.h"
 #include "cloud/PointCloud.h"
 #include "fit/ChangedVertices.h"
@@ -158,7 +159,7 @@ private:
       return solve();
     }
     const StoredPlaces stored(places_, executor_);
-    LargeVector<PlaceOnMesh>().swap(places_);
+    places_ = ZeroedArray<PlaceOnMesh>();
     const bool isDone = solve();
     places_ = stored.places(executor_);
     executor_.forEachRange(places_.size(), SamplesPerRange,
@@ -170,6 +171,19 @@ private:
         }
       });
     return isDone;
+  }
+  /// Calls `body(v)` for all vertices, threads of the executor at the same time.
+  template <typename Body>
+  void forEachVertex(const Body& body) const
+  {
+    executor_.forEachRange(mesh_.indexEnd(), VerticesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (auto v = VertexIndex(begin); v < end; ++v)
+        {
+          body(v);
+        }
+      });
   }
   /// Calls `body(rows, sample)` for the samples that are used, and the rows of those of their corners that a part has:
   /// these add up in the order of the samples, however many parts there are.
@@ -218,7 +232,7 @@ private:
   double normalWeight_ = 0.;
   std::vector<float> weights_;       ///< of the samples; empty if all weigh alike
   std::vector<std::uint32_t> views_; ///< likewise; empty if none is known
-  LargeVector<PlaceOnMesh> places_;
+  ZeroedArray<PlaceOnMesh> places_;
   /// Of the samples, those that are no outliers, and have not switched to the other side of a thin part.
   std::vector<std::uint8_t> isUsed_;
   std::vector<VertexIndex> opposite_; ///< of each vertex, see OppositeLayer.h

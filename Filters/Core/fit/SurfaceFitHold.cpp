@@ -59,14 +59,20 @@ std::vector<std::uint8_t> SurfaceFit::lostPlaces(const Distance& squaredBefore) 
     return result;
   }
   std::vector<float> all(mesh_.indexEnd()), lost(mesh_.indexEnd());
-  for (std::size_t i = 0; i < samples_.size(); ++i)
-  {
-    for (const VertexIndex v : places_[i].triangle)
+  forEachPlaceByRows(
+    places_, RowParts(mesh_.indexEnd(), executor_), executor_, [](std::size_t) { return true; },
+    [&](const VertexRows& rows, std::size_t i)
     {
-      all[v] += squaredBefore(i) >= 0.f ? 1.f : 0.f;
-      lost[v] += float(lostSamples[i]);
-    }
-  }
+      const float counts = squaredBefore(i) >= 0.f ? 1.f : 0.f;
+      for (const VertexIndex v : places_[i].triangle)
+      {
+        if (rows.has(v))
+        {
+          all[v] += counts;
+          lost[v] += float(lostSamples[i]);
+        }
+      }
+    });
   const float sparse = SparseSpacings * spacing_->usual();
   for (VertexIndex v = 0; v < result.size(); ++v)
   {

@@ -156,14 +156,7 @@ std::vector<float> SurfaceFit::squaredBends(std::span<const Vector4> positions) 
     const float squared = squaredNorm(normal);
     return squared > 0.f ? across * across / squared : 0.f;
   };
-  executor_.forEachRange(positions.size(), VerticesPerRange,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (auto v = VertexIndex(begin); v < end; ++v)
-      {
-        result[v] = bendAt(v);
-      }
-    });
+  forEachVertex([&](VertexIndex v) { result[v] = bendAt(v); });
   return result;
 }
 
@@ -185,14 +178,12 @@ std::vector<float> SurfaceFit::supports() const
         }
       }
     });
-  double sum = 0.;
-  for (std::size_t i = 0; i < places_.size(); ++i)
-  {
-    for (int corner = 0; corner < 3 && isUsed(i); ++corner)
+  const double sum = executor_.sum(places_.size(), SamplesPerRange,
+    [&](std::size_t i)
     {
-      sum += double(squareAt(i, corner));
-    }
-  }
+      return isUsed(i) ? double(squareAt(i, 0)) + double(squareAt(i, 1)) + double(squareAt(i, 2))
+                       : 0.;
+    });
   const float enough = EnoughSupport * float(sum / double(result.size()));
   for (float& support : result)
   {
@@ -212,12 +203,13 @@ std::vector<float> SurfaceFit::creaseParts(double deviations) const
     std::max(double(medianOf(parts, executor_)) / MedianOfSquares, LeastPartOfMeanBend * mean);
   const auto limit = float(deviations * deviations * usual);
   const std::vector<float> support = supports();
-  for (std::size_t v = 0; v < parts.size(); ++v)
-  {
-    float& part = parts[v];
-    part = limit > 0.f ? std::max(LeastSmoothnessPart, limit / (limit + part)) : 1.f;
-    part = 1.f - support[v] * (1.f - part);
-  }
+  forEachVertex(
+    [&](VertexIndex v)
+    {
+      float& part = parts[v];
+      part = limit > 0.f ? std::max(LeastSmoothnessPart, limit / (limit + part)) : 1.f;
+      part = 1.f - support[v] * (1.f - part);
+    });
   return parts;
 }
 
@@ -286,21 +278,19 @@ void SurfaceFit::shiftAgainstNoise(double variance)
     return float(2. * variance) * across / (squared * edges) * normal;
   };
   std::vector<Vector4> shifts(positions.size()), next(positions.size());
-  for (VertexIndex v = 0; v < positions.size(); ++v)
-  {
-    shifts[v] = shiftAt(v);
-  }
+  forEachVertex([&](VertexIndex v) { shifts[v] = shiftAt(v); });
   for (int ring = 0; ring < RingsOfShifts; ++ring)
   {
-    for (VertexIndex v = 0; v < positions.size(); ++v)
-    {
-      Vector4 sum = shifts[v];
-      for (const VertexIndex neighbor : mesh_.ring(v))
+    forEachVertex(
+      [&](VertexIndex v)
       {
-        sum += shifts[neighbor];
-      }
-      next[v] = 1.f / float(1 + mesh_.valence(v)) * sum;
-    }
+        Vector4 sum = shifts[v];
+        for (const VertexIndex neighbor : mesh_.ring(v))
+        {
+          sum += shifts[neighbor];
+        }
+        next[v] = 1.f / float(1 + mesh_.valence(v)) * sum;
+      });
     shifts.swap(next);
   }
   shifts_ = std::move(shifts);

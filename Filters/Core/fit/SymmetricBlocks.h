@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/LargePageAllocator.h"
 #include "base/PackedVectors.h"
 #include "base/Vector4.h"
+#include "base/ZeroedArray.h"
 
 #include <Eigen/LU>
 
@@ -73,6 +73,6 @@ public:
 private:
   static constexpr std::size_t BlockSize = 6;
 
-  LargeVector<float> values_;
+  ZeroedArray<float> values_;
 };
 }

@@ -11,6 +11,8 @@ namespace
 /// Of the sum of squares of so many Gaussian samples, which is their number but for the root of twice as
 /// many.
 constexpr double ExcessDeviations = 2.;
+/// A part for the executor.
+constexpr std::size_t LoadsPerRange = 16384;
 
 /// Corners in rising order.
 Triangle inOrder(VertexIndex a, VertexIndex b, VertexIndex c)
@@ -29,7 +31,7 @@ double SampleLoad::excess(double variance) const
 TriangleSamples::TriangleSamples(
   const PlacedSamples& samples, std::size_t indexEnd, const Executor& executor)
   : samples_(samples)
-  , parts_(indexEnd, executor)
+  , parts_(RowParts::byWork(indexEnd))
   , entries_(indexEnd, None)
   , triangles_(parts_.count())
   , next_(std::make_unique_for_overwrite<std::uint32_t[]>(samples.points.size()))
@@ -47,29 +49,27 @@ TriangleSamples::TriangleSamples(
       const Triangle corners = inOrder(place.triangle[0], place.triangle[1], place.triangle[2]);
       if (rows.has(corners[0]))
       {
-        put(std::uint32_t(i), corners, place.squaredDistance);
+        putInto(parts_.of(corners[0]), std::uint32_t(i), corners, place.squaredDistance);
       }
     });
-  for (std::size_t i = 0; i < samples.points.size(); ++i)
-  {
-    if (isUsed(i))
-    {
-      const double weight = double(samples.weight(i));
-      total_ += { weight, weight * double(squaredDistances_[i]) };
-    }
-  }
+  const auto weightOf = [&](std::size_t i) { return isUsed(i) ? double(samples.weight(i)) : 0.; };
+  total_ = { executor.sum(samples.points.size(), LoadsPerRange, weightOf),
+    executor.sum(samples.points.size(), LoadsPerRange,
+      [&](std::size_t i) { return isUsed(i) ? weightOf(i) * double(squaredDistances_[i]) : 0.; }) };
 }
 
 const TriangleSamples::Entry* TriangleSamples::find(const Triangle& corners) const
 {
   const auto [least, middle, most] = corners;
-  const std::vector<Entry>& triangles = triangles_[parts_.of(least)];
-  std::uint32_t at = entries_[least];
-  while (at != None && (triangles[at].middle != middle || triangles[at].most != most))
+  for (std::uint32_t number = entries_[least]; number != None; number = entry(number).next)
   {
-    at = triangles[at].next;
+    const Entry& at = entry(number);
+    if (at.middle == middle && at.most == most)
+    {
+      return &at;
+    }
   }
-  return at == None ? nullptr : &triangles[at];
+  return nullptr;
 }
 
 SampleLoad TriangleSamples::load(VertexIndex a, VertexIndex b, VertexIndex c) const
@@ -99,21 +99,22 @@ void TriangleSamples::take(
   }
 }
 
-void TriangleSamples::put(
-  std::uint32_t sample, VertexIndex a, VertexIndex b, VertexIndex c, float squaredDistance)
+void TriangleSamples::put(std::uint32_t sample, VertexIndex a, VertexIndex b, VertexIndex c,
+  float squaredDistance, std::size_t writer)
 {
-  put(sample, inOrder(a, b, c), squaredDistance);
+  putInto(parts_.count() + writer, sample, inOrder(a, b, c), squaredDistance);
 }
 
-void TriangleSamples::put(std::uint32_t sample, const Triangle& corners, float squaredDistance)
+void TriangleSamples::putInto(
+  std::size_t store, std::uint32_t sample, const Triangle& corners, float squaredDistance)
 {
   Entry* entry = find(corners);
   if (!entry)
   {
-    std::vector<Entry>& triangles = triangles_[parts_.of(corners[0])];
+    std::vector<Entry>& triangles = triangles_[store];
     std::uint32_t& first = entries_[corners[0]];
     triangles.push_back({ corners[1], corners[2], first, None, None, {} });
-    first = std::uint32_t(triangles.size() - 1);
+    first = std::uint32_t(store) << BitsOfPlace | std::uint32_t(triangles.size() - 1);
     entry = &triangles.back();
   }
   (entry->last == None ? entry->first : next_[entry->last]) = sample;

@@ -48,7 +48,8 @@ struct SampleLoad
 
 /// Which samples lie on which triangle of a mesh: a triangle is named by its corners, in any order. Each
 /// triangle with samples is in a list of its least corner, so that edges can be flipped. Who only asks may do so
-/// on several threads.
+/// on several threads. So may who changes triangles, each with a writer of its own, as long as no two change, or ask
+/// for, triangles of the same least corner.
 class TriangleSamples
 {
 public:
@@ -61,9 +62,11 @@ public:
     VertexIndex a, VertexIndex b, VertexIndex c, std::vector<std::uint32_t>& found) const;
   /// The same, and takes them from there.
   void take(VertexIndex a, VertexIndex b, VertexIndex c, std::vector<std::uint32_t>& found);
+  /// So many are at work.
+  void setWriters(std::size_t count) { triangles_.resize(parts_.count() + count); }
   /// Puts a sample that was taken on a triangle.
-  void put(
-    std::uint32_t sample, VertexIndex a, VertexIndex b, VertexIndex c, float squaredDistance);
+  void put(std::uint32_t sample, VertexIndex a, VertexIndex b, VertexIndex c, float squaredDistance,
+    std::size_t writer);
 
   Vector4 point(std::uint32_t sample) const { return samples_.points[sample]; }
   float weight(std::uint32_t sample) const { return samples_.weight(sample); }
@@ -74,6 +77,9 @@ public:
 
 private:
   static constexpr std::uint32_t None = 0xffffffffu;
+  /// An entry is known by the store in which it is, and its place there.
+  static constexpr unsigned BitsOfPlace = 24;
+  static constexpr std::uint32_t MostPlaces = std::uint32_t(1) << BitsOfPlace;
 
   /// A triangle that has, or had, samples.
   struct Entry
@@ -90,13 +96,19 @@ private:
   {
     return const_cast<Entry*>(std::as_const(*this).find(corners));
   }
-  void put(std::uint32_t sample, const Triangle& corners, float squaredDistance);
+  const Entry& entry(std::uint32_t number) const
+  {
+    return triangles_[number >> BitsOfPlace][number % MostPlaces];
+  }
+  void putInto(
+    std::size_t store, std::uint32_t sample, const Triangle& corners, float squaredDistance);
 
   PlacedSamples samples_;
   RowParts parts_;
-  std::vector<std::uint32_t> entries_;        ///< the first of each vertex, in its part
-  std::vector<std::vector<Entry>> triangles_; ///< of each part, by their least corner
-  std::unique_ptr<std::uint32_t[]> next_;     ///< of each sample that is used, on the same triangle
+  std::vector<std::uint32_t> entries_; ///< the first of each vertex
+  /// Those of each part of the vertices, by their least corner, and what each writer has added.
+  std::vector<std::vector<Entry>> triangles_;
+  std::unique_ptr<std::uint32_t[]> next_; ///< of each sample that is used, on the same triangle
   std::unique_ptr<float[]> squaredDistances_;
   SampleLoad total_;
 };

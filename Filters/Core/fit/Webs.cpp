@@ -24,8 +24,9 @@ constexpr float LeastBackwards = 0.8f;
 /// Of the area of a side: behind which is the other one.
 constexpr double LeastOfSide = 0.5;
 
-/// A part for the executor.
+/// Parts for the executor.
 constexpr std::size_t PiecesPerRange = 64;
+constexpr std::size_t TrianglesOfPart = 4096;
 constexpr std::uint32_t NoneBehind = ~0u;
 constexpr std::size_t NoPiece = ~std::size_t(0);
 
@@ -35,12 +36,12 @@ public:
   WebSearch(const Mesh& mesh, std::span<const Triangle> triangles,
     std::span<const EmptyPiece> pieces, const Executor& executor)
     : mesh_(mesh)
-    , meanEdge_(mesh.meanEdge())
+    , meanEdge_(mesh.meanEdge(executor))
     , triangles_(triangles)
     , pieces_(pieces)
     , sorted_(sortedByPlace(mesh, triangles, executor))
-    , centers_(centersOf(mesh, triangles, sorted_))
-    , nearest_(centers_)
+    , centers_(centersOf(mesh, triangles, sorted_, executor))
+    , nearest_(centers_, executor)
     , pieceOf_(triangles.size(), NoPiece)
   {
     for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -76,23 +77,37 @@ private:
   static std::vector<std::uint32_t> sortedByPlace(
     const Mesh& mesh, std::span<const Triangle> triangles, const Executor& executor)
   {
-    Box box;
-    std::vector<Vector4> centers;
-    centers.reserve(triangles.size());
-    for (const Triangle& triangle : triangles)
+    std::vector<Vector4> centers(triangles.size());
+    std::vector<Box> bounds((triangles.size() + TrianglesOfPart - 1) / TrianglesOfPart);
+    executor.forEachRange(triangles.size(), TrianglesOfPart,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t t = begin; t < end; ++t)
+        {
+          centers[t] = centerOf(mesh, triangles[t]);
+          bounds[begin / TrianglesOfPart].extend(centers[t]);
+        }
+      });
+    Box all;
+    for (const Box& box : bounds)
     {
-      centers.push_back(centerOf(mesh, triangle));
-      box.extend(centers.back());
+      all.extend(box);
     }
-    return mortonOrder(centers, box.low, box.high, executor);
+    return mortonOrder(centers, all.low, all.high, executor);
   }
 
-  static std::vector<Vector4> centersOf(
-    const Mesh& mesh, std::span<const Triangle> triangles, std::span<const std::uint32_t> order)
+  static std::vector<Vector4> centersOf(const Mesh& mesh, std::span<const Triangle> triangles,
+    std::span<const std::uint32_t> order, const Executor& executor)
   {
     std::vector<Vector4> centers(order.size());
-    std::transform(order.begin(), order.end(), centers.begin(),
-      [&](std::uint32_t t) { return centerOf(mesh, triangles[t]); });
+    executor.forEachRange(order.size(), TrianglesOfPart,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          centers[i] = centerOf(mesh, triangles[order[i]]);
+        }
+      });
     return centers;
   }
 

@@ -334,22 +334,30 @@ void ParallelLearner::subdivideAll()
   const std::span<float> activity = mesh_.values(activity_);
   const std::span<std::uint8_t> isThin = mesh_.values(isThin_);
   const std::size_t count = activityBefore.size();
-  for (std::size_t v = 0; v < count; ++v)
-  {
-    activity[v] = 0.25f * activityBefore[v];
-    isThin[v] = isThinBefore[v];
-  }
-  for (std::size_t i = 0; i < finer.edges.size(); ++i)
-  {
-    const auto& [a, b] = finer.edges[i];
-    const auto middle = VertexIndex(count + i);
-    const Vector4 edge = mesh_.position(b) - mesh_.position(a);
-    mesh_.setPosition(middle,
-      mesh_.position(middle) +
-        0.125f * (dot(edge, normal[b]) * normal[b] - dot(edge, normal[a]) * normal[a]));
-    activity[middle] = 0.125f * (activityBefore[a] + activityBefore[b]);
-    isThin[middle] = isThinBefore[a] | isThinBefore[b];
-  }
+  executor_.forEachRange(count, VerticesOfPart,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        activity[v] = 0.25f * activityBefore[v];
+        isThin[v] = isThinBefore[v];
+      }
+    });
+  executor_.forEachRange(finer.edges.size(), VerticesOfPart,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const auto& [a, b] = finer.edges[i];
+        const auto middle = VertexIndex(count + i);
+        const Vector4 edge = mesh_.position(b) - mesh_.position(a);
+        mesh_.setPosition(middle,
+          mesh_.position(middle) +
+            0.125f * (dot(edge, normal[b]) * normal[b] - dot(edge, normal[a]) * normal[a]));
+        activity[middle] = 0.125f * (activityBefore[a] + activityBefore[b]);
+        isThin[middle] = isThinBefore[a] | isThinBefore[b];
+      }
+    });
   counts_.additions += finer.edges.size();
   nextRemoval_ = counts_.additions + removalInterval();
   updateDecay();

@@ -2,9 +2,12 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/PackedVectors.h"
 #include "base/Vector4.h"
+#include "base/ZeroedArray.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -29,8 +32,10 @@ struct Box
   }
   bool overlaps(const Box& other) const
   {
-    return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&
-      other.low[1] <= high[1] && low[2] <= other.high[2] && other.low[2] <= high[2];
+    // In the last lane all are 0.
+    const auto isApart = (low.lanes > other.high.lanes) | (other.low.lanes > high.lanes);
+    const auto halves = std::bit_cast<std::array<std::int64_t, 2>>(isApart);
+    return (halves[0] | halves[1]) == 0;
   }
 
 private:
@@ -44,11 +49,11 @@ struct PackedBox
 
   PackedBox() = default;
   explicit PackedBox(const Box& box)
-    : low{ box.low[0], box.low[1], box.low[2] }
-    , high{ box.high[0], box.high[1], box.high[2] }
   {
+    PackedVectors::write(low.data(), box.low);
+    PackedVectors::write(high.data(), box.high);
   }
-  Box box() const { return { { low[0], low[1], low[2] }, { high[0], high[1], high[2] } }; }
+  Box box() const { return { PackedVectors::read(low.data()), PackedVectors::read(high.data()) }; }
 };
 
 /// Where the nodes of a BoxTree are, which depends on the number of boxes alone.
@@ -89,7 +94,7 @@ public:
   template <typename Use>
   void forEachOverlap(const Use& use) const
   {
-    if (nodes_.empty())
+    if (nodes_.size() == 0)
     {
       return;
     }
@@ -313,6 +318,6 @@ private:
   std::uint32_t count_;
   const BoxOf& boxOf_;
   const Executor& executor_;
-  std::vector<Node> nodes_;
+  ZeroedArray<Node> nodes_;
 };
 }

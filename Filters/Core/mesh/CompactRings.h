@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/ZeroedArray.h"
 #include "mesh/Mesh.h"
 
 #include <cstdint>
@@ -30,7 +31,7 @@ public:
 
 private:
   std::vector<std::uint32_t> begin_; ///< and where the last one ends
-  LargeVector<VertexIndex> neighbors_;
+  ZeroedArray<VertexIndex> neighbors_;
   std::vector<std::uint8_t> isOpen_;
 };
 

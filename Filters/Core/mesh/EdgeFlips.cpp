@@ -4,7 +4,10 @@
 #include "mesh/TriangleShape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace neuralmesh
 {
@@ -17,6 +20,8 @@ constexpr float CosineOfRim = -0.5f;
 /// Triangles lower than a thousandth of their edge have no normal to speak of.
 constexpr float SquaredHeightOfSliver = 1e-6f;
 constexpr int MaximumPasses = 4;
+/// A part for the executor.
+constexpr std::size_t VerticesAskedPerRange = 1024;
 /// Of an edge: what lies between it and the one that it is flipped to, if it is flat. Triangles that come to be there
 /// are no slivers.
 constexpr float MostHeightOfFlat = 0.002f;
@@ -63,46 +68,46 @@ bool isFlat(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, Verte
     MostHeightOfFlat * MostHeightOfFlat * squaredNorm(edge) * squaredNorm(across);
 }
 
-/// Flips a-b if that is legal and the edge between the opposite vertices is better: for the
-/// valences, or to retract a rim.
+using OppositeVertices = std::array<VertexIndex, 2>;
+
+/// Those of a-b, if it is legal to flip that and the edge between them is better: for the valences, or
+/// to retract a rim. Else there are none.
 template <typename MayTouch>
-bool flipIfBetter(Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims, EdgesToFlip which,
-  const MayTouch& mayTouch)
+OppositeVertices betterThan(const Mesh& mesh, VertexIndex a, VertexIndex b, bool retractsRims,
+  EdgesToFlip which, const MayTouch& mayTouch)
 {
+  constexpr OppositeVertices None{ NoVertex, NoVertex };
   const Ring& ring = mesh.ring(a);
   const unsigned slot = ring.find(b);
   if (slot == ring.size())
   {
-    return false;
+    return None;
   }
   const VertexIndex c = ring.next(slot);
   const VertexIndex d = ring.previous(slot);
   if (c == NoVertex || d == NoVertex || !mayTouch(c) || !mayTouch(d) ||
     (which == EdgesToFlip::Flat && !isFlat(mesh, a, b, c, d)))
   {
-    return false;
+    return None;
   }
   if (which == EdgesToFlip::Flat &&
     std::min(radiusRatio(mesh.position(a), mesh.position(d), mesh.position(c)),
       radiusRatio(mesh.position(b), mesh.position(c), mesh.position(d))) < LeastRatioOfFlat)
   {
-    return false;
+    return None;
   }
   const bool isBetter =
     isMoreRegular(mesh, a, b, c, d) || (retractsRims && isRimOfSheets(mesh, a, b, c, d));
-  if (!isBetter || !mesh.canFlip(a, b))
-  {
-    return false;
-  }
-  mesh.flip(a, b);
-  return true;
+  return isBetter && mesh.canFlip(a, b) ? OppositeVertices{ c, d } : None;
 }
+
 constexpr auto any = [](VertexIndex) { return true; };
 
-template <typename MayTouch>
-unsigned flipAround(Mesh& mesh, VertexIndex v, EdgesToFlip which, const MayTouch& mayTouch)
+/// Calls `flip(a, b)` for the edges of the triangles around a vertex, as they are in turn, and for those to its
+/// neighbours; it tells whether it has flipped the edge. Again, as long as any was. Returns how many were.
+template <typename MayTouch, typename FlipEdge>
+unsigned flipAround(const Mesh& mesh, VertexIndex v, const MayTouch& mayTouch, const FlipEdge& flip)
 {
-  const bool retractsRims = which == EdgesToFlip::All;
   unsigned flips = 0;
   bool improved = true;
   for (int pass = 0; improved && pass < MaximumPasses; ++pass)
@@ -118,15 +123,48 @@ unsigned flipAround(Mesh& mesh, VertexIndex v, EdgesToFlip which, const MayTouch
         continue;
       }
       const bool opposite = next != NoVertex && mayTouch(next) &&
-        mesh.ring(neighbor).contains(next) &&
-        flipIfBetter(mesh, neighbor, next, retractsRims, which, mayTouch);
-      const bool spoke = mesh.ring(v).contains(neighbor) &&
-        flipIfBetter(mesh, v, neighbor, retractsRims, which, mayTouch);
+        mesh.ring(neighbor).contains(next) && flip(neighbor, next);
+      const bool spoke = mesh.ring(v).contains(neighbor) && flip(v, neighbor);
       flips += unsigned(opposite) + unsigned(spoke);
       improved = improved || opposite || spoke;
     }
   }
   return flips;
+}
+
+/// The same for those that are better flipped. `onFlip` is told the four vertices of each.
+template <typename MayTouch, typename OnFlip>
+unsigned flipBetterAround(
+  Mesh& mesh, VertexIndex v, EdgesToFlip which, const MayTouch& mayTouch, const OnFlip& onFlip)
+{
+  return flipAround(mesh, v, mayTouch,
+    [&](VertexIndex a, VertexIndex b)
+    {
+      const OppositeVertices other =
+        betterThan(mesh, a, b, which == EdgesToFlip::All, which, mayTouch);
+      if (other[0] == NoVertex)
+      {
+        return false;
+      }
+      mesh.flip(a, b);
+      onFlip(std::array{ a, b, other[0], other[1] });
+      return true;
+    });
+}
+
+constexpr auto ignore = [](const std::array<VertexIndex, 4>&) {};
+
+/// Whether any edge is flipped around a vertex.
+bool wouldFlipAround(const Mesh& mesh, VertexIndex v, EdgesToFlip which)
+{
+  bool would = false;
+  flipAround(mesh, v, any,
+    [&](VertexIndex a, VertexIndex b)
+    {
+      would = would || betterThan(mesh, a, b, which == EdgesToFlip::All, which, any)[0] != NoVertex;
+      return false;
+    });
+  return would;
 }
 }
 
@@ -140,7 +178,12 @@ int valenceGain(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c, V
 
 bool flipIfMoreRegular(Mesh& mesh, VertexIndex a, VertexIndex b)
 {
-  return flipIfBetter(mesh, a, b, false, EdgesToFlip::All, any);
+  if (betterThan(mesh, a, b, false, EdgesToFlip::All, any)[0] == NoVertex)
+  {
+    return false;
+  }
+  mesh.flip(a, b);
+  return true;
 }
 
 bool isFlatEdge(const Mesh& mesh, VertexIndex a, VertexIndex b)
@@ -153,23 +196,55 @@ bool isFlatEdge(const Mesh& mesh, VertexIndex a, VertexIndex b)
 
 unsigned flipEdgesAround(Mesh& mesh, VertexIndex v, EdgesToFlip which)
 {
-  return flipAround(mesh, v, which, any);
+  return flipBetterAround(mesh, v, which, any, ignore);
 }
 
 unsigned flipMarkedEdgesAround(
   Mesh& mesh, VertexIndex v, std::span<const std::uint64_t> marks, std::uint64_t mark)
 {
-  return flipAround(mesh, v, EdgesToFlip::All, [&](VertexIndex u) { return marks[u] == mark; });
+  return flipBetterAround(
+    mesh, v, EdgesToFlip::All, [&](VertexIndex u) { return marks[u] == mark; }, ignore);
 }
 
-void flipEdges(Mesh& mesh, EdgesToFlip which)
+void flipEdges(Mesh& mesh, EdgesToFlip which, const Executor& executor)
 {
+  // On several threads, all vertices are asked ahead. What was answered holds as long as there was no flip at the
+  // triangles around the vertex, or at those next to these.
+  const bool asksAhead = executor.threadCount() > 1;
+  std::vector<std::uint8_t> isToBeAsked(mesh.indexEnd(), 1);
+  if (asksAhead)
+  {
+    executor.forEachRange(isToBeAsked.size(), VerticesAskedPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (auto v = VertexIndex(begin); v < end; ++v)
+        {
+          isToBeAsked[v] = wouldFlipAround(mesh, v, which) ? 1 : 0;
+        }
+      });
+  }
+  const auto askAround = [&](const std::array<VertexIndex, 4>& changed)
+  {
+    for (const VertexIndex v : changed)
+    {
+      for (const VertexIndex neighbor : mesh.ring(v))
+      {
+        isToBeAsked[neighbor] = 1;
+        for (const VertexIndex far : mesh.ring(neighbor))
+        {
+          isToBeAsked[far] = 1;
+        }
+      }
+    }
+  };
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
-    if (mesh.isAlive(v))
+    if (isToBeAsked[v] == 0)
     {
-      flipEdgesAround(mesh, v, which);
+      continue;
     }
+    asksAhead ? flipBetterAround(mesh, v, which, any, askAround)
+              : flipBetterAround(mesh, v, which, any, ignore);
   }
 }
 }

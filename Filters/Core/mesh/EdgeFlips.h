@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/Mesh.h"
 
 #include <cstdint>
@@ -27,7 +28,8 @@ unsigned flipMarkedEdgesAround(
   Mesh& mesh, VertexIndex v, std::span<const std::uint64_t> marks, std::uint64_t mark);
 
 /// The same around all vertices.
-void flipEdges(Mesh& mesh, EdgesToFlip which = EdgesToFlip::All);
+void flipEdges(Mesh& mesh, EdgesToFlip which = EdgesToFlip::All,
+  const Executor& executor = Executor::sequential());
 
 /// Whether a flip of a-b moves the surface so little that the edge counts as flat. An edge at the boundary does
 /// not.

@@ -8,15 +8,14 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace neuralmesh
 {
 namespace
 {
-/// Parts for an executor.
+/// A part for an executor.
 constexpr std::size_t MeshVerticesPerRange = 4096;
-constexpr std::size_t MeanEdgesPerRange = 512;
-constexpr std::size_t MeanEdgeRanges = 64;
 }
 
 Mesh::Mesh(LargeVector<Vector4> positions, LargeVector<Ring> rings)
@@ -64,62 +63,25 @@ Vector4 Mesh::normal(VertexIndex v) const
   return rotated(sum);
 }
 
-double Mesh::meanEdge() const
-{
-  double sum = 0.;
-  std::size_t count = 0;
-  for (VertexIndex v = 0; v < indexEnd(); ++v)
-  {
-    for (const VertexIndex neighbor : ring(v))
-    {
-      sum += double(std::sqrt(squaredNorm(position(neighbor) - position(v))));
-      ++count;
-    }
-  }
-  return sum / double(count);
-}
+double Mesh::meanEdge() const { return meanEdge(Executor::sequential()); }
 
 double Mesh::meanEdge(const Executor& executor) const
 {
-  if (executor.threadCount() == 1)
-  {
-    return meanEdge();
-  }
-  // In blocks: the lengths on all threads, those of a part one behind the other, their sum in the order of the vertices.
-  constexpr std::size_t LengthsOfRange = MeanEdgesPerRange * Ring::Capacity;
-  std::vector<float> lengths(MeanEdgeRanges * LengthsOfRange);
-  std::array<std::size_t, MeanEdgeRanges> counts{};
-  constexpr std::size_t VerticesOfBlock = MeanEdgeRanges * MeanEdgesPerRange;
-  double sum = 0.;
-  std::size_t count = 0;
-  for (std::size_t first = 0; first < indexEnd(); first += VerticesOfBlock)
-  {
-    counts.fill(0);
-    executor.forEachRange(std::min(VerticesOfBlock, indexEnd() - first), MeanEdgesPerRange,
-      [&](std::size_t begin, std::size_t end)
-      {
-        const std::size_t range = begin / MeanEdgesPerRange;
-        float* length = &lengths[range * LengthsOfRange];
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          const auto v = VertexIndex(first + i);
-          for (const VertexIndex neighbor : ring(v))
-          {
-            *length++ = std::sqrt(squaredNorm(position(neighbor) - position(v)));
-          }
-          counts[range] += valence(v);
-        }
-      });
-    for (std::size_t range = 0; range < MeanEdgeRanges; ++range)
+  // By ranges, each edge once: so it is the same on any number of threads.
+  const double sum = executor.sum(indexEnd(), MeshVerticesPerRange,
+    [this](std::size_t v)
     {
-      for (const float length : std::span(lengths).subspan(range * LengthsOfRange, counts[range]))
+      double lengths = 0.;
+      for (const VertexIndex neighbor : rings_[v])
       {
-        sum += double(length);
+        lengths +=
+          neighbor > v ? double(std::sqrt(squaredNorm(positions_[neighbor] - positions_[v]))) : 0.;
       }
-      count += counts[range];
-    }
-  }
-  return sum / double(count);
+      return lengths;
+    });
+  const double sides = executor.sum(
+    indexEnd(), MeshVerticesPerRange, [this](std::size_t v) { return rings_[v].size(); });
+  return 2. * sum / sides;
 }
 
 bool Mesh::isOpen() const
@@ -380,13 +342,18 @@ std::vector<VertexIndex> Mesh::dropErased() { return dropErased(Executor::sequen
 
 std::vector<VertexIndex> Mesh::dropErased(const Executor& executor)
 {
-  std::vector<VertexIndex> alive;
-  alive.reserve(vertexCount());
+  std::vector<VertexIndex> alive(vertexCount());
+  if (vertexCount() == indexEnd())
+  {
+    std::iota(alive.begin(), alive.end(), VertexIndex(0));
+    return alive;
+  }
+  std::size_t count = 0;
   for (VertexIndex v = 0; v < indexEnd(); ++v)
   {
     if (isAlive(v))
     {
-      alive.push_back(v);
+      alive[count++] = v;
     }
   }
   renumber(alive, executor);

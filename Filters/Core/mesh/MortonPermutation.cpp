@@ -8,6 +8,10 @@ namespace neuralmesh
 std::vector<VertexIndex> mortonPermutation(
   const Mesh& mesh, Vector4 boxMin, Vector4 boxMax, const Executor& executor)
 {
+  if (mesh.vertexCount() == mesh.indexEnd())
+  {
+    return mortonOrder(mesh.positions(), boxMin, boxMax, executor);
+  }
   std::vector<VertexIndex> alive;
   std::vector<Vector4> positions;
   alive.reserve(mesh.vertexCount());

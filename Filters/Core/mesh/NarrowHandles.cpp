@@ -208,7 +208,7 @@ void cut(Mesh& mesh, const HandleStrip& strip)
 NarrowHandles findNarrowHandles(const Mesh& mesh, const Executor& executor)
 {
   NarrowHandles result;
-  const long all = genusOf(mesh);
+  const long all = genusOf(mesh, executor);
   if (all == 0)
   {
     return result;
@@ -226,14 +226,14 @@ NarrowHandles findNarrowHandles(const Mesh& mesh, const Executor& executor)
     if (i < MostStripsTried && result.places.size() < MostPlaces)
     {
       const long before = left;
-      left = genusOf(rest);
+      left = genusOf(rest, executor);
       if (left < before)
       {
         result.places.push_back(mesh.position(strips[i].front()));
       }
     }
   }
-  result.count = std::size_t(std::max(0L, all - genusOf(rest)));
+  result.count = std::size_t(std::max(0L, all - genusOf(rest, executor)));
   return result;
 }
 }

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/Pieces.h"
 
-#include "base/DisjointSets.h"
+#include "base/ConcurrentSets.h"
 #include "mesh/BoundaryManager.h"
 
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <span>
 
 namespace neuralmesh
 {
 namespace
 {
+/// A part for the executor.
+constexpr std::size_t VerticesOfPiecesPart = 4096;
+
 /// Adds up area and volume, with a vertex of the piece as the origin, for precision.
 class PieceMeasure
 {
@@ -23,21 +27,40 @@ public:
   {
   }
 
-  void addTriangles()
+  void addTriangles(const Executor& executor)
   {
-    for (const VertexIndex v : piece_.vertices)
+    struct Sum
     {
-      const Ring& ring = mesh_.ring(v);
-      piece_.isClosed = piece_.isClosed && !ring.isOpen();
-      const Eigen::Vector3d a = at(v);
-      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+      double area = 0., volume = 0.;
+      bool isClosed = true;
+    };
+    const std::span<const VertexIndex> vertices = piece_.vertices;
+    std::vector<Sum> sums((vertices.size() + VerticesOfPiecesPart - 1) / VerticesOfPiecesPart);
+    executor.forEachRange(vertices.size(), VerticesOfPiecesPart,
+      [&](std::size_t begin, std::size_t end)
       {
-        const VertexIndex second = ring[slot], third = ring[ring.after(slot)];
-        if (v < second && v < third)
+        Sum sum;
+        for (const VertexIndex v : vertices.subspan(begin, end - begin))
         {
-          piece_.area += add(a, at(second), at(third));
+          const Ring& ring = mesh_.ring(v);
+          sum.isClosed = sum.isClosed && !ring.isOpen();
+          const Eigen::Vector3d a = at(v);
+          for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+          {
+            const VertexIndex second = ring[slot], third = ring[ring.after(slot)];
+            if (v < second && v < third)
+            {
+              sum.area += add(a, at(second), at(third), sum.volume);
+            }
+          }
         }
-      }
+        sums[begin / VerticesOfPiecesPart] = sum;
+      });
+    for (const Sum& sum : sums)
+    {
+      piece_.area += sum.area;
+      piece_.volume += sum.volume;
+      piece_.isClosed = piece_.isClosed && sum.isClosed;
     }
   }
 
@@ -62,7 +85,7 @@ public:
       const Eigen::Vector3d centroid = sum / double(loop.size());
       for (const VertexIndex v : loop)
       {
-        piece_.closingArea += add(centroid, at(v), at(mesh_.ring(v).back()));
+        piece_.closingArea += add(centroid, at(v), at(mesh_.ring(v).back()), piece_.volume);
       }
     }
   }
@@ -71,9 +94,10 @@ private:
   Eigen::Vector3d at(VertexIndex v) const { return mesh_.position(v).toDouble() - origin_; }
 
   /// Adds the volume below a triangle; returns its area.
-  double add(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+  static double add(
+    const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double& volume)
   {
-    piece_.volume += a.dot(b.cross(c)) / 6.;
+    volume += a.dot(b.cross(c)) / 6.;
     return 0.5 * (b - a).cross(c - a).norm();
   }
 
@@ -83,7 +107,7 @@ private:
 };
 }
 
-std::vector<Piece> findPieces(const Mesh& mesh)
+std::vector<Piece> findPieces(const Mesh& mesh, const Executor& executor)
 {
   std::vector<Piece> pieces;
   std::vector<bool> isFound(mesh.indexEnd(), false), isClosed(mesh.indexEnd(), false);
@@ -109,7 +133,7 @@ std::vector<Piece> findPieces(const Mesh& mesh)
       }
     }
     PieceMeasure measure(mesh, piece);
-    measure.addTriangles();
+    measure.addTriangles(executor);
     measure.closeLoops(isClosed);
   }
   return pieces;
@@ -128,27 +152,36 @@ double areaOf(const Mesh& mesh)
   return area;
 }
 
-std::size_t pieceCount(const Mesh& mesh)
+std::size_t pieceCount(const Mesh& mesh, const Executor& executor)
 {
-  DisjointSets sets(mesh.indexEnd());
-  std::size_t count = mesh.vertexCount();
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  ConcurrentSets sets(mesh.indexEnd(), executor);
+  const auto countWhere = [&](const auto& isCounted)
   {
-    for (const VertexIndex neighbor : mesh.ring(v))
+    return executor.sum(mesh.indexEnd(), VerticesOfPiecesPart,
+      [&](std::size_t v) { return isCounted(VertexIndex(v)) ? 1. : 0.; });
+  };
+  executor.forEachRange(mesh.indexEnd(), VerticesOfPiecesPart,
+    [&](std::size_t begin, std::size_t end)
     {
-      if (v < neighbor && !sets.areJoined(v, neighbor))
+      for (auto v = VertexIndex(begin); v < end; ++v)
       {
-        sets.join(v, neighbor);
-        --count;
+        for (const VertexIndex neighbor : mesh.ring(v))
+        {
+          if (neighbor < v)
+          {
+            sets.join(v, neighbor);
+          }
+        }
       }
-    }
-  }
-  return count;
+    });
+  return std::size_t(
+    countWhere([&](VertexIndex v) { return mesh.isAlive(v) && sets.root(v) == v; }));
 }
 
-long genusOf(const Mesh& mesh)
+long genusOf(const Mesh& mesh, const Executor& executor)
 {
-  const auto pieces = long(pieceCount(mesh)), loops = long(BoundaryManager(mesh).loopCount());
+  const auto pieces = long(pieceCount(mesh, executor)),
+             loops = long(BoundaryManager(mesh).loopCount());
   long sides = 0; // of the edges
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/Mesh.h"
 
 #include <vector>
@@ -20,12 +21,12 @@ struct Piece
 };
 
 /// The pieces of a mesh, in the order of their lowest vertices.
-std::vector<Piece> findPieces(const Mesh& mesh);
+std::vector<Piece> findPieces(const Mesh& mesh, const Executor& executor = Executor::sequential());
 
 /// Of all triangles.
 double areaOf(const Mesh& mesh);
 
-std::size_t pieceCount(const Mesh& mesh);
+std::size_t pieceCount(const Mesh& mesh, const Executor& executor = Executor::sequential());
 /// Handles of all pieces together.
-long genusOf(const Mesh& mesh);
+long genusOf(const Mesh& mesh, const Executor& executor = Executor::sequential());
 }

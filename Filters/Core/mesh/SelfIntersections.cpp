@@ -180,10 +180,20 @@ void addFound(
         find(i, ranges[begin / CandidatesPerRange]);
       }
     });
-  for (const std::vector<Found>& range : ranges)
+  // Where those of each range go.
+  std::vector<std::size_t> places(ranges.size() + 1, all.size());
+  for (std::size_t range = 0; range < ranges.size(); ++range)
   {
-    all.insert(all.end(), range.begin(), range.end());
+    places[range + 1] = places[range] + ranges[range].size();
   }
+  all.resize(places.back());
+  executor.forEachPart(ranges.size(),
+    [&](std::size_t range)
+    {
+      std::copy(
+        ranges[range].begin(), ranges[range].end(), all.begin() + std::ptrdiff_t(places[range]));
+      std::vector<Found>().swap(ranges[range]);
+    });
 }
 
 /// The triangles of a mesh, those first that are asked for, which are neighbours where they follow each other.

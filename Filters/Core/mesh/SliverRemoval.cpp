@@ -19,6 +19,8 @@ namespace
 /// Of the angle by which a triangle may turn.
 constexpr float LeastCosineOfTurn = 0.5f;
 constexpr int MostPassesOverSlivers = 3;
+/// A part for the executor.
+constexpr std::size_t VerticesOfSliverPart = 4096;
 /// Where a sliver cannot go, the worst triangle must become better by that factor.
 constexpr float LeastGainOfQuality = 2.f;
 /// ... or slivers around it must become fewer. Then no vertex goes that is so far from what is left, against
@@ -56,12 +58,15 @@ struct Outcome : SliverChange
 class SliverRemover
 {
 public:
-  SliverRemover(Mesh& mesh, float least, const std::set<SliverChange>& refused)
+  SliverRemover(
+    Mesh& mesh, float least, const std::set<SliverChange>& refused, const Executor& executor)
     : mesh_(mesh)
     , least_(least)
     , refused_(refused)
-    , squaredMeanEdge_(float(mesh.meanEdge() * mesh.meanEdge()))
+    , executor_(executor)
   {
+    const double meanEdge = mesh.meanEdge(executor);
+    squaredMeanEdge_ = float(meanEdge * meanEdge);
   }
 
   std::vector<AppliedChange> run()
@@ -88,15 +93,29 @@ private:
 
   std::vector<Triangle> slivers() const
   {
-    std::vector<Triangle> result;
-    mesh_.forEachTriangle(
-      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    std::vector<std::vector<Triangle>> found(
+      (mesh_.indexEnd() + VerticesOfSliverPart - 1) / VerticesOfSliverPart);
+    executor_.forEachRange(mesh_.indexEnd(), VerticesOfSliverPart,
+      [&](std::size_t begin, std::size_t end)
       {
-        if (corners(a, b, c).quality() < least_)
+        for (auto v = VertexIndex(begin); v < end; ++v)
         {
-          result.push_back({ a, b, c });
+          const Ring& ring = mesh_.ring(v);
+          for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+          {
+            const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
+            if (v < b && v < c && corners(v, b, c).quality() < least_)
+            {
+              found[begin / VerticesOfSliverPart].push_back({ v, b, c });
+            }
+          }
         }
       });
+    std::vector<Triangle> result;
+    for (const std::vector<Triangle>& some : found)
+    {
+      result.insert(result.end(), some.begin(), some.end());
+    }
     return result;
   }
 
@@ -279,14 +298,15 @@ private:
   Mesh& mesh_;
   float least_;
   const std::set<SliverChange>& refused_;
-  float squaredMeanEdge_;
+  const Executor& executor_;
+  float squaredMeanEdge_ = 0.f;
   std::vector<AppliedChange> changes_;
 };
 }
 
 std::vector<AppliedChange> removeSlivers(
-  Mesh& mesh, float least, const std::set<SliverChange>& refused)
+  Mesh& mesh, float least, const std::set<SliverChange>& refused, const Executor& executor)
 {
-  return SliverRemover(mesh, least, refused).run();
+  return SliverRemover(mesh, least, refused, executor).run();
 }
 }

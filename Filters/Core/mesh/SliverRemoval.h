@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/Mesh.h"
 
 #include <compare>
@@ -32,6 +33,6 @@ struct AppliedChange
 /// with a hole of three edges beside it. It stays where none leaves fewer, or all are refused or turn a
 /// triangle around them by more than 60 degrees. Vertices do not move; those that were collapsed are
 /// erased. Returns what was done. Not in the thesis.
-std::vector<AppliedChange> removeSlivers(
-  Mesh& mesh, float least, const std::set<SliverChange>& refused = {});
+std::vector<AppliedChange> removeSlivers(Mesh& mesh, float least,
+  const std::set<SliverChange>& refused = {}, const Executor& executor = Executor::sequential());
 }

@@ -106,9 +106,9 @@ std::vector<std::uint8_t> valencesOf(const Mesh& mesh)
   return valences;
 }
 
-std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices)
+std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices, const Executor& executor)
 {
-  if (pieceCount(mesh) < 2)
+  if (pieceCount(mesh, executor) < 2)
   {
     return 0;
   }

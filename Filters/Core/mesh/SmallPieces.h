@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/Mesh.h"
 
 #include <cstdint>
@@ -21,7 +22,8 @@ std::vector<std::uint8_t> valencesOf(const Mesh& mesh);
 /// Drops all pieces with less than these parts of the area and of the vertices of all, but the largest. No vertex
 /// may be erased, and none is in the end; properties follow. Where pieces with less than 1 % of the area are most
 /// of the mesh, they stay. Returns how many were dropped.
-std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices);
+std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices,
+  const Executor& executor = Executor::sequential());
 
 /// Drops scraps: open pieces of at most three triangles that lie so close to another piece that this is where their
 /// points belong. No vertex may be erased, and none is in the end. Returns how many were dropped.

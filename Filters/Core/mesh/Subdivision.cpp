@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 namespace neuralmesh
@@ -15,19 +16,21 @@ constexpr std::size_t SubdividedPerRange = 4096;
 class EdgeNumbers
 {
 public:
-  EdgeNumbers(const Mesh& mesh)
+  EdgeNumbers(const Mesh& mesh, const Executor& executor)
     : mesh_(mesh)
     , first_(mesh.indexEnd() + std::size_t(1))
   {
-    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-    {
-      std::uint32_t count = 0;
-      for (const VertexIndex neighbor : mesh.ring(v))
+    executor.forEachRange(mesh.indexEnd(), SubdividedPerRange,
+      [&](std::size_t begin, std::size_t end)
       {
-        count += v < neighbor ? 1 : 0;
-      }
-      first_[v + std::size_t(1)] = first_[v] + count;
-    }
+        for (auto v = VertexIndex(begin); v < end; ++v)
+        {
+          const Ring& ring = mesh.ring(v);
+          first_[v + std::size_t(1)] = std::uint32_t(std::count_if(
+            ring.begin(), ring.end(), [v](VertexIndex neighbor) { return v < neighbor; }));
+        }
+      });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
   }
 
   std::size_t count() const { return first_.back(); }
@@ -55,7 +58,7 @@ private:
 
 Subdivision subdivide(const Mesh& mesh, const Executor& executor)
 {
-  const EdgeNumbers numbers(mesh);
+  const EdgeNumbers numbers(mesh, executor);
   const std::size_t count = mesh.indexEnd();
   LargeVector<Vector4> positions(count + numbers.count());
   LargeVector<Ring> rings(count + numbers.count());

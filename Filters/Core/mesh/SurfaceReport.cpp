@@ -70,9 +70,9 @@ public:
   Reporter(const TriangleMesh& mesh, const Executor& executor)
     : mesh_(mesh)
     , executor_(executor)
-    , fans_(3 * mesh.triangles.size())
-    , pieces_(mesh.triangles.size())
-    , faces_(2 * mesh.triangles.size())
+    , fans_(3 * mesh.triangles.size(), executor)
+    , pieces_(mesh.triangles.size(), executor)
+    , faces_(2 * mesh.triangles.size(), executor)
     , valences_(mesh.points.size(), 0)
     , isOnBoundary_(mesh.points.size(), 0)
   {
@@ -352,6 +352,10 @@ private:
   void reportBoundary()
   {
     report_.boundaryEdges = boundary_.size();
+    if (boundary_.empty())
+    {
+      return;
+    }
     ConcurrentSets loops(fans_);
     for (const EdgeSide& side : boundary_)
     {

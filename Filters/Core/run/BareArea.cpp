@@ -48,22 +48,34 @@ double usualDensity(const std::vector<double>& weights, const std::vector<double
       vertices.push_back({ weights[v] / areas[v], weights[v] });
     }
   }
-  std::sort(vertices.begin(), vertices.end(),
-    [](const Vertex& a, const Vertex& b) { return a.density < b.density; });
   double left = 0.;
   for (const Vertex& vertex : vertices)
   {
     left += 0.5 * vertex.weight;
   }
-  for (const Vertex& vertex : vertices)
+  const auto isSparser = [](const Vertex& a, const Vertex& b) { return a.density < b.density; };
+  // The one that it is lies from `begin` to `end`, and `left` of the weight comes before it there.
+  auto begin = vertices.begin(), end = vertices.end();
+  while (end - begin > 1)
   {
-    left -= vertex.weight;
-    if (left <= 0.)
+    const auto middle = begin + (end - begin) / 2;
+    std::nth_element(begin, middle, end, isSparser);
+    double below = 0.;
+    for (auto vertex = begin; vertex != middle; ++vertex)
     {
-      return vertex.density;
+      below += vertex->weight;
+    }
+    if (below >= left)
+    {
+      end = middle;
+    }
+    else
+    {
+      left -= below;
+      begin = middle;
     }
   }
-  return 0.;
+  return begin == end ? 0. : begin->density;
 }
 }
 

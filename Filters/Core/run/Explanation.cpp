@@ -95,7 +95,7 @@ public:
     : cloud_(cloud)
     , rules_(rules)
     , executor_(executor)
-    , nearest_(cloud.points())
+    , nearest_(cloud.points(), executor)
   {
     result_.asked = std::move(distances);
     result_.reasons.assign(result_.asked.points.size(), Reason::Explained);

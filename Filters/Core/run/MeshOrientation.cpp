@@ -141,7 +141,7 @@ bool addSides(const std::vector<Side>& more, std::vector<Side>& sides)
 OrientationReport orientMesh(
   Mesh& mesh, const PointCloud& cloud, const OrientationHints& hints, const Executor& executor)
 {
-  const std::vector<Piece> pieces = findPieces(mesh);
+  const std::vector<Piece> pieces = findPieces(mesh, executor);
   const OrientationVote vote(mesh, pieces, cloud, hints, executor);
   std::vector<Side> sides(pieces.size()), byVolume(pieces.size());
   const bool areViewpointsMute = !hints.viewpoints.empty() && addSides(vote.byViewpoints(), sides);

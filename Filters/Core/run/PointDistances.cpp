@@ -186,18 +186,23 @@ public:
   }
 
   /// Where each point stands for so many.
-  VertexSupport result(double points) const
+  VertexSupport result(double points, const Executor& executor) const
   {
     VertexSupport support;
     support.pointsPerAsked = points;
     support.weights.resize(weights_.size());
     support.residuals.resize(weights_.size());
-    for (std::size_t v = 0; v < weights_.size(); ++v)
-    {
-      support.weights[v] = points * weights_[v];
-      support.residuals[v] = weights_[v] > 0. ? cloud_.unit() * std::sqrt(squares_[v] / weights_[v])
-                                              : std::numeric_limits<double>::quiet_NaN();
-    }
+    executor.forEachRange(weights_.size(), DistancesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t v = begin; v < end; ++v)
+        {
+          support.weights[v] = points * weights_[v];
+          support.residuals[v] = weights_[v] > 0.
+            ? cloud_.unit() * std::sqrt(squares_[v] / weights_[v])
+            : std::numeric_limits<double>::quiet_NaN();
+        }
+      });
     return support;
   }
 
@@ -299,6 +304,6 @@ std::optional<VertexSupport> supportOf(const Mesh& mesh, const PointCloud& cloud
     }
   }
   return sum.result(
-    double(cloud.points().size()) / double(std::max<std::size_t>(1, points.size())));
+    double(cloud.points().size()) / double(std::max<std::size_t>(1, points.size())), executor);
 }
 }

@@ -114,7 +114,7 @@ double scatteredShare(const PointCloud& cloud, const Executor& executor)
   {
     points[i] = cloud.points()[i * all / points.size()];
   }
-  const NearestPoints nearest(points);
+  const NearestPoints nearest(points, executor);
   const std::size_t asked = std::min(points.size(), CentersAsked);
   return executor.sum(asked, 1,
            [&](std::size_t i)

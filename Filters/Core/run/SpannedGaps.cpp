@@ -4,6 +4,8 @@
 #include "base/DisjointSets.h"
 #include "base/Median.h"
 #include "cloud/NearestPoints.h"
+#include "fit/EmptyPieces.h"
+#include "mesh/NumberedTriangles.h"
 #include "mesh/Pieces.h"
 #include "start/LayerSearch.h"
 
@@ -23,6 +25,9 @@ constexpr float SpacingsOfGap = 3.f;
 /// ... and so many median distances from the mesh, where there is noise.
 constexpr float MediansOfGap = 5.f;
 
+/// A part for the executor.
+constexpr std::size_t TrianglesPerRange = 4096;
+
 struct FarTriangle
 {
   VertexIndex corner;
@@ -32,38 +37,55 @@ struct FarTriangle
 }
 
 std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& support,
-  const PointCloud& cloud, const PointDistances& distances)
+  const PointCloud& cloud, const PointDistances& distances, const Executor& executor)
 {
   const double least = LeastPointsAtVertex * support.pointsPerAsked;
   const auto isBare = [&](VertexIndex v) { return support.weights[v] < least; };
-  const double all = areaOf(mesh);
-  if (support.weights.size() != mesh.indexEnd() || distances.distances.empty() || !(all > 0.))
+  if (support.weights.size() != mesh.indexEnd() || distances.distances.empty() ||
+    std::none_of(support.weights.begin(), support.weights.end(),
+      [least](double weight) { return weight < least; }))
   {
     return {};
   }
-  const float noise = MediansOfGap * medianOf(distances.distances);
-  const NearestPoints nearest(cloud.points());
-  std::vector<FarTriangle> far;
-  DisjointSets sets(mesh.indexEnd());
-  mesh.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c)
+  const double all = areaOf(mesh);
+  if (!(all > 0.))
+  {
+    return {};
+  }
+  const float noise = MediansOfGap * medianOf(distances.distances, executor);
+  const NearestPoints nearest(cloud.points(), executor);
+  const auto isFarFromAll = [&](Vector4 center)
+  {
+    std::array<NearPoint, 1> found;
+    nearest.find(center, found);
+    const float distance = std::sqrt(found[0].squaredDistance);
+    return distance > noise && distance > SpacingsOfGap * pointSpacing(nearest, found[0].index);
+  };
+  const NumberedTriangles triangles(mesh, executor);
+  std::vector<std::uint8_t> isFar(triangles.all().size(), 0);
+  executor.forEachRange(isFar.size(), TrianglesPerRange,
+    [&](std::size_t begin, std::size_t end)
     {
-      if (!isBare(a) && !isBare(b) && !isBare(c))
+      for (std::size_t t = begin; t < end; ++t)
       {
-        return;
-      }
-      const Vector4 p = mesh.position(a), q = mesh.position(b), r = mesh.position(c);
-      const Vector4 center = 1.f / 3.f * (p + q + r);
-      std::array<NearPoint, 1> found;
-      nearest.find(center, found);
-      const float distance = std::sqrt(found[0].squaredDistance);
-      if (distance > noise && distance > SpacingsOfGap * pointSpacing(nearest, found[0].index))
-      {
-        far.push_back({ a, center, 0.5 * std::sqrt(double(squaredNorm(cross(q - p, r - p)))) });
-        sets.join(a, b);
-        sets.join(b, c);
+        const auto& [a, b, c] = triangles.all()[t];
+        isFar[t] =
+          (isBare(a) || isBare(b) || isBare(c)) && isFarFromAll(centerOf(mesh, { a, b, c })) ? 1
+                                                                                             : 0;
       }
     });
+  std::vector<FarTriangle> far;
+  DisjointSets sets(mesh.indexEnd());
+  for (std::size_t t = 0; t < isFar.size(); ++t)
+  {
+    if (isFar[t] != 0)
+    {
+      const auto& [a, b, c] = triangles.all()[t];
+      far.push_back({ a, centerOf(mesh, { a, b, c }), areaOf(mesh, { a, b, c }) });
+      sets.join(a, b);
+      sets.join(b, c);
+    }
+  }
   struct Sum
   {
     double area = 0.;

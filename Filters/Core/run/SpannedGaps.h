@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "cloud/PointCloud.h"
 #include "mesh/Mesh.h"
 #include "run/PointDistances.h"
@@ -22,5 +23,6 @@ struct SpannedGap
 /// to nothing, and whose middle is farther from all points than three times as far as the nearest point is from
 /// others, and than noise is. What is sparse is no gap. `distances` are those of points to the mesh.
 std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& support,
-  const PointCloud& cloud, const PointDistances& distances);
+  const PointCloud& cloud, const PointDistances& distances,
+  const Executor& executor = Executor::sequential());
 }

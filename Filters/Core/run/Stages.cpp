@@ -173,7 +173,8 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   plan.gaps = gaps;
   plan.closedOutline = parameters.closeHolesBelow / cloud.unit();
   plan.vertexCount = std::max(vertexCount, learnt.mesh.vertexCount());
-  dropPieces(learnt.mesh, parameters.keepPieces, VerticesOfDensePiece * parameters.keepPieces);
+  dropPieces(
+    learnt.mesh, parameters.keepPieces, VerticesOfDensePiece * parameters.keepPieces, executor);
   const bool isSimplified = plan.vertexCount > vertexCount;
   if (isSimplified)
   {
@@ -287,7 +288,10 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
   const OrientationHints& hints, Reconstruction& result, const Progress& progress,
   const Executor& executor)
 {
+  // Whoever ends the run here gets what there is.
+  progress(0.);
   result.orientation = orientMesh(learnt.mesh, cloud, hints, executor);
+  const bool goesOn = progress(0.);
   result.mesh = trianglesOf(learnt.mesh, cloud);
   result.normals = pointNormals(result.mesh);
   const auto activities = learnt.mesh.values(learnt.activity);
@@ -304,9 +308,10 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
     std::transform(deviations.begin(), deviations.end(), result.uncertainties.begin(),
       [&](float deviation) { return float(double(deviation) * cloud.unit()); });
   }
-  if (all && progress(0.))
+  if (all && goesOn && progress(0.))
   {
-    result.quality = measureQuality(*all, learnt.mesh, result.mesh, executor);
+    result.quality =
+      measureQuality(*all, learnt.mesh, result.mesh, executor, DistanceTo::SurfaceAgain, progress);
   }
   result.surface = std::move(learnt.mesh);
 }
@@ -339,7 +344,8 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
     return false;
   }
   result.support = *std::move(support);
-  result.gaps = spannedGaps(result.surface, result.support, cloud, result.explanation->asked);
+  result.gaps =
+    spannedGaps(result.surface, result.support, cloud, result.explanation->asked, executor);
   return true;
 }
 }

@@ -265,14 +265,36 @@ void warnOfBarePieces(
   {
     return;
   }
+  const auto isBare = [&](VertexIndex v) { return !(support.weights[v] > 0.); };
   std::size_t count = 0;
   Vector4 place;
-  for (const Piece& piece : findPieces(surface))
+  std::vector<bool> isFound(surface.indexEnd(), false);
+  std::vector<VertexIndex> bare;
+  for (VertexIndex first = 0; first < surface.indexEnd(); ++first)
   {
-    if (std::all_of(piece.vertices.begin(), piece.vertices.end(),
-          [&](VertexIndex v) { return !(support.weights[v] > 0.); }))
+    if (isFound[first] || !isBare(first) || !surface.isAlive(first))
     {
-      place = count == 0 ? surface.position(piece.vertices.front()) : place;
+      continue;
+    }
+    // The bare ones that hang together with it are a piece if no others do.
+    bool isPiece = true;
+    isFound[first] = true;
+    bare.assign(1, first);
+    for (std::size_t i = 0; i < bare.size(); ++i)
+    {
+      for (const VertexIndex neighbor : surface.ring(bare[i]))
+      {
+        isPiece = isPiece && isBare(neighbor);
+        if (isBare(neighbor) && !isFound[neighbor])
+        {
+          isFound[neighbor] = true;
+          bare.push_back(neighbor);
+        }
+      }
+    }
+    if (isPiece)
+    {
+      place = count == 0 ? surface.position(first) : place;
       ++count;
     }
   }

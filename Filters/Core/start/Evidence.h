@@ -26,5 +26,5 @@ constexpr std::size_t UsuallyAsked = 4000;
 
 /// Asks so many points, evenly picked.
 Evidence evidenceFor(const PointCloud& cloud, const NearestPoints& nearest, const Mesh& mesh,
-  std::size_t pointsAsked = UsuallyAsked);
+  std::size_t pointsAsked = UsuallyAsked, const Executor& executor = Executor::sequential());
 }

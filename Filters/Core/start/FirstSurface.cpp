@@ -261,6 +261,7 @@ public:
   FirstFit(const PointCloud& cloud, Mesh& mesh, const Executor& executor)
     : cloud_(cloud)
     , mesh_(mesh)
+    , executor_(executor)
     , fit_(cloud, mesh, FitSamples * mesh.vertexCount(), executor)
   {
   }
@@ -269,7 +270,7 @@ public:
   {
     for (int round = 0; round < FitRounds; ++round)
     {
-      flipEdges(mesh_);
+      flipEdges(mesh_, EdgesToFlip::All, executor_);
       const Progress ofRound =
         partOf(progress, double(round) / FitRounds, double(round + 1) / FitRounds);
       if (!fit_.findPlaces(partOf(ofRound, 0., 0.5)) ||
@@ -277,7 +278,7 @@ public:
       {
         return false;
       }
-      flipEdges(mesh_);
+      flipEdges(mesh_, EdgesToFlip::All, executor_);
     }
     return fit_.findPlaces(partOf(progress, 1., 1.));
   }
@@ -287,14 +288,15 @@ public:
 
   void openGaps(double bridgeWidth, double leastPiece)
   {
-    openDataGaps(
-      cloud_, mesh_, fit_.places(), fit_.medianDistance(), { bridgeWidth, true, leastPiece });
-    mesh_.dropErased();
+    openDataGaps(cloud_, mesh_, fit_.places(), fit_.medianDistance(),
+      { bridgeWidth, true, leastPiece }, executor_);
+    mesh_.dropErased(executor_);
   }
 
 private:
   const PointCloud& cloud_;
   Mesh& mesh_;
+  const Executor& executor_;
   SurfaceFit fit_;
 };
 
@@ -363,7 +365,7 @@ std::optional<Candidate> solidCandidate(const PointCloud& cloud, const NearestPo
     return {};
   }
   const Evidence evidence =
-    evidenceFor(cloud, nearest, solid.mesh, solid.isLeaky ? AskedIfLeaky : UsuallyAsked);
+    evidenceFor(cloud, nearest, solid.mesh, solid.isLeaky ? AskedIfLeaky : UsuallyAsked, executor);
   Candidate result{ std::move(solid), evidence };
   result.isBetweenLayers = isBetweenLayers || evidence.medianInEdges >= MostMedianOfSolid;
   result.explains = result.surface.isCertain && !result.isBetweenLayers &&
@@ -383,7 +385,7 @@ std::optional<Candidate> sheetCandidate(const PointCloud& cloud, const NearestPo
   }
   Candidate result{ std::move(*sheet) };
   const Mesh& mesh = result.surface.mesh;
-  result.evidence = evidenceFor(cloud, nearest, mesh);
+  result.evidence = evidenceFor(cloud, nearest, mesh, UsuallyAsked, executor);
   result.explains = result.evidence.unexplained < LeastUnexplainedBySheet &&
     result.evidence.medianInEdges < MostMedianOfSheet && pieceCount(mesh) == 1 &&
     BoundaryManager(mesh).loopCount() <= MostLoopsOfSheet;
@@ -511,7 +513,7 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
   const auto skin = solid ? std::nullopt : finestSkin(cloud, skins);
   const Progress ofGrid = partOf(progress, PartOfGrids, 0.5 * (1. + PartOfGrids));
   const Progress ofFront = partOf(progress, 0.5 * (1. + PartOfGrids), 1.);
-  const NearestPoints nearest(cloud.points());
+  const NearestPoints nearest(cloud.points(), executor);
   std::optional<Candidate> grid;
   if (solid)
   {
@@ -539,7 +541,7 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
       grid->evidence.unexplained < LeastUnexplained &&
       genusOf(front->mesh) > genusOf(grid->surface.mesh);
     if ((front->isCertain || !isClosed) && !hasMoreHandles &&
-      evidenceFor(cloud, nearest, front->mesh).unexplained <= most)
+      evidenceFor(cloud, nearest, front->mesh, UsuallyAsked, executor).unexplained <= most)
     {
       return front;
     }

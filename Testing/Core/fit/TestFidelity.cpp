@@ -271,9 +271,10 @@ TEST(TriangleSamples, FollowTheirTriangles)
   EXPECT_EQ(found, taken);
   EXPECT_NE(std::find(found.begin(), found.end(), 0u), found.end());
   EXPECT_EQ(samples.load(a, b, c).count, 0.);
+  samples.setWriters(1);
   for (const std::uint32_t sample : taken)
   {
-    samples.put(sample, c, a, b, 2.f);
+    samples.put(sample, c, a, b, 2.f, 0);
   }
   EXPECT_EQ(samples.load(a, b, c).squares, 2. * double(taken.size()));
 }

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/ParallelSort.h"
 #include "base/Random.h"
 #include "base/ThreadPool.h"
+#include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
+#include "fit/DataFlips.h"
+#include "fit/EmptyPieces.h"
 #include "fit/PlacesByRows.h"
+#include "fit/SurfaceFit.h"
+#include "mesh/EdgeFlips.h"
 #include "mesh/NarrowHandles.h"
 #include "mesh/NearestTriangle.h"
+#include "mesh/NumberedTriangles.h"
+#include "mesh/Pieces.h"
 #include "mesh/SelfIntersections.h"
 #include "mesh/SurfaceReport.h"
 #include "Shapes.h"
@@ -14,6 +22,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <set>
 #include <vector>
 
 namespace neuralmesh
@@ -163,6 +173,164 @@ TEST(MeasuresOnThreads, PlacesByRows)
       EXPECT_EQ(parts.of(next - 1), part);
     }
     EXPECT_EQ(next, Vertices);
+  }
+}
+
+// Promise: pieces, what they enclose, and what is empty of samples are the same on any number of threads.
+TEST(MeasuresOnThreads, Pieces)
+{
+  TriangleMesh triangles = makeTorus(0.4, 160);
+  append(triangles, makeTorus(0.3, 96), Eigen::Vector3d(5., 0., 0.));
+  const Mesh mesh = testing::meshOf(triangles);
+  const std::vector<Piece> expected = findPieces(mesh);
+  ASSERT_EQ(expected.size(), 2u);
+  const NumberedTriangles numbered(mesh);
+  Random random(1);
+  std::vector<std::uint32_t> samples(numbered.all().size());
+  std::vector<std::uint8_t> isEmpty(samples.size());
+  for (std::size_t t = 0; t < samples.size(); ++t)
+  {
+    samples[t] = random.below(4);
+    isEmpty[t] = samples[t] == 0 ? 1 : 0;
+  }
+  const std::vector<EmptyPiece> empty = findEmptyPieces(mesh, numbered, samples, isEmpty);
+  EXPECT_GT(empty.size(), 100u);
+  for (const unsigned threads : CountsOfThreads)
+  {
+    SCOPED_TRACE(threads);
+    const ThreadPool pool(threads);
+    EXPECT_EQ(pieceCount(mesh, pool), 2u);
+    EXPECT_EQ(genusOf(mesh, pool), 2);
+    const std::vector<Piece> pieces = findPieces(mesh, pool);
+    ASSERT_EQ(pieces.size(), 2u);
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+    {
+      EXPECT_EQ(pieces[i].vertices, expected[i].vertices);
+      EXPECT_EQ(pieces[i].area, expected[i].area);
+      EXPECT_EQ(pieces[i].volume, expected[i].volume);
+      EXPECT_TRUE(pieces[i].isClosed);
+    }
+    const std::vector<EmptyPiece> others = findEmptyPieces(mesh, numbered, samples, isEmpty, pool);
+    ASSERT_EQ(others.size(), empty.size());
+    for (std::size_t i = 0; i < empty.size(); ++i)
+    {
+      EXPECT_EQ(others[i].triangles, empty[i].triangles);
+      EXPECT_EQ(others[i].area, empty[i].area);
+      EXPECT_EQ(others[i].areaAround, empty[i].areaAround);
+      EXPECT_EQ(others[i].samplesAround, empty[i].samplesAround);
+    }
+  }
+}
+
+// Promise: an empty piece has all triangles around it, once, and their samples.
+TEST(MeasuresOnThreads, EmptyPiece)
+{
+  const Mesh mesh = testing::meshOf(makeTorus(0.4, 96));
+  const NumberedTriangles numbered(mesh);
+  std::vector<std::uint32_t> samples(numbered.all().size(), 1);
+  std::vector<std::uint8_t> isEmpty(samples.size(), 0);
+  const VertexIndex center = 100;
+  double area = 0., all = 0.;
+  std::set<std::uint32_t> around;
+  for (const std::uint32_t t : numbered.at(center))
+  {
+    samples[t] = 0;
+    isEmpty[t] = 1;
+    area += areaOf(mesh, numbered.all()[t]);
+  }
+  for (const VertexIndex neighbor : mesh.ring(center))
+  {
+    for (const std::uint32_t t : numbered.at(neighbor))
+    {
+      if (isEmpty[t] == 0 && around.insert(t).second)
+      {
+        all += areaOf(mesh, numbered.all()[t]);
+      }
+    }
+  }
+  const std::vector<EmptyPiece> pieces = findEmptyPieces(mesh, numbered, samples, isEmpty);
+  ASSERT_EQ(pieces.size(), 1u);
+  EXPECT_EQ(pieces[0].triangles.size(), mesh.ring(center).size());
+  EXPECT_NEAR(pieces[0].area, area, 1e-12);
+  EXPECT_NEAR(pieces[0].areaAround, all, 1e-12);
+  EXPECT_EQ(pieces[0].samplesAround, double(around.size()));
+  EXPECT_FALSE(pieces[0].isAtBoundary);
+}
+
+// Promise: edges are flipped for valences, and for samples, in the same way on any number of threads, in a mesh of
+// several parts.
+TEST(MeasuresOnThreads, Flips)
+{
+  CloudOptions options;
+  options.count = 100000;
+  const PointCloud cloud(generateCloud(makeTorus(), options));
+  TriangleMesh triangles = makeTorus(0.4, 256);
+  Random random(1);
+  for (Eigen::Vector3d& point : triangles.points)
+  {
+    point += 0.01 * (anyPlace(random) - Eigen::Vector3d::Constant(0.5));
+  }
+  const Mesh mesh = buildMesh(triangles, cloud);
+  ASSERT_GT(RowParts::byWork(mesh.indexEnd()).count(), 2u);
+  const auto haveSameRings = [](const Mesh& a, const Mesh& b)
+  {
+    for (VertexIndex v = 0; v < a.indexEnd(); ++v)
+    {
+      const Ring &ring = a.ring(v), &other = b.ring(v);
+      if (!std::equal(ring.begin(), ring.end(), other.begin(), other.end()))
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+  const auto flipped = [&](const Executor& executor)
+  {
+    Mesh result = mesh;
+    flipEdges(result, EdgesToFlip::All, executor);
+    return result;
+  };
+  const auto flippedToSamples = [&](const Executor& executor)
+  {
+    Mesh result = mesh;
+    SurfaceFit fit(cloud, result, options.count, executor);
+    fit.findPlaces([](double) { return true; });
+    flipToSamples(result, fit.placedSamples(), fit.variance(), executor);
+    return result;
+  };
+  const Mesh byValence = flipped(Executor::sequential());
+  const Mesh bySamples = flippedToSamples(Executor::sequential());
+  EXPECT_FALSE(haveSameRings(byValence, mesh));
+  EXPECT_FALSE(haveSameRings(bySamples, mesh));
+  for (const unsigned threads : CountsOfThreads)
+  {
+    SCOPED_TRACE(threads);
+    const ThreadPool pool(threads);
+    EXPECT_TRUE(haveSameRings(flipped(pool), byValence));
+    EXPECT_TRUE(haveSameRings(flippedToSamples(pool), bySamples));
+  }
+}
+
+// Promise: values are sorted as std::stable_sort() sorts them, on any number of threads.
+TEST(MeasuresOnThreads, StableSort)
+{
+  Random random(1);
+  for (const std::size_t count : { 0, 1, 4096, 4097, 50000, 300001 })
+  {
+    std::vector<std::array<std::uint32_t, 2>> values(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      values[i] = { random.below(1000), std::uint32_t(i) };
+    }
+    const auto isBefore = [](const auto& a, const auto& b) { return a[0] < b[0]; };
+    auto expected = values;
+    std::stable_sort(expected.begin(), expected.end(), isBefore);
+    for (const unsigned threads : { 1u, 2u, 7u })
+    {
+      auto sorted = values;
+      stableSort(sorted, isBefore, ThreadPool(threads));
+      EXPECT_EQ(sorted, expected) << count << ", " << threads;
+    }
   }
 }
 }
