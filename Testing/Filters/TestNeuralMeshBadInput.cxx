@@ -239,7 +239,7 @@ int CheckCase(const Case& input, int type, int variant, int preset)
   const int ofPoints = FilterTesting::Count(messages->AllText,
     { "[points-are-unexplained]", "[part-is-missing]", "[open-where-points-are]",
       "[mesh-is-coarse]", "[between-layers]", "[surface-without-points]", "[slivers]",
-      "[no-surface]", "[gap-is-spanned]" });
+      "[no-surface]", "[gap-is-spanned]", "[falls-into-pieces]" });
   const int ofSides =
     FilterTesting::Count(messages->AllText, { "[side-is-unknown]", "[inside-out]" });
   CHECK(messages->Warnings == input.Warnings + isStalled + ofDefects + ofPoints + ofSides);

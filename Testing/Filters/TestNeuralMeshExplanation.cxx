@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Promise: with ExplainPoints each point of the input has its distance and a reason, in any dataset and with
-// an ensemble, and the mesh stays as it is; any mesh can be explained; warnings stand in the field data; and
-// vertices have what they rest on.
+// an ensemble, and the mesh stays as it is; any mesh can be explained; warnings stand in the field data;
+// vertices have what they rest on; and what lies beside a body is a part that is told, or outliers.
 #include "FilterTesting.h"
 
 #include "vtkNeuralMesh.h"
 #include "vtkNeuralMeshEnsemble.h"
 #include "vtkNeuralMeshExplanation.h"
 
+#include "vtkMinimalStandardRandomSequence.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkSphereSource.h"
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -157,6 +159,59 @@ int CheckWarnings()
   CHECK(messages->AllText.find("finer than its data") != std::string::npos);
   return EXIT_SUCCESS;
 }
+
+/** What lies beside a sphere, away from it: a dense ball of few points is a part that the mesh lacks, a dense cluster that
+ * fills space is left out as outliers, and neither becomes a piece. */
+int CheckPartsBeside()
+{
+  constexpr int Points = 100000, OfBall = 40, OfCluster = 300;
+  const auto points = FilterTesting::SpherePoints(Points);
+  const auto ball = FilterTesting::SpherePoints(OfBall, 0.02, { 0.0, 1.5, 0.0 });
+  vtkNew<vtkMinimalStandardRandomSequence> random;
+  random->SetSeed(11);
+  const auto add = [&](vtkPoints* others)
+  {
+    vtkNew<vtkPolyData> cloud;
+    vtkNew<vtkPoints> all;
+    all->DeepCopy(points);
+    for (vtkIdType i = 0; i < others->GetNumberOfPoints(); ++i)
+    {
+      all->InsertNextPoint(others->GetPoint(i));
+    }
+    cloud->SetPoints(all);
+    return cloud;
+  };
+  vtkNew<vtkPoints> cluster;
+  for (int i = 0; i < OfCluster; ++i)
+  {
+    std::array<double, 3> point{ 0.0, 1.6, 0.0 };
+    for (double& coordinate : point)
+    {
+      // Of twelve even numbers the sum is normal, nearly.
+      for (int part = 0; part < 12; ++part)
+      {
+        coordinate += 0.03 * (random->GetNextRangeValue(0.0, 1.0) - 0.5);
+      }
+    }
+    cluster->InsertNextPoint(point.data());
+  }
+  vtkNew<vtkNeuralMesh> filter;
+  filter->SetNumberOfVertices(1000);
+  vtkNew<MessageCounter> messages;
+  messages->Observe(filter);
+  filter->SetInputData(add(cluster));
+  filter->Update();
+  CHECK(messages->Warnings == 0);
+  CHECK(FilterTesting::EulerCharacteristic(filter->GetOutput()) == 2);
+  CHECK(FieldValue(filter->GetOutput(), "OutlierPoints") > OfCluster - 10);
+  filter->SetInputData(add(ball));
+  filter->Update();
+  CHECK(messages->Warnings == 1);
+  CHECK(messages->AllText.find("A small part of the cloud is missing") != std::string::npos);
+  CHECK(messages->AllText.find("[part-is-missing]") != std::string::npos);
+  CHECK(FilterTesting::EulerCharacteristic(filter->GetOutput()) == 2);
+  return EXIT_SUCCESS;
+}
 }
 
 int TestNeuralMeshExplanation(int, char*[])
@@ -170,5 +225,6 @@ int TestNeuralMeshExplanation(int, char*[])
   ensemble->SetVerticesPerMember(200);
   CHECK(CheckRun(ensemble, 4) == EXIT_SUCCESS);
   CHECK(CheckWarnings() == EXIT_SUCCESS);
+  CHECK(CheckPartsBeside() == EXIT_SUCCESS);
   return EXIT_SUCCESS;
 }

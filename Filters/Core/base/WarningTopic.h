@@ -19,6 +19,7 @@ enum class WarningTopic
   OpenWherePointsAre,
   SurfaceWithoutPoints,
   GapIsSpanned,
+  FallsIntoPieces,
   TrianglesIntersect,
   BetweenLayers,
   Folds,

@@ -222,7 +222,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     return false;
   }
   surfaceFit.reset();
-  dropShrunkPieces();
+  dropOddPieces();
   const StoredMesh withSlivers(mesh_, executor_);
   repairSlivers(mesh_, guard, executor_);
   if (plan_.surface)
@@ -237,11 +237,14 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
 }
 
 /// Where no sample has its place on a piece, nothing keeps the fit and the repair from shrinking that to a
-/// point. It stays where its vertices cannot come in again: nothing is left that is not as thin.
-void Finish::dropShrunkPieces()
+/// point. A few triangles that came off the rest lie beside it, and show nothing. Both stay where their vertices cannot
+/// come in again: nothing is left that is not as thin.
+void Finish::dropOddPieces()
 {
   const StoredMesh before(mesh_, executor_);
-  if (dropPieces(mesh_, ShrunkPart, AnyVertices) > 0)
+  const std::size_t shrunk = dropPieces(mesh_, ShrunkPart, AnyVertices);
+  const std::size_t scraps = plan_.surface ? 0 : dropScraps(mesh_);
+  if (shrunk + scraps > 0)
   {
     refine(
       mesh_, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);

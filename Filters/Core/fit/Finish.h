@@ -90,7 +90,7 @@ private:
   bool trimsOutlines() const;
   bool improve(SurfaceFit& surfaceFit, const Progress& progress);
   bool closeHoles();
-  void dropShrunkPieces();
+  void dropOddPieces();
   bool repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress);
   template <typename Remove>
   bool mendsBy(const Remove& remove, FitGuard& guard, const Progress& progress);

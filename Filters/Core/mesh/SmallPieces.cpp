@@ -15,6 +15,27 @@ constexpr double LeastPart = 0.02;
 constexpr double PartOfSmallPiece = 0.01;
 constexpr double MostOfVertices = 0.5;
 
+/// A fan or strip of three triangles has five.
+constexpr std::size_t MostVerticesOfScrap = 5;
+/// From the vertices of what it lies on.
+constexpr double EdgesToScrap = 1.5;
+
+/// Those of whole pieces, with their triangles.
+void removeVertices(Mesh& mesh, const std::vector<std::uint8_t>& isRemoved)
+{
+  std::vector<Triangle> triangles;
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    {
+      if (isRemoved[a] != 0)
+      {
+        triangles.push_back({ a, b, c });
+      }
+    });
+  mesh.removeTriangles(triangles);
+  mesh.dropErased();
+}
+
 /// If not all, those with a vertex at the cut.
 std::vector<Triangle> findPiecesAtCut(
   const Mesh& mesh, bool areAll, std::span<const std::uint8_t> valencesBefore)
@@ -121,17 +142,49 @@ std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices)
   }
   if (dropped > 0)
   {
-    std::vector<Triangle> triangles;
-    mesh.forEachTriangle(
-      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    removeVertices(mesh, isDropped);
+  }
+  return dropped;
+}
+
+std::size_t dropScraps(Mesh& mesh)
+{
+  if (pieceCount(mesh) < 2)
+  {
+    return 0;
+  }
+  const std::vector<Piece> pieces = findPieces(mesh);
+  const double reach = EdgesToScrap * mesh.meanEdge();
+  std::vector<std::uint8_t> isScrap(mesh.indexEnd(), 0);
+  const auto isSmall = [](const Piece& piece)
+  { return !piece.isClosed && piece.vertices.size() <= MostVerticesOfScrap; };
+  const auto isNearOther = [&](const Piece& scrap)
+  {
+    const Vector4 place = mesh.position(scrap.vertices.front());
+    return std::any_of(pieces.begin(), pieces.end(),
+      [&](const Piece& other)
       {
-        if (isDropped[a] != 0)
-        {
-          triangles.push_back({ a, b, c });
-        }
+        return !isSmall(other) &&
+          std::any_of(other.vertices.begin(), other.vertices.end(),
+            [&](VertexIndex v)
+            { return double(squaredNorm(mesh.position(v) - place)) <= reach * reach; });
       });
-    mesh.removeTriangles(triangles);
-    mesh.dropErased();
+  };
+  std::size_t dropped = 0;
+  for (const Piece& piece : pieces)
+  {
+    if (isSmall(piece) && isNearOther(piece))
+    {
+      ++dropped;
+      for (const VertexIndex v : piece.vertices)
+      {
+        isScrap[v] = 1;
+      }
+    }
+  }
+  if (dropped > 0)
+  {
+    removeVertices(mesh, isScrap);
   }
   return dropped;
 }

@@ -22,4 +22,8 @@ std::vector<std::uint8_t> valencesOf(const Mesh& mesh);
 /// may be erased, and none is in the end; properties follow. Where pieces with less than 1 % of the area are most
 /// of the mesh, they stay. Returns how many were dropped.
 std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices);
+
+/// Drops scraps: open pieces of at most three triangles that lie so close to another piece that this is where their
+/// points belong. No vertex may be erased, and none is in the end. Returns how many were dropped.
+std::size_t dropScraps(Mesh& mesh);
 }

@@ -13,6 +13,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace neuralmesh
@@ -50,8 +51,41 @@ constexpr double EdgesOfPiece = 2.;
 /// Of the points asked: fewer are a piece by chance.
 constexpr double LeastAskedInPiece = 4.;
 
+/// A small piece is a part of the scan if it has so many points, ...
+constexpr double FewestInSmallPart = 24.;
+/// ... and those are not sparser than usual, but for chance. Strewn outliers are.
+constexpr float MostSpacingOfSmallPart = 1.5f;
+
+/// Of a fine mesh edges are not longer than so many distances between points. Where a few points that belong together
+/// are off it by such a part of their own distances, it lacks what they show.
+constexpr double SpacingsOfFineEdge = 3.;
+constexpr float SpacingsPassedBy = 0.25f;
+/// ... and of any mesh where more than half of those of a piece are.
+constexpr float SpacingsPassedByPiece = 0.5f;
+constexpr std::size_t FewestPassedBy = 8;
+
 constexpr std::size_t SpacingsAsked = 500;
 constexpr std::size_t ExplainedPerRange = 256;
+
+/// Of the variance of places, the part across the plane that fits them best.
+double variationOf(std::span<const NearPoint> near, std::span<const Vector4> places)
+{
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const NearPoint& point : near)
+  {
+    mean += places[point.index].toDouble() / double(near.size());
+  }
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const NearPoint& point : near)
+  {
+    const Eigen::Vector3d offset = places[point.index].toDouble() - mean;
+    covariance += offset * offset.transpose();
+  }
+  const double all = covariance.trace();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  // Few points are flat by chance.
+  return near.size() < NeighborsInVariation ? 1. : all > 0. ? solver.eigenvalues()[0] / all : 0.;
+}
 
 class Explainer
 {
@@ -74,8 +108,16 @@ public:
       survey();
       tellApart();
       findPieces();
-      std::stable_sort(result_.pieces.begin(), result_.pieces.end(),
-        [](const MissedPiece& a, const MissedPiece& b) { return a.points > b.points; });
+      findPassedBy();
+      for (std::vector<MissedPiece>* pieces :
+        { &result_.pieces, &result_.smallParts, &result_.passedBy })
+      {
+        std::stable_sort(pieces->begin(), pieces->end(),
+          [](const MissedPiece& a, const MissedPiece& b) { return a.points > b.points; });
+      }
+      result_.torn = findTornParts(
+        cloud_, result_.asked,
+        [this](std::size_t i) { return result_.reasons[i] == Reason::Explained; }, executor_);
     }
     count();
     findCutOff();
@@ -231,9 +273,24 @@ private:
     }
     if (double(piece.size()) < LeastAskedInPiece || (isSmall(piece) && !isOfSurface(piece)))
     {
+      if (isSmallPart(piece))
+      {
+        result_.smallParts.push_back(described(piece));
+      }
       take(piece, Reason::SmallPiece, [](std::size_t) { return true; });
       return;
     }
+    const MissedPiece missed = described(piece);
+    // A rim is as coarse as its edges are long.
+    if (!missed.isBeyondBoundary ||
+      missed.farthest > cloud_.unit() * double(result_.asked.meanEdge))
+    {
+      result_.pieces.push_back(missed);
+    }
+  }
+
+  MissedPiece described(const std::vector<std::size_t>& piece) const
+  {
     MissedPiece missed;
     missed.points = pointsPerAsked() * double(piece.size());
     std::size_t beyond = 0;
@@ -246,12 +303,28 @@ private:
       beyond += result_.asked.isBeyondBoundary[i];
     }
     missed.isBeyondBoundary = 2 * beyond > piece.size();
-    // A rim is as coarse as its edges are long.
-    if (!missed.isBeyondBoundary ||
-      missed.farthest > cloud_.unit() * double(result_.asked.meanEdge))
+    return missed;
+  }
+
+  /// Whether a small piece is no chance: there are enough points, as dense as others, and on a surface.
+  bool isSmallPart(const std::vector<std::size_t>& piece) const
+  {
+    if (double(piece.size()) < LeastAskedInPiece ||
+      pointsPerAsked() * double(piece.size()) < FewestInSmallPart)
     {
-      result_.pieces.push_back(missed);
+      return false;
     }
+    std::vector<float> spacings;
+    double variation = 0.;
+    std::array<NearPoint, NeighborsInVariation> near;
+    for (const std::size_t i : piece)
+    {
+      spacings.push_back(spacings_[i]);
+      const std::size_t found = nearest_.find(placeOf(i), near);
+      variation += variationOf(std::span(near).first(found), cloud_.points());
+    }
+    return medianOf(std::move(spacings)) <= MostSpacingOfSmallPart * usualSpacing_ &&
+      variation <= MostVariation * double(piece.size());
   }
 
   bool isSmall(const std::vector<std::size_t>& piece) const
@@ -311,24 +384,7 @@ private:
         continue;
       }
       const std::size_t found = nearest.find(places[m], near);
-      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-      for (std::size_t i = 0; i < found; ++i)
-      {
-        mean += places[near[i].index].toDouble() / double(found);
-      }
-      Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-      for (std::size_t i = 0; i < found; ++i)
-      {
-        const Eigen::Vector3d offset = places[near[i].index].toDouble() - mean;
-        covariance += offset * offset.transpose();
-      }
-      const double all = covariance.trace();
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
-        covariance, Eigen::EigenvaluesOnly);
-      // Few points are flat by chance.
-      variations_[missed[m]] = found < NeighborsInVariation ? 1.
-        : all > 0.                                          ? solver.eigenvalues()[0] / all
-                                                            : 0.;
+      variations_[missed[m]] = variationOf(std::span(near).first(found), places);
     }
   }
 
@@ -377,6 +433,65 @@ private:
           sets.join(first, other->second);
         }
       }
+    }
+  }
+
+  bool isExplainedBeyond(std::size_t i, float spacings) const
+  {
+    const float distance = result_.asked.distances[i];
+    return result_.reasons[i] == Reason::Explained && distance > noise_ &&
+      distance > spacings * spacings_[i];
+  }
+
+  /// A hole or a part as narrow as points are apart has no point that is far away.
+  void findPassedBy()
+  {
+    if (result_.asked.meanEdge <= SpacingsOfFineEdge * double(usualSpacing_))
+    {
+      std::vector<std::size_t> off;
+      std::vector<Vector4> places;
+      for (std::size_t i = 0; i < result_.reasons.size(); ++i)
+      {
+        if (isExplainedBeyond(i, SpacingsPassedBy))
+        {
+          off.push_back(i);
+          places.push_back(placeOf(i));
+        }
+      }
+      DisjointSets sets(off.size());
+      joinNeighbors(sets, off, places, float(std::sqrt(pointsPerAsked())));
+      std::map<std::size_t, std::vector<std::size_t>> groups;
+      for (std::size_t m = 0; m < off.size(); ++m)
+      {
+        groups[sets.root(m)].push_back(off[m]);
+      }
+      for (const auto& [root, group] : groups)
+      {
+        addPassedBy(group);
+      }
+    }
+    std::map<std::uint32_t, std::vector<std::size_t>> pieces;
+    for (std::size_t i = 0; i < result_.asked.pieces.size(); ++i)
+    {
+      pieces[result_.asked.pieces[i]].push_back(i);
+    }
+    for (auto& [number, piece] : pieces)
+    {
+      const std::size_t all = piece.size();
+      std::erase_if(
+        piece, [this](std::size_t i) { return !isExplainedBeyond(i, SpacingsPassedByPiece); });
+      if (2 * piece.size() > all)
+      {
+        addPassedBy(piece);
+      }
+    }
+  }
+
+  void addPassedBy(const std::vector<std::size_t>& group)
+  {
+    if (group.size() >= FewestPassedBy)
+    {
+      result_.passedBy.push_back(described(group));
     }
   }
 

@@ -4,6 +4,7 @@
 #include "base/Executor.h"
 #include "cloud/PointCloud.h"
 #include "run/PointDistances.h"
+#include "run/TornParts.h"
 
 #include <Eigen/Core>
 
@@ -62,6 +63,13 @@ struct Explanation
   std::array<double, Reasons>
     counts{};                      ///< of the points of the input, about; exact if all are asked
   std::vector<MissedPiece> pieces; ///< that are unreachable, the largest first
+  /// Of small pieces, those that a closer look shows as parts of the scan: their points lie as dense as others and
+  /// form a surface. The largest first.
+  std::vector<MissedPiece> smallParts;
+  TornParts torn; ///< of what is explained
+  /// Points that belong together and are explained, though the mesh passes them by: where it has nearly as many vertices
+  /// as the cloud has points, or as most points of a piece of the mesh. The largest first.
+  std::vector<MissedPiece> passedBy;
   /// As rims are that are narrower than edges are long: farther from the mesh than from each other, and than any noise,
   /// and not beyond a boundary.
   CutOffPoints atRims;

@@ -5,11 +5,13 @@
 #include "cloud/CloudDistance.h"
 #include "cloud/PlaceOnMesh.h"
 #include "mesh/NearestTriangle.h"
+#include "mesh/Pieces.h"
 #include "mesh/TriangleMesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace neuralmesh
 {
@@ -100,10 +102,39 @@ private:
   VertexGrid grid_;
 };
 
+/// By the index of the vertex; empty if there is but one.
+std::vector<std::uint32_t> piecesOf(const Mesh& mesh)
+{
+  if (pieceCount(mesh) < 2)
+  {
+    return {};
+  }
+  std::vector<std::uint32_t> result(mesh.indexEnd(), 0);
+  std::uint32_t number = 0;
+  for (const Piece& piece : findPieces(mesh))
+  {
+    for (const VertexIndex v : piece.vertices)
+    {
+      result[v] = number;
+    }
+    ++number;
+  }
+  return result;
+}
+
+void setPiece(PointDistances& result, std::size_t i, std::span<const std::uint32_t> pieceOf,
+  const PlaceOnMesh& place)
+{
+  if (!pieceOf.empty())
+  {
+    result.pieces[i] = pieceOf[place.triangle[0]];
+  }
+}
+
 /// Where edges are long, or layers close, the closest vertex may be one of another part of the mesh: what seems
 /// to be farther away than `least` is measured to all triangles.
-void findExactly(const Mesh& mesh, const PointCloud& cloud, float least, const Executor& executor,
-  PointDistances& result)
+void findExactly(const Mesh& mesh, const PointCloud& cloud, float least,
+  std::span<const std::uint32_t> pieceOf, const Executor& executor, PointDistances& result)
 {
   if (std::none_of(result.distances.begin(), result.distances.end(),
         [least](float distance) { return distance > least; }))
@@ -126,6 +157,7 @@ void findExactly(const Mesh& mesh, const PointCloud& cloud, float least, const E
             closestPlaceAt(point, mesh, triangles.triangles[found.triangle][0]);
           result.distances[i] = std::sqrt(place.squaredDistance);
           result.isBeyondBoundary[i] = isBeyondBoundary(place, mesh) ? 1 : 0;
+          setPiece(result, i, pieceOf, place);
         }
       }
     });
@@ -192,6 +224,8 @@ std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cl
   const std::size_t count = result.points.size();
   result.distances.resize(count);
   result.isBeyondBoundary.resize(count);
+  const std::vector<std::uint32_t> pieceOf = piecesOf(mesh);
+  result.pieces.resize(pieceOf.empty() ? 0 : count);
   result.meanEdge = mesh.meanEdge(executor);
   const float median = places.medianOfSome(result.points, executor);
   for (std::size_t first = 0; first < count; first += PointsPerBlock)
@@ -209,6 +243,7 @@ std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cl
           float& distance = result.distances[i];
           distance = std::sqrt(place.squaredDistance);
           result.isBeyondBoundary[i] = isBeyondBoundary(place, mesh) ? 1 : 0;
+          setPiece(result, i, pieceOf, place);
           if (distance > MediansToLookAgain * median)
           {
             distance = std::min(distance, places.distance(result.points[i]));
@@ -220,7 +255,7 @@ std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cl
   {
     return std::nullopt;
   }
-  findExactly(mesh, cloud, MediansAway * median, executor, result);
+  findExactly(mesh, cloud, MediansAway * median, pieceOf, executor, result);
   return result;
 }
 

@@ -23,6 +23,8 @@ struct PointDistances
   std::vector<float> distances;               ///< of each, in units of the cloud
   std::vector<std::uint8_t> isBeyondBoundary; ///< of each, whether its place is on a boundary
   double meanEdge = 0.;                       ///< of the mesh, in units of the cloud
+  std::vector<std::uint32_t>
+    pieces; ///< of each, that of the mesh which it lies on; empty if there is but one
 };
 
 /// What vertices rest on, by their index: points count at the corners of the triangle that they lie on, by

@@ -156,6 +156,7 @@ bool mayHaveLostThinParts(const Reconstruction& result, const RunRequest& reques
   }
   const double meanEdge = result.explanation->asked.meanEdge * request.cloud.unit();
   return result.finish->left.intersectingTriangles > 0 || result.quality->surface.foldedEdges > 0 ||
+    result.explanation->torn.any() ||
     !std::ranges::all_of(result.explanation->pieces,
       [meanEdge](const MissedPiece& piece) { return piece.isCoarse(meanEdge); });
 }

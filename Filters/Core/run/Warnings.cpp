@@ -126,13 +126,21 @@ void warnOfCutOff(const Explanation& explanation, const PointCloud& cloud, Warni
       [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == fate; });
   };
   const std::size_t atRims = explanation.atRims.count;
-  if (atRims >= FewestAtRims && double(atRims) > MostAtRims * double(explanation.reasons.size()) &&
-    !names(Fate::Coarse))
+  const bool isCutOff =
+    atRims >= FewestAtRims && double(atRims) > MostAtRims * double(explanation.reasons.size());
+  if (isCutOff && !names(Fate::Coarse))
   {
     warnings.add(WarningTopic::MeshIsCoarse,
       "The mesh is coarser than its cloud: it cuts off " +
         cutOffText(explanation.atRims, explanation, cloud) +
         "The surface is narrower there than edges are long. Use more vertices.");
+  }
+  if (!explanation.passedBy.empty() && !isCutOff && !names(Fate::Coarse))
+  {
+    warnings.add(WarningTopic::MeshIsCoarse,
+      "The mesh passes by points that belong together: " + piecesText(explanation.passedBy, cloud) +
+        "A narrow hole may be closed there, or a narrow part cut off. Use more vertices, or scan "
+        "more points.");
   }
   if (explanation.beyondEnds.count >= FewestBeyondEnds && !names(Fate::BeyondBoundary))
   {
@@ -181,6 +189,34 @@ void warnOfPieces(
   }
 }
 
+/// What has few points is dropped with what is strewn; here it is more.
+void warnOfSmallParts(
+  const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
+{
+  if (!explanation.smallParts.empty())
+  {
+    warnings.add(WarningTopic::PartIsMissing,
+      "A small part of the cloud is missing in the mesh: " +
+        piecesText(explanation.smallParts, cloud) +
+        "These points lie as dense as others and form a surface, but they are so few that the "
+        "program takes them for stray points. If the part belongs to the scan, keep small pieces "
+        "(--keep-pieces 0). " +
+        std::string(HowToSee));
+  }
+}
+
+void warnOfTornParts(const TornParts& torn, const PointCloud& cloud, WarningList& warnings)
+{
+  if (torn.any())
+  {
+    warnings.add(WarningTopic::FallsIntoPieces,
+      "The mesh falls into pieces where the points are connected: it is torn at " +
+        counted(torn.tears, "place", "places") + ", as around " + placeText(torn.place, cloud) +
+        ". Points are sparse there, or the part is narrower than edges are long. Use more "
+        "vertices, more points, or another seed.");
+  }
+}
+
 void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
 {
   // The noise is unknown where the mesh misses the cloud.
@@ -204,7 +240,9 @@ void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, Warni
   {
     warnOfPieces(explanation, cloud, fate, warnings);
   }
+  warnOfSmallParts(explanation, cloud, warnings);
   warnOfCutOff(explanation, cloud, warnings);
+  warnOfTornParts(explanation.torn, cloud, warnings);
 }
 
 void warnOfBareArea(double share, WarningList& warnings)

@@ -6,6 +6,7 @@
 #include "start/LocalLayer.h"
 #include "start/OccupiedSolid.h"
 #include "start/OccupiedVoxels.h"
+#include "start/SeparateClusters.h"
 #include "start/VoxelMajority.h"
 #include "start/VoxelNeighbors.h"
 
@@ -35,6 +36,8 @@ constexpr double DeviationsInLimb = 5.;
 constexpr std::size_t PointsOfNoise = 200;
 constexpr std::size_t LeastPointsOfLayer = 16;
 constexpr double VoxelsOfNoise = 2.;
+/// ... or, without voxels, as this part of the diagonal.
+constexpr double DiagonalOfNoise = 0.02;
 /// It has so many voxels, and of the cube around it fills this part: thin sheets and rods do not.
 constexpr std::size_t LeastVoxelsOfCore = 6;
 constexpr double LeastPartOfCube = 0.15;
@@ -293,14 +296,10 @@ Voxels clusterVoxels(
   }
   return isHidden;
 }
-}
 
-std::optional<PointCloud> withoutClusters(const PointCloud& cloud)
+/// Without clusters that may touch the surface; nothing if there are none.
+std::optional<PointCloud> withoutThickParts(const PointCloud& cloud)
 {
-  if (!cloud.hasExtent())
-  {
-    return {};
-  }
   const OccupiedVoxels voxels = occupiedVoxels(cloud, Resolution);
   std::vector<Ball> clusters = findClusters(voxels);
   if (!clusters.empty())
@@ -323,5 +322,28 @@ std::optional<PointCloud> withoutClusters(const PointCloud& cloud)
     });
   const auto left = double(rest.points().size()), all = double(cloud.points().size());
   return left >= (1. - MostPartOfClusters) * all ? std::move(rest) : std::optional<PointCloud>();
+}
+}
+
+std::optional<PointCloud> withoutClusters(const PointCloud& cloud)
+{
+  if (!cloud.hasExtent())
+  {
+    return {};
+  }
+  const SeparateClusters separate(
+    cloud, [&] { return noiseOf(cloud, float(DiagonalOfNoise * cloud.diagonal())); });
+  std::optional<PointCloud> rest;
+  if (!separate.areNone())
+  {
+    rest = cloud.without([&](Vector4 point) { return separate.hold(point); });
+  }
+  if (auto more = withoutThickParts(rest ? *rest : cloud))
+  {
+    rest = std::move(more);
+  }
+  const auto all = double(cloud.points().size());
+  return rest && double(rest->points().size()) >= (1. - MostPartOfClusters) * all ? std::move(rest)
+                                                                                  : std::nullopt;
 }
 }

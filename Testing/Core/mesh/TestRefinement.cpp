@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace neuralmesh::testing
 {
@@ -153,6 +154,39 @@ TEST(SmallPieces, LessThanFiftieth)
   EXPECT_EQ(mesh.vertexCount(), 961u + 25u);
   EXPECT_EQ(reportOf(mesh).components, 2u);
   EXPECT_TRUE(findSmallPieces(mesh).empty());
+}
+
+// A loose triangle that lies beside a piece goes; one that is far from it, and a tetrahedron, which is closed, stay.
+TEST(SmallPieces, Scraps)
+{
+  TriangleMesh shape = makeSphere(20);
+  const auto add = [&](const Eigen::Vector3d& place)
+  {
+    const auto first = std::uint32_t(shape.points.size());
+    for (const Eigen::Vector3d& corner :
+      { Eigen::Vector3d(0., 0., 0.), Eigen::Vector3d(0.03, 0., 0.), Eigen::Vector3d(0., 0.03, 0.) })
+    {
+      shape.points.push_back(place + corner);
+    }
+    shape.triangles.push_back({ first, first + 1, first + 2 });
+    return first;
+  };
+  add({ 0., 0., 1.03 });
+  add({ 0., 0., 1.5 });
+  const std::uint32_t base = add({ 0., 0., -1.05 });
+  const auto tip = std::uint32_t(shape.points.size());
+  shape.points.emplace_back(0.01, 0.01, -1.08);
+  for (const auto& [a, b] : { std::pair(1u, 0u), std::pair(2u, 1u), std::pair(0u, 2u) })
+  {
+    shape.triangles.push_back({ base + a, base + b, tip });
+  }
+  Mesh mesh = meshOf(shape);
+  const std::size_t all = mesh.vertexCount();
+  ASSERT_EQ(pieceCount(mesh), 4u);
+  EXPECT_EQ(dropScraps(mesh), 1u);
+  EXPECT_EQ(mesh.vertexCount(), all - 3);
+  EXPECT_EQ(pieceCount(mesh), 3u);
+  EXPECT_EQ(dropScraps(mesh), 0u);
 }
 
 // A mesh in one piece has no small ones, be it as small as it may.

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Promise: a part of the scan that comes out in pieces, or is dropped as it is small, is told with its place; bodies that
+// touch, strewn points and dense clusters of them are no such parts.
+#include "run/TornParts.h"
+
+#include "cloud/CloudGenerator.h"
+#include "cloud/MeshBuilder.h"
+#include "Clusters.h"
+#include "run/Explanation.h"
+#include "run/Reconstruction.h"
+#include "run/Warnings.h"
+#include "Shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+constexpr std::size_t All = std::size_t(-1);
+
+using Points = std::vector<Eigen::Vector3d>;
+
+TriangleMesh scaled(TriangleMesh mesh, const Eigen::Vector3d& scale)
+{
+  for (Eigen::Vector3d& point : mesh.points)
+  {
+    point = scale.cwiseProduct(point);
+  }
+  return mesh;
+}
+
+Points pointsOn(const TriangleMesh& mesh, std::size_t count)
+{
+  CloudOptions options;
+  options.count = count;
+  return generateCloud(mesh, options);
+}
+
+/// A bar along x, closed, around the origin.
+TriangleMesh bar(double length) { return scaled(makeCube(8), { length, 0.06, 0.06 }); }
+
+/// The same in two, with a gap between.
+TriangleMesh twoBars(double gap)
+{
+  const Eigen::Vector3d shift(0.5 * (0.5 + 0.5 * gap), 0., 0.);
+  TriangleMesh bars;
+  append(bars, bar(0.5 - 0.5 * gap), shift);
+  append(bars, bar(0.5 - 0.5 * gap), -shift);
+  return bars;
+}
+
+Explanation explainedBy(const TriangleMesh& shape, const PointCloud& cloud)
+{
+  const Mesh mesh = buildMesh(shape, cloud);
+  return explain(cloud, distancesTo(mesh, cloud, All), {});
+}
+
+std::vector<std::string> warningsBy(const TriangleMesh& shape, const PointCloud& cloud)
+{
+  Reconstruction result;
+  result.explanation = explainedBy(shape, cloud);
+  return warningsOf(result, cloud);
+}
+
+bool hasTag(const std::vector<std::string>& warnings, const std::string& tag)
+{
+  return std::any_of(warnings.begin(), warnings.end(),
+    [&](const std::string& warning) { return warning.ends_with("[" + tag + "]"); });
+}
+
+/// A ball with a million points to the square unit, nearly, and one so small that few are on it.
+Points ballAndSmallBall(std::size_t countOfSmall)
+{
+  constexpr double Radius = 0.02;
+  Points points = pointsOn(makeSphere(), 100000);
+  for (const Eigen::Vector3d& point : pointsOn(makeSphere(), countOfSmall))
+  {
+    points.emplace_back(Radius * point + Eigen::Vector3d(0., 1.4, 0.));
+  }
+  return points;
+}
+}
+
+TEST(TornParts, ABarInTwoPieces)
+{
+  for (const std::size_t count : { 500, 4000, 30000 })
+  {
+    SCOPED_TRACE(count);
+    const PointCloud cloud(pointsOn(bar(1.), count));
+    const Explanation explanation = explainedBy(twoBars(0.005), cloud);
+    EXPECT_EQ(explanation.torn.tears, 1u);
+    EXPECT_LT(explanation.torn.place.norm(), 0.03);
+    EXPECT_TRUE(hasTag(warningsBy(twoBars(0.005), cloud), "falls-into-pieces"));
+    EXPECT_FALSE(explainedBy(bar(1.), cloud).torn.any());
+  }
+}
+
+TEST(TornParts, WhatIsApartIsNotTorn)
+{
+  for (const double gap : { 0.05, 0.2 })
+  {
+    const PointCloud cloud(pointsOn(twoBars(gap), 4000));
+    EXPECT_FALSE(explainedBy(twoBars(gap), cloud).torn.any()) << gap;
+  }
+}
+
+TEST(TornParts, WhatTouchesIsNotTorn)
+{
+  TriangleMesh balls = makeSphere();
+  append(balls, makeSphere(), { 2., 0., 0. });
+  // Plates with faces that lie on each other.
+  TriangleMesh plates = scaled(makeCube(20), { 1., 1., 0.1 });
+  append(plates, scaled(makeCube(20), { 0.8, 0.8, 0.1 }), { 0., 0., 0.1 });
+  for (const TriangleMesh& shape : { balls, plates })
+  {
+    EXPECT_FALSE(explainedBy(shape, PointCloud(pointsOn(shape, 20000))).torn.any());
+  }
+}
+
+// A bore that the mesh closes is told though its points lie no farther from the mesh than from each other; without it
+// nothing is.
+TEST(PassedBy, AClosedBore)
+{
+  constexpr double Radius = 0.04, Depth = 0.016;
+  constexpr std::size_t Count = 12000, OfBore = 60;
+  Random random(7);
+  Points points;
+  const TriangleMesh cube = makeCube(40);
+  for (const Eigen::Vector3d& point : pointsOn(cube, Count))
+  {
+    if (point.head<2>().norm() > Radius)
+    {
+      points.push_back(point);
+    }
+  }
+  const PointCloud without(points);
+  for (std::size_t i = 0; i < OfBore; ++i)
+  {
+    const double angle = 2. * 3.14159265358979 * random.uniform();
+    const double depth = Depth * random.uniform();
+    points.emplace_back(
+      Radius * std::cos(angle), Radius * std::sin(angle), i % 2 == 0 ? 0.5 - depth : depth - 0.5);
+  }
+  const PointCloud cloud(points);
+  EXPECT_TRUE(explainedBy(cube, without).passedBy.empty());
+  const Explanation explanation = explainedBy(cube, cloud);
+  EXPECT_EQ(explanation.passedBy.size(), 2u);
+  EXPECT_TRUE(explanation.pieces.empty());
+  EXPECT_TRUE(hasTag(warningsBy(cube, cloud), "mesh-is-coarse"));
+}
+
+// A small ball of which the mesh has but one triangle.
+TEST(PassedBy, APieceOfOneTriangle)
+{
+  TriangleMesh mesh = makeSphere();
+  const auto first = std::uint32_t(mesh.points.size());
+  for (const Eigen::Vector3d& corner : { Eigen::Vector3d(0., 1.38, 0.),
+         Eigen::Vector3d(0., 1.41, 0.0173), Eigen::Vector3d(0., 1.41, -0.0173) })
+  {
+    mesh.points.push_back(corner);
+  }
+  mesh.triangles.push_back({ first, first + 1, first + 2 });
+  const PointCloud cloud(ballAndSmallBall(51));
+  const Explanation explanation = explainedBy(mesh, cloud);
+  EXPECT_TRUE(explanation.pieces.empty());
+  ASSERT_EQ(explanation.passedBy.size(), 1u);
+  EXPECT_LT((explanation.passedBy[0].center - Eigen::Vector3d(0., 1.4, 0.)).norm(), 0.02);
+}
+
+TEST(SmallParts, ADenseBallIsTold)
+{
+  const PointCloud cloud(ballAndSmallBall(51));
+  const Explanation explanation = explainedBy(makeSphere(), cloud);
+  ASSERT_EQ(explanation.smallParts.size(), 1u);
+  EXPECT_NEAR(explanation.smallParts[0].points, 51., 3.);
+  EXPECT_LT((explanation.smallParts[0].center - Eigen::Vector3d(0., 1.4, 0.)).norm(), 0.01);
+  EXPECT_TRUE(explanation.pieces.empty());
+  EXPECT_TRUE(hasTag(warningsBy(makeSphere(), cloud), "part-is-missing"));
+}
+
+TEST(SmallParts, StrewnPointsAreNone)
+{
+  Random random(5);
+  Points points = pointsOn(makeSphere(), 100000);
+  // Here and there, and together.
+  for (int i = 0; i < 2000; ++i)
+  {
+    const double x = random.uniform(), y = random.uniform();
+    points.emplace_back(3. * Eigen::Vector3d(x, y, random.uniform()));
+  }
+  addCluster(points, { 0., 1.4, 0. }, 0.01, 45, random);
+  const PointCloud cloud(points);
+  EXPECT_TRUE(explainedBy(makeSphere(), cloud).smallParts.empty());
+  EXPECT_TRUE(warningsBy(makeSphere(), cloud).empty());
+}
+}
