@@ -17,14 +17,14 @@ def number(value):
 
 
 def plain_sentences(found, parameter):
-    """The text with the labels of the panel."""
+    """The text with the labels of the panel, without numbers of figures and equations of the thesis."""
     text = parameter.text
     if parameter.choice:
         values = (f"{spaced(value.name)}: {value.text}." for value in parameter.choice.values)
         text = " ".join([text, *values])
     for other in found.parameters:
         text = re.sub(rf"\b{other.name}\b", spaced(other.name), text)
-    return text
+    return re.sub(r" \((?:Algorithm |Figure |chapter )?\d+(?:\.\d+)*\)", "", text)
 
 
 def sentences(found, parameter):

@@ -2,6 +2,7 @@
 #include "run/Warnings.h"
 
 #include "base/WarningTopic.h"
+#include "cloud/PointsOnLine.h"
 #include "mesh/Pieces.h"
 #include "run/BareArea.h"
 
@@ -539,6 +540,13 @@ std::vector<std::string> warningsOf(
   const Reconstruction& result, const PointCloud& cloud, const Parameters& parameters)
 {
   WarningList warnings;
+  if (areOnLine(cloud))
+  {
+    // All else follows from it.
+    warnings.add(WarningTopic::NoSurface,
+      "All points lie on a line, so they have no surface. Check which columns are x, y and z.");
+    return warnings.take();
+  }
   if (result.explanation)
   {
     warnOfPoints(*result.explanation, cloud, warnings);

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import os
 import shlex
+import site
 import sys
 from typing import Sequence
 
@@ -31,6 +32,13 @@ This needs no settings. A script that imports neuralmesh itself finds it by
 
     PYTHONPATH={folder} pvpython script.py
 """
+# inspect.getargspec is gone from Python 3.11, and ParaView 5.11 calls it for each plugin in Python.
+_OLD_PARAVIEW = """
+ParaView 5.11 with Python 3.11 needs these lines in usercustomize.py, in the folder {site}:
+
+    import inspect
+    inspect.getargspec = inspect.getfullargspec
+"""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -51,4 +59,6 @@ def main(arguments: Sequence[str]) -> int:
     version = "{}.{}".format(*sys.version_info)
     folder = shlex.quote(os.path.dirname(os.path.dirname(_PLUGIN)))
     print(_PYTHON.format(plugin=_PLUGIN, version=version, folder=folder), end="")
+    if sys.version_info[:2] == (3, 11):
+        print(_OLD_PARAVIEW.format(site=site.getusersitepackages()), end="")
     return 0
