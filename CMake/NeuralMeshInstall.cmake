@@ -7,11 +7,14 @@ configure_file("${CMAKE_CURRENT_LIST_DIR}/NeuralMeshConfig.cmake.in"
 write_basic_package_version_file(
   "${CMAKE_BINARY_DIR}/${cmake_destination}/NeuralMeshConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
+# NeuralMeshConfig.cmake includes it from beside itself, in the build folder, too.
+configure_file("${CMAKE_CURRENT_LIST_DIR}/NeuralMeshDebianPython.cmake"
+  "${CMAKE_BINARY_DIR}/${cmake_destination}/NeuralMeshDebianPython.cmake" COPYONLY)
 install(
   FILES
     "${CMAKE_BINARY_DIR}/${cmake_destination}/NeuralMeshConfig.cmake"
     "${CMAKE_BINARY_DIR}/${cmake_destination}/NeuralMeshConfigVersion.cmake"
-    "${CMAKE_CURRENT_LIST_DIR}/NeuralMeshDebianPython.cmake"
+    "${CMAKE_BINARY_DIR}/${cmake_destination}/NeuralMeshDebianPython.cmake"
   DESTINATION "${cmake_destination}"
   COMPONENT development)
 

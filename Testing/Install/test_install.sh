@@ -50,6 +50,17 @@ case_cxx()
   [ "$("$scratch/consumer/consumer")" = "100 vertices" ] || fail "another answer"
 }
 
+# Promise: find_package(NeuralMesh) works in the build folder, too, without an installation.
+case_build_folder()
+{
+  local own=$scratch/build_folder
+  rm -rf "$own"
+  cmake -S "$here/Consumer" -B "$own" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_PREFIX_PATH="$build" -Dwanted_version="$version" ${VTK_DIR:+-DVTK_DIR="$VTK_DIR"}
+  cmake --build "$own"
+  [ "$("$own/consumer")" = "100 vertices" ] || fail "another answer"
+}
+
 # Promise: what a program's own find_package(VTK) has set stays.
 case_own_vtk()
 {
