@@ -41,8 +41,9 @@ install_packages()
   local as_root=()
   [ "$(id -u)" -eq 0 ] || as_root=(sudo)
   "${as_root[@]}" apt-get update -qq
+  # Another apt may run, as automatic updates do on a new machine.
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -qq --no-install-recommends "${missing[@]}"
+    apt-get -o DPkg::Lock::Timeout=600 install -y -qq --no-install-recommends "${missing[@]}"
 }
 
 # Fetches nanobind from PyPI, if it is reached, and tells CMake of it: fetch_nanobind FOLDER. Without it the
