@@ -34,7 +34,9 @@ def check_places(folder, files):
         path.name for path in folder.rglob("*")
         if path.is_file() and parameter.lower().encode() in path.read_bytes().lower()
     }
-    wanted = {"Parameters.json", "WinGain.cpp", f"Test{parameter}.cpp", PAGE.name}
+    wanted = {
+        "Parameters.json", "WinGain.cpp", "ParallelLearner.cpp", f"Test{parameter}.cpp", PAGE.name
+    }
     if found != wanted:
         sys.exit(f"{parameter} stands in {', '.join(sorted(found))}")
 
