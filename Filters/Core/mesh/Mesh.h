@@ -66,15 +66,21 @@ public:
   {
     for (VertexIndex v = 0; v < indexEnd(); ++v)
     {
-      const Ring& ring = rings_[v];
-      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+      forEachTriangleFrom(v, use);
+    }
+  }
+  /// The same for the triangles of which `v` is the corner of the lowest index: `a` is `v`.
+  template <typename Use>
+  void forEachTriangleFrom(VertexIndex v, const Use& use) const
+  {
+    const Ring& ring = rings_[v];
+    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+    {
+      const VertexIndex b = ring[slot];
+      const VertexIndex c = ring[ring.after(slot)];
+      if (v < b && v < c)
       {
-        const VertexIndex b = ring[slot];
-        const VertexIndex c = ring[ring.after(slot)];
-        if (v < b && v < c)
-        {
-          use(v, b, c);
-        }
+        use(v, b, c);
       }
     }
   }

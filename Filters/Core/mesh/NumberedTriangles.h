@@ -41,7 +41,10 @@ public:
       {
         forEachVertex(part,
           [&](VertexIndex v)
-          { forEachAt(v, [&](VertexIndex, VertexIndex) { ++before[part + 1]; }); });
+          {
+            mesh.forEachTriangleFrom(
+              v, [&](VertexIndex, VertexIndex, VertexIndex) { ++before[part + 1]; });
+          });
       });
     std::partial_sum(before.begin(), before.end(), before.begin());
     triangles_.resize(before.back());
@@ -53,11 +56,11 @@ public:
         forEachVertex(part,
           [&](VertexIndex v)
           {
-            forEachAt(v,
-              [&](VertexIndex b, VertexIndex c)
+            mesh.forEachTriangleFrom(v,
+              [&](VertexIndex a, VertexIndex b, VertexIndex c)
               {
-                triangles_[number] = { v, b, c };
-                for (const std::size_t at : { place(v, b), place(b, c), place(c, v) })
+                triangles_[number] = { a, b, c };
+                for (const std::size_t at : { place(a, b), place(b, c), place(c, a) })
                 {
                   numbers_[at] = std::uint32_t(number);
                 }
@@ -78,21 +81,6 @@ public:
 private:
   /// For the executor.
   static constexpr std::size_t VerticesPerPart = 4096;
-
-  /// The triangles of which a vertex is the corner of the lowest index.
-  template <typename Use>
-  void forEachAt(VertexIndex v, const Use& use) const
-  {
-    const Ring& ring = mesh_.ring(v);
-    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
-    {
-      const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
-      if (v < b && v < c)
-      {
-        use(b, c);
-      }
-    }
-  }
 
   std::size_t place(VertexIndex v, VertexIndex next) const
   {

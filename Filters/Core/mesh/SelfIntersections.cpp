@@ -204,50 +204,39 @@ public:
     : mesh_(mesh)
     , executor_(executor)
   {
-    // By their corners of the lowest index.
+    // Each triangle belongs to its corner of the lowest index.
     std::vector<VertexIndex> vertices;
     addFound(mesh.indexEnd(), executor, vertices,
       [&](std::size_t i, std::vector<VertexIndex>& found)
       {
-        const auto v = VertexIndex(i);
         bool isAny = false;
-        forEachAt(v,
-          [&](VertexIndex b, VertexIndex c)
-          { isAny = isAny || isAsked[v] || isAsked[b] || isAsked[c]; });
+        mesh.forEachTriangleFrom(VertexIndex(i),
+          [&](VertexIndex a, VertexIndex b, VertexIndex c)
+          { isAny = isAny || isAsked[a] || isAsked[b] || isAsked[c]; });
         if (isAny)
         {
-          found.push_back(v);
+          found.push_back(VertexIndex(i));
         }
       });
     vertices = verticesAlongCurve(mesh, vertices, executor);
+    const auto addTriangles = [&](VertexIndex v, bool isWanted, std::vector<Triangle>& found)
+    {
+      mesh.forEachTriangleFrom(v,
+        [&](VertexIndex a, VertexIndex b, VertexIndex c)
+        {
+          if ((isAsked[a] || isAsked[b] || isAsked[c]) == isWanted)
+          {
+            found.push_back({ a, b, c });
+          }
+        });
+    };
     triangles_.reserve(2 * mesh.vertexCount());
     addFound(vertices.size(), executor, triangles_,
-      [&](std::size_t i, std::vector<Triangle>& found)
-      {
-        const VertexIndex v = vertices[i];
-        forEachAt(v,
-          [&](VertexIndex b, VertexIndex c)
-          {
-            if (isAsked[v] || isAsked[b] || isAsked[c])
-            {
-              found.push_back({ v, b, c });
-            }
-          });
-      });
+      [&](std::size_t i, std::vector<Triangle>& found) { addTriangles(vertices[i], true, found); });
     askedCount_ = triangles_.size();
     addFound(askedCount_ > 0 ? mesh.indexEnd() : 0, executor, triangles_,
       [&](std::size_t i, std::vector<Triangle>& found)
-      {
-        const auto v = VertexIndex(i);
-        forEachAt(v,
-          [&](VertexIndex b, VertexIndex c)
-          {
-            if (!isAsked[v] && !isAsked[b] && !isAsked[c])
-            {
-              found.push_back({ v, b, c });
-            }
-          });
-      });
+      { addTriangles(VertexIndex(i), false, found); });
   }
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -271,21 +260,6 @@ public:
   }
 
 private:
-  /// The triangles of which a vertex is the corner of the lowest index.
-  template <typename Use>
-  void forEachAt(VertexIndex v, const Use& use) const
-  {
-    const Ring& ring = mesh_.ring(v);
-    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
-    {
-      const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
-      if (v < b && v < c)
-      {
-        use(b, c);
-      }
-    }
-  }
-
   const Mesh& mesh_;
   const Executor& executor_;
   std::vector<Triangle> triangles_;
