@@ -87,7 +87,23 @@ Fate fateOf(const MissedPiece& piece, double meanEdge)
                                 : Fate::Missing;
 }
 
-/// How many points are where: the largest pieces by their places, the others by their number.
+std::vector<MissedPiece> piecesOf(
+  Fate fate, const Explanation& explanation, const PointCloud& cloud)
+{
+  const double meanEdge = explanation.asked.meanEdge * cloud.unit();
+  std::vector<MissedPiece> pieces;
+  std::copy_if(explanation.pieces.begin(), explanation.pieces.end(), std::back_inserter(pieces),
+    [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == fate; });
+  return pieces;
+}
+
+/// What follows the places that a sentence names.
+std::string otherPlaces(std::size_t count, std::size_t named)
+{
+  return count > named ? " and " + counted(count - named, "other place", "other places") : "";
+}
+
+/// The number of points in each of the largest pieces with its place, and the number of the other pieces.
 std::string piecesText(const std::vector<MissedPiece>& pieces, const PointCloud& cloud)
 {
   std::string where = "about ";
@@ -96,11 +112,7 @@ std::string piecesText(const std::vector<MissedPiece>& pieces, const PointCloud&
     where += (i == 0 ? "" : ", ") + about(pieces[i].points) + " points around " +
       placeText(pieces[i].center, cloud);
   }
-  if (pieces.size() > MostPiecesNamed)
-  {
-    where += " and " + counted(pieces.size() - MostPiecesNamed, "other place", "other places");
-  }
-  return where + ". ";
+  return where + otherPlaces(pieces.size(), MostPiecesNamed) + ". ";
 }
 
 /// "about 120 points, the farthest around (0, 0, 1) by 0.02. ".
@@ -117,33 +129,30 @@ std::string cutOffText(
   return text.str();
 }
 
-/// A piece of the kind has its own warning.
+/// Warns of single points that the mesh cuts off. A piece of the same fate has its own warning, with the same
+/// tag: then this one is left out.
 void warnOfCutOff(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
 {
-  const double meanEdge = explanation.asked.meanEdge * cloud.unit();
-  const auto names = [&](Fate fate)
-  {
-    return std::any_of(explanation.pieces.begin(), explanation.pieces.end(),
-      [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == fate; });
-  };
   const std::size_t atRims = explanation.atRims.count;
   const bool isCutOff =
     atRims >= FewestAtRims && double(atRims) > MostAtRims * double(explanation.reasons.size());
-  if (isCutOff && !names(Fate::Coarse))
+  const bool hasCoarsePiece = !piecesOf(Fate::Coarse, explanation, cloud).empty();
+  if (isCutOff && !hasCoarsePiece)
   {
     warnings.add(WarningTopic::MeshIsCoarse,
       "The mesh is coarser than its cloud: it cuts off " +
         cutOffText(explanation.atRims, explanation, cloud) +
         "The surface is narrower there than edges are long. Use more vertices.");
   }
-  if (!explanation.passedBy.empty() && !isCutOff && !names(Fate::Coarse))
+  if (!explanation.passedBy.empty() && !isCutOff && !hasCoarsePiece)
   {
     warnings.add(WarningTopic::MeshIsCoarse,
       "The mesh passes by points that belong together: " + piecesText(explanation.passedBy, cloud) +
         "A narrow hole may be closed there, or a narrow part cut off. Use more vertices, or scan "
         "more points.");
   }
-  if (explanation.beyondEnds.count >= FewestBeyondEnds && !names(Fate::BeyondBoundary))
+  if (explanation.beyondEnds.count >= FewestBeyondEnds &&
+    piecesOf(Fate::BeyondBoundary, explanation, cloud).empty())
   {
     warnings.add(WarningTopic::OpenWherePointsAre,
       "The mesh is open where there are points: it does not reach " +
@@ -153,12 +162,9 @@ void warnOfCutOff(const Explanation& explanation, const PointCloud& cloud, Warni
 }
 
 void warnOfPieces(
-  const Explanation& explanation, const PointCloud& cloud, Fate fate, WarningList& warnings)
+  Fate fate, const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
 {
-  const double meanEdge = explanation.asked.meanEdge * cloud.unit();
-  std::vector<MissedPiece> pieces;
-  std::copy_if(explanation.pieces.begin(), explanation.pieces.end(), std::back_inserter(pieces),
-    [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == fate; });
+  const std::vector<MissedPiece> pieces = piecesOf(fate, explanation, cloud);
   if (pieces.empty())
   {
     return;
@@ -239,7 +245,7 @@ void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, Warni
   }
   for (const Fate fate : { Fate::Missing, Fate::BeyondBoundary, Fate::Coarse })
   {
-    warnOfPieces(explanation, cloud, fate, warnings);
+    warnOfPieces(fate, explanation, cloud, warnings);
   }
   warnOfSmallParts(explanation, cloud, warnings);
   warnOfCutOff(explanation, cloud, warnings);
@@ -322,10 +328,7 @@ void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud, WarningLi
     where += (i == 0 ? "" : ", ") + percent(gaps[i].share) + " of the surface around " +
       placeText(gaps[i].center, cloud);
   }
-  if (gaps.size() > MostPiecesNamed)
-  {
-    where += " and " + counted(gaps.size() - MostPiecesNamed, "other place", "other places");
-  }
+  where += otherPlaces(gaps.size(), MostPiecesNamed);
   warnings.add(WarningTopic::GapIsSpanned,
     "The mesh spans gaps of the cloud: " + where +
       ". The nearest points are farther away than three times their spacing, so the surface is a "
@@ -455,11 +458,7 @@ void warnOfHandles(const NarrowHandles& handles, const PointCloud& cloud, Warnin
   {
     where += (where.empty() ? " around " : ", ") + placeText(cloud.toInput(place), cloud);
   }
-  if (handles.count > handles.places.size() && !where.empty())
-  {
-    where +=
-      " and " + counted(handles.count - handles.places.size(), "other place", "other places");
-  }
+  where += where.empty() ? "" : otherPlaces(handles.count, handles.places.size());
   warnings.add(WarningTopic::NarrowHandles,
     "The mesh has at least " + counted(handles.count, "narrow handle", "narrow handles") + where +
       ": a loop of at most " + std::to_string(NarrowLoop) +
