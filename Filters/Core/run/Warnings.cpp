@@ -5,6 +5,8 @@
 #include "cloud/PointsOnLine.h"
 #include "mesh/Pieces.h"
 #include "run/BareArea.h"
+#include "run/PointWarnings.h"
+#include "run/WarningTexts.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +19,6 @@ namespace neuralmesh
 {
 namespace
 {
-constexpr double MostUnexplained = 0.03;
 /// Of the vertices.
 constexpr double MostBetweenLayers = 0.1;
 /// Of the area: less is not worth a word.
@@ -27,230 +28,15 @@ constexpr double MostTurned = 0.005;
 constexpr double MostBare = 0.04;
 /// ... and so has one bridge.
 constexpr double LeastGap = 0.0002;
-/// Of the points.
-constexpr double MostScattered = 0.5;
-constexpr double MostAtRims = 0.00035;
-/// Of those asked: fewer are cut off by chance.
-constexpr std::size_t FewestAtRims = 4;
-constexpr std::size_t FewestBeyondEnds = 6;
 /// Of the triangles.
 constexpr double MostSlivers = 0.002;
 constexpr double WholeArea = 0.999;
 /// Of the vertices.
 constexpr double MostDisagreeing = 0.02;
-/// Named in one sentence; the others are counted.
-constexpr std::size_t MostPiecesNamed = 2;
 /// With less points a vertex, the mesh follows single points.
 constexpr std::size_t LeastPointsPerVertex = 2;
 /// Of a closed mesh.
 constexpr std::size_t FewestVertices = 4;
-constexpr std::string_view HowToSee = "ExplainPoints (--explain) marks these points.";
-
-std::string counted(std::size_t count, std::string_view one, std::string_view several)
-{
-  return std::to_string(count) + " " + std::string(count == 1 ? one : several);
-}
-
-std::string percent(double share)
-{
-  std::ostringstream text;
-  text.precision(share > 0.1 ? 3 : 2);
-  text << 100. * share << " %";
-  return text.str();
-}
-
-std::string about(double points) { return std::to_string(std::llround(points)); }
-
-/// A place as a user would type it, in digits that tell it apart from others of the cloud.
-std::string placeText(const Eigen::Vector3d& place, const PointCloud& cloud)
-{
-  const double step = std::max(1e-3 * cloud.diagonal() * cloud.unit(), 1e-300);
-  const double largest = std::max(place.cwiseAbs().maxCoeff(), step);
-  std::ostringstream text;
-  text.precision(1 + int(std::ceil(std::log10(largest / step))));
-  text << "(" << place[0] << ", " << place[1] << ", " << place[2] << ")";
-  return text.str();
-}
-
-/// What has become of a piece of the cloud.
-enum class Fate
-{
-  Missing,
-  BeyondBoundary,
-  Coarse
-};
-
-Fate fateOf(const MissedPiece& piece, double meanEdge)
-{
-  return piece.isBeyondBoundary ? Fate::BeyondBoundary
-    : piece.isCoarse(meanEdge)  ? Fate::Coarse
-                                : Fate::Missing;
-}
-
-std::vector<MissedPiece> piecesOf(
-  Fate fate, const Explanation& explanation, const PointCloud& cloud)
-{
-  const double meanEdge = explanation.asked.meanEdge * cloud.unit();
-  std::vector<MissedPiece> pieces;
-  std::copy_if(explanation.pieces.begin(), explanation.pieces.end(), std::back_inserter(pieces),
-    [&](const MissedPiece& piece) { return fateOf(piece, meanEdge) == fate; });
-  return pieces;
-}
-
-/// What follows the places that a sentence names.
-std::string otherPlaces(std::size_t count, std::size_t named)
-{
-  return count > named ? " and " + counted(count - named, "other place", "other places") : "";
-}
-
-/// The number of points in each of the largest pieces with its place, and the number of the other pieces.
-std::string piecesText(const std::vector<MissedPiece>& pieces, const PointCloud& cloud)
-{
-  std::string where = "about ";
-  for (std::size_t i = 0; i < std::min(pieces.size(), MostPiecesNamed); ++i)
-  {
-    where += (i == 0 ? "" : ", ") + about(pieces[i].points) + " points around " +
-      placeText(pieces[i].center, cloud);
-  }
-  return where + otherPlaces(pieces.size(), MostPiecesNamed) + ". ";
-}
-
-/// "about 120 points, the farthest around (0, 0, 1) by 0.02. ".
-std::string cutOffText(
-  const CutOffPoints& points, const Explanation& explanation, const PointCloud& cloud)
-{
-  std::ostringstream text;
-  text.precision(2);
-  text << "about "
-       << about(double(points.count) * double(cloud.points().size()) /
-            double(explanation.reasons.size()))
-       << " points, the farthest around " << placeText(points.place, cloud) << " by "
-       << points.farthest << ". ";
-  return text.str();
-}
-
-/// Warns of single points that the mesh cuts off. A piece of the same fate has its own warning, with the same
-/// tag: then this one is left out.
-void warnOfCutOff(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
-{
-  const std::size_t atRims = explanation.atRims.count;
-  const bool isCutOff =
-    atRims >= FewestAtRims && double(atRims) > MostAtRims * double(explanation.reasons.size());
-  const bool hasCoarsePiece = !piecesOf(Fate::Coarse, explanation, cloud).empty();
-  if (isCutOff && !hasCoarsePiece)
-  {
-    warnings.add(WarningTopic::MeshIsCoarse,
-      "The mesh is coarser than its cloud: it cuts off " +
-        cutOffText(explanation.atRims, explanation, cloud) +
-        "The surface is narrower there than edges are long. Use more vertices.");
-  }
-  if (!explanation.passedBy.empty() && !isCutOff && !hasCoarsePiece)
-  {
-    warnings.add(WarningTopic::MeshIsCoarse,
-      "The mesh passes by points that belong together: " + piecesText(explanation.passedBy, cloud) +
-        "A narrow hole may be closed there, or a narrow part cut off. Use more vertices, or scan "
-        "more points.");
-  }
-  if (explanation.beyondEnds.count >= FewestBeyondEnds &&
-    piecesOf(Fate::BeyondBoundary, explanation, cloud).empty())
-  {
-    warnings.add(WarningTopic::OpenWherePointsAre,
-      "The mesh is open where there are points: it does not reach " +
-        cutOffText(explanation.beyondEnds, explanation, cloud) +
-        "Points are sparse there. Use more vertices, or scan more points.");
-  }
-}
-
-void warnOfPieces(
-  Fate fate, const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
-{
-  const std::vector<MissedPiece> pieces = piecesOf(fate, explanation, cloud);
-  if (pieces.empty())
-  {
-    return;
-  }
-  const std::string where = piecesText(pieces, cloud), how(HowToSee);
-  switch (fate)
-  {
-    case Fate::Missing:
-      warnings.add(WarningTopic::PartIsMissing,
-        "A part of the cloud is missing in the mesh: " + where +
-          "The triangles are too large for a thin or narrow part. Use more vertices, or a first "
-          "mesh that has the part. " +
-          how);
-      return;
-    case Fate::BeyondBoundary:
-      warnings.add(WarningTopic::OpenWherePointsAre,
-        "The mesh is open where there are points: " + where +
-          "The triangles are too large for a thin or narrow part. Use more vertices, or close "
-          "openings (--boundaries close). " +
-          how);
-      return;
-    case Fate::Coarse:
-      warnings.add(WarningTopic::MeshIsCoarse,
-        "The mesh is coarser than its cloud: " + where +
-          "They lie up to half an edge from the mesh. Use more vertices to resolve narrow or bent "
-          "parts. " +
-          how);
-      return;
-  }
-}
-
-/// What has few points is dropped with what is strewn; here it is more.
-void warnOfSmallParts(
-  const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
-{
-  if (!explanation.smallParts.empty())
-  {
-    warnings.add(WarningTopic::PartIsMissing,
-      "A small part of the cloud is missing in the mesh: " +
-        piecesText(explanation.smallParts, cloud) +
-        "These points lie as dense as others and form a surface, but they are so few that the "
-        "program takes them for stray points. If the part belongs to the scan, keep small pieces "
-        "(--keep-pieces 0). " +
-        std::string(HowToSee));
-  }
-}
-
-void warnOfTornParts(const TornParts& torn, const PointCloud& cloud, WarningList& warnings)
-{
-  if (torn.any())
-  {
-    warnings.add(WarningTopic::FallsIntoPieces,
-      "The mesh falls into pieces where the points are connected: it is torn at " +
-        counted(torn.tears, "place", "places") + ", as around " + placeText(torn.place, cloud) +
-        ". Points are sparse there, or the part is narrower than edges are long. Use more "
-        "vertices, more points, or another seed.");
-  }
-}
-
-void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
-{
-  // The noise is unknown where the mesh misses the cloud.
-  if (explanation.scatteredShare > MostScattered && explanation.unexplainedShare() < MostScattered)
-  {
-    warnings.add(WarningTopic::NoSurface,
-      "The cloud has no recognizable surface: around " + percent(explanation.scatteredShare) +
-        " of its points, other points lie in all directions, as in noise. The position of the "
-        "mesh is a guess. Remove points that lie on no surface, or provide more points.");
-  }
-  if (explanation.unexplainedShare() > MostUnexplained)
-  {
-    warnings.add(WarningTopic::PointsAreUnexplained,
-      percent(explanation.unexplainedShare()) + " of the points (about " +
-        about(explanation.unexplained()) +
-        ") are unexplained: they lie farther from the mesh than from each other, and they are no "
-        "outliers. Look at them before you use the mesh. " +
-        std::string(HowToSee));
-  }
-  for (const Fate fate : { Fate::Missing, Fate::BeyondBoundary, Fate::Coarse })
-  {
-    warnOfPieces(fate, explanation, cloud, warnings);
-  }
-  warnOfSmallParts(explanation, cloud, warnings);
-  warnOfCutOff(explanation, cloud, warnings);
-  warnOfTornParts(explanation.torn, cloud, warnings);
-}
 
 void warnOfBareArea(double share, WarningList& warnings)
 {
@@ -323,12 +109,12 @@ void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud, WarningLi
     return;
   }
   std::string where;
-  for (std::size_t i = 0; i < std::min(gaps.size(), MostPiecesNamed); ++i)
+  for (std::size_t i = 0; i < std::min(gaps.size(), MostPlacesNamed); ++i)
   {
     where += (i == 0 ? "" : ", ") + percent(gaps[i].share) + " of the surface around " +
       placeText(gaps[i].center, cloud);
   }
-  where += otherPlaces(gaps.size(), MostPiecesNamed);
+  where += otherPlaces(gaps.size(), MostPlacesNamed);
   warnings.add(WarningTopic::GapIsSpanned,
     "The mesh spans gaps of the cloud: " + where +
       ". The nearest points are farther away than three times their spacing, so the surface is a "

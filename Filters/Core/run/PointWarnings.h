@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/WarningTopic.h"
+#include "cloud/PointCloud.h"
+#include "run/Explanation.h"
+
+namespace neuralmesh
+{
+/// Warns of the points that a mesh misses: how many, where, why, and what to do. The limits stand at warningsOf().
+void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings);
+}
