@@ -17,8 +17,16 @@ namespace neuralmesh
 namespace
 {
 constexpr int MostFlipPasses = 3;
+/// Smaller meshes are flipped in a moment, edge by edge.
+constexpr std::size_t LeastVerticesInParts = 32768;
 /// A part for the executor.
 constexpr std::size_t FlipVerticesPerRange = 4096;
+
+RowParts partsOfFlips(std::size_t vertices)
+{
+  return vertices < LeastVerticesInParts ? RowParts(vertices, Executor::sequential())
+                                         : RowParts::byWork(vertices);
+}
 /// What a flip must gain, in mean squared distances of a sample: so much, and so much more or less for each
 /// squared excess of valence more or less.
 constexpr double LeastFlipGain = 0.5;
@@ -65,7 +73,7 @@ public:
     , executor_(executor)
     , partOf_(partsAround(mesh, executor))
     , vertices_(
-        mesh.indexEnd(), FlipVerticesPerRange, RowParts::byWork(mesh.indexEnd()).count(),
+        mesh.indexEnd(), FlipVerticesPerRange, partsOfFlips(mesh.indexEnd()).count(),
         [this](std::size_t begin, std::size_t end, const auto& use)
         {
           for (std::size_t v = begin; v < end; ++v)
@@ -140,7 +148,7 @@ private:
   /// the parts in which they lie.
   static std::vector<std::uint8_t> partsAround(const Mesh& mesh, const Executor& executor)
   {
-    const RowParts parts = RowParts::byWork(mesh.indexEnd());
+    const RowParts parts = partsOfFlips(mesh.indexEnd());
     std::vector<std::uint8_t> result(mesh.indexEnd());
     executor.forEachRange(result.size(), FlipVerticesPerRange,
       [&](std::size_t begin, std::size_t end)
