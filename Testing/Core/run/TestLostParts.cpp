@@ -160,8 +160,8 @@ TEST(PassedBy, NotBeyondARim)
 {
   CloudOptions options;
   options.count = 5000;
-  const PointCloud cloud(generateCloud(scaled(makeGrid(20), { 1.02, 1.02, 1. }), options));
-  EXPECT_TRUE(explainedBy(makeGrid(20), cloud).passedBy.empty());
+  const PointCloud cloud(generateCloud(scaled(makeGrid(40), { 1.02, 1.02, 1. }), options));
+  EXPECT_TRUE(explainedBy(makeGrid(40), cloud).passedBy.empty());
 }
 
 // A small ball of which the mesh has but one triangle.
