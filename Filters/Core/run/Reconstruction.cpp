@@ -12,25 +12,25 @@ namespace neuralmesh
 {
 namespace
 {
-/// With less the mesh would follow single points, not the surface.
+/// A mesh with fewer points per vertex follows single points, not the surface.
 constexpr std::size_t PointsPerVertex = 2;
 constexpr std::size_t LeastLearnt = 100;
-/// A mesh of fewer vertices would lose what is narrower than its edges while it learns. So that many are
-/// learnt, if there are twenty points for each, and simplified.
+/// A smaller mesh loses parts that are narrower than its edges while it learns. So it is simplified
+/// from a mesh of this size, if there are twenty points per vertex.
 constexpr std::uint64_t LeastLearntToFit = 1000;
 constexpr std::uint64_t PointsToSimplify = 20;
-/// Where a mesh has lost what is thin or narrow, so many are learnt, or twice as many as are asked for, if there are five
-/// points for each.
+/// A mesh that has lost thin or narrow parts is simplified from one of 20,000 or twice its
+/// vertices, if there are five points per vertex.
 constexpr std::uint64_t LearntForThinParts = 20000;
 constexpr std::uint64_t TimesForThinParts = 2;
 constexpr std::uint64_t MostLearntForThinParts = 100000;
 constexpr std::uint64_t PointsToHoldThinParts = 5;
-/// Of all points: a coarse mesh has some beside its bends.
+/// A part of all points: a coarse mesh leaves some unexplained beside its bends.
 constexpr double LeastDifferenceOfUnexplained = 0.005;
-/// Of residuals: a few points at creases make most of them, so they are told no better.
+/// Residuals within this factor are a draw: a few points at creases make most of a residual.
 constexpr double TimesOfDraw = 1.2;
 
-/// As reconstruct(), but learns so many vertices, and simplifies or refines the mesh if these are too many or too few.
+/// Learns so many vertices, then simplifies or refines the mesh to the number of the parameters.
 Reconstruction learnAndFinish(std::uint64_t vertices, const RunRequest& request,
   const Progress& progress, const GrowthWatch& watch, const CheckpointPlan& plan)
 {
@@ -52,7 +52,8 @@ Reconstruction learnAndFinish(std::uint64_t vertices, const RunRequest& request,
   return result;
 }
 
-/// Not from a first mesh, nor where rules end the run that are meant for the mesh as it learns.
+/// Whether a run may learn another number of vertices than asked. A first mesh is fitted as it is,
+/// and stopping rules are meant for the mesh that learns.
 bool mayLearnOtherwise(const RunRequest& request)
 {
   const Parameters& parameters = request.parameters;
@@ -60,8 +61,9 @@ bool mayLearnOtherwise(const RunRequest& request)
     !mayEndBeforeVertices(parameters);
 }
 
-/// Handles and pieces may need more vertices than there are to be, or so many that the rest is too coarse, and
-/// where many stop growing, few may not.
+/// Whether a simplified mesh is what was asked for. Handles and pieces may need more vertices than
+/// that, or leave too few for the rest. Growth of a large mesh may stop where that of a small one
+/// does not.
 bool isRight(const Reconstruction& simplified, std::uint64_t vertices)
 {
   return simplified.stopReason == StopReason::Vertices &&
@@ -69,8 +71,8 @@ bool isRight(const Reconstruction& simplified, std::uint64_t vertices)
     simplified.finish->left.total() == 0;
 }
 
-/// Whether there are fewer points a vertex than tell creases, of which the mesh has some, and they may come out
-/// sharper on a coarser one.
+/// Whether a coarser mesh may have sharper creases: the mesh has creases, but too few points per
+/// vertex for them.
 bool mayHaveRoundedCreases(
   const Reconstruction& result, const PointCloud& cloud, const Parameters& parameters)
 {
@@ -81,7 +83,7 @@ bool mayHaveRoundedCreases(
     hasCreases(result.surface);
 }
 
-/// Whether the first mesh has so many vertices, and a residual smaller than that of the second so many times.
+/// Whether the first mesh has so many vertices, and a residual below `times` that of the second.
 bool isCloser(const Reconstruction& first, const Reconstruction& second, std::uint64_t vertices,
   double times = 1.)
 {
@@ -89,9 +91,10 @@ bool isCloser(const Reconstruction& first, const Reconstruction& second, std::ui
     first.quality->residual < times * second.quality->residual;
 }
 
-/// Of a mesh that was refined beside its creases, and one that has learnt all of its vertices: whether the first is
-/// to be taken. Few of the points that tell it lie at creases, so a draw goes to that; not where it has more slivers, or
-/// more to be warned of: parts that are thin or small may be lost on a coarser mesh.
+/// Whether a mesh that was refined beside its creases is better than one that has learnt all its
+/// vertices. It wins a draw, as few of the measured points lie at creases. With more slivers it has
+/// to be clearly closer. With more warnings it loses: the coarser mesh may have lost thin or small
+/// parts.
 bool isBetterRefined(const Reconstruction& refined, const Reconstruction& learnt)
 {
   if (!refined.finish || !refined.quality || !learnt.quality ||

@@ -15,54 +15,55 @@ namespace neuralmesh
 {
 namespace
 {
-/// Of the progress that is left, what a trial and the result take.
+/// A trial and the result take these parts of the progress that is left.
 constexpr double PartOfTrial = 0.2, PartOfResult = 0.9;
-/// ... and of a trial its growth.
+/// The part of growth in a trial.
 constexpr double PartOfGrowthOfTrial = 0.4;
 constexpr std::uint64_t FewestTried = 25;
 
-// All that the cloud tells: trials of few vertices, of which the second tells the noise.
+// Without a tolerance: two small trials. The second one measures the noise.
 constexpr std::uint64_t PointsPerVertexAtFirst = 128;
 constexpr std::uint64_t PointsPerVertexAtSecond = 32;
-/// With fewer points a vertex neighbours are too far apart to tell noise.
+/// With fewer points per vertex, the shape hides the noise between neighbours.
 constexpr std::uint64_t FewestPointsThatTellNoise = 8;
-/// It takes time: the first trials tell it.
+/// Measuring noise takes time, so only the first trials do it.
 constexpr std::size_t MostThatTellNoise = 2;
-/// More vertices than that bring hardly anything: without noise, and with some.
+/// More vertices than these gain almost nothing.
 constexpr double PointsPerVertexIfClean = 2.2, PointsPerVertexUnderNoise = 3.3;
 constexpr double PointsPerVertexAtLeast = 10.;
-/// Without noise errors fall by a power of the number of vertices that becomes less: so many times that of the trials.
+/// Without noise, the error falls by a power of the number of vertices. Its exponent shrinks to so
+/// many times that of the trials.
 constexpr double ExponentAfterTrials = 0.62;
-/// What the mesh is too coarse for falls by this power of the number of vertices, as a mean square.
+/// The mean square error of a coarse mesh falls by this power of the number of vertices.
 constexpr double PowerOfCoarseness = 1.7;
-/// What may be left of it, of what noise makes of a mesh that has a vertex for so many points.
+/// The chosen mesh has this part of the coarseness that it has where coarseness equals noise.
 constexpr double CoarsenessLeft = 0.04;
 
-// A tolerance.
+// With a tolerance
 constexpr std::uint64_t PointsPerVertexOfGuess = 100;
 constexpr std::uint64_t FewestToAsk = 4;
-/// The first surface of the first trial is fine enough for so many times its vertices.
+/// The first surface of the first trial also suits meshes of so many times its vertices.
 constexpr std::uint64_t TimesFirst = 4;
 constexpr std::size_t MostTrials = 8;
-/// A trial has at most so many times the vertices of the largest before it, and at least such a part of those of the
-/// smallest: errors farther off are not told by it.
+/// A trial stays within these factors of earlier trials, as errors of sizes farther off are not
+/// predictable.
 constexpr double MostTimesMore = 6., MostTimesFewer = 8.;
-/// ... and so many times those of one that missed the tolerance, where none has met it.
+/// A trial has at least so many times the vertices of the largest one that missed the tolerance.
 constexpr double LeastTimesMore = 1.03;
-/// A mesh that is made already is made again with up to so many times its vertices; of more a mesh learns.
+/// A finished mesh is refined to up to so many times its vertices. A larger mesh has to learn.
 constexpr double MostTimesRefined = 1.3;
-/// With hardly more vertices it comes closer than any run makes as many: so much fewer are enough.
+/// A mesh that is refined a little is fitted twice and comes closer than other meshes of its size.
+/// So it needs only this part of the vertices.
 constexpr double MostTimesForGain = 1.2, PartWithGain = 0.93;
-/// Errors vary from run to run: so many times the vertices that are expected to be just enough are made, and every trial
-/// that misses the tolerance adds as much.
+/// Errors vary from run to run. So a trial has so many times the vertices that are expected to be
+/// just enough, and each refined trial that misses the tolerance adds as much.
 constexpr double TimesEnough = 1.04;
-/// A mesh is taken that has up to so many times the vertices that are just enough; and one that was made again with so
-/// many as were expected to be, for it is fitted more closely than what any run makes of as many.
+/// The search ends at a mesh with up to so many times the vertices that are just enough.
 constexpr double TimesTaken = 1.06;
 constexpr double LeastExponent = 0.15, UsualExponent = 0.78, MostExponent = 2.5;
 
-/// Whether what neighbours do not have in common is noise: more than the shape would make of it. The sparser the points
-/// are at the vertices, the more that is.
+/// Whether the difference between neighbours is noise: whether it is larger than the shape makes
+/// it. The shape makes it larger if there are fewer points per vertex.
 bool isNoiseBy(double difference, double error, std::uint64_t vertices, std::uint64_t points)
 {
   constexpr double Part = 0.6;
@@ -71,7 +72,8 @@ bool isNoiseBy(double difference, double error, std::uint64_t vertices, std::uin
   return difference > std::min(part, 0.95) * error;
 }
 
-/// The least error that is told apart from none: by the standard error of a mean square under noise.
+/// The least error that differs from 0 significantly, by the standard error of a mean square under
+/// noise.
 double leastTold(const HeldOutError& error, double noise)
 {
   return noise * std::pow(8. / std::max(1., double(error.count)), 0.25);
@@ -119,22 +121,24 @@ private:
     return conclude(ownRun(vertices));
   }
 
-  /// A mesh that is made, and measured.
+  /// A finished mesh with its error.
   struct Made
   {
     LearntRun run;
     HeldOutError error;
-    bool isMadeAgain = false; ///< with so many as were expected to be enough
+    bool isMadeAgain =
+      false; ///< made from a finished mesh, with the number that was expected to be enough
 
     std::uint64_t vertices() const { return run.learnt.mesh.vertexCount(); }
   };
 
   bool meets(const HeldOutError& error) const { return errorOf(error) <= choice_.length; }
 
-  /// Trials, until one of them meets the tolerance with hardly more vertices than are enough: it is the result.
+  /// Makes trials until one meets the tolerance and has few vertices more than necessary. That one
+  /// is the result.
   Reconstruction runByTolerance()
   {
-    // Smaller ones are simplified from as many as are learnt at least.
+    // Smaller meshes are simplified from the least size that a run learns, so they cost no less.
     const Parameters fewest = parametersWith(FewestToAsk);
     std::uint64_t vertices = std::min(mostVertices(),
       std::max({ FewestTried, points_ / PointsPerVertexOfGuess,
@@ -155,12 +159,13 @@ private:
     return conclude(resultOf(*std::move(enough_ ? enough_ : tooFew_)));
   }
 
-  /// Whether the smallest mesh that meets the tolerance is to be taken, or the largest that there may be does not.
+  /// Whether the search is over: the smallest mesh that meets the tolerance is small enough, or the
+  /// largest possible mesh misses it.
   bool isFound()
   {
     if (enough_ && !meets(enough_->error))
     {
-      // Later trials have told less noise.
+      // A later trial has found less noise, so that the errors of earlier ones have grown.
       tooFew_.emplace(*std::move(enough_));
       enough_.reset();
     }
@@ -172,7 +177,8 @@ private:
     return isLeast_ || enough_->isMadeAgain || double(enough_->vertices()) <= TimesTaken * least;
   }
 
-  /// A little more than are just enough, by the trials; between those that are known to be too few and enough.
+  /// The size of the next trial: a little more than just enough by the trials so far, between the
+  /// largest size that was too small and the smallest that was enough.
   std::uint64_t nextSize()
   {
     double size = (1. + (TimesEnough - 1.) * double(1 + missed_)) * enough();
@@ -199,8 +205,9 @@ private:
     return std::uint64_t(std::max(least, std::min(most, std::ceil(size))));
   }
 
-  /// Makes and measures a mesh of so many vertices: of one that has a little fewer, or not far more, or from what was
-  /// learnt last. False if that was ended: then there is what the run ends with.
+  /// Makes and measures a mesh of so many vertices: from a finished mesh that is a little smaller,
+  /// or larger, or from the mesh that was learnt last. Returns false if the run was ended: then
+  /// `ended_` is its result.
   bool makeTrial(std::uint64_t vertices)
   {
     const ProgressPart part = next(PartOfTrial);
@@ -239,18 +246,19 @@ private:
     return true;
   }
 
-  /// Not where nothing is fitted, nor where vertices are to stay where they have learnt what is told of them.
+  /// Whether finished meshes may be made again. Without a fit there is nothing to do, and feature
+  /// strength belongs to the places where vertices have learnt.
   bool canMakeAgain() const
   {
     return request_.parameters.fitRounds > 0 && !request_.parameters.computeFeatureStrength;
   }
 
-  /// As any run would give it: thin parts are held.
+  /// The result of a run of this size, with the check for thin parts that every run has.
   Reconstruction resultOf(Made made)
   {
     const ProgressPart part = next(PartOfResult);
     const std::uint64_t vertices = made.vertices();
-    // Error bars take time, and tell of it.
+    // With error bars, describe() takes time and reports its own progress.
     if (!request_.parameters.computeUncertainty && !progress_(part.end))
     {
       made.run.result.stopReason = StopReason::Cancelled;
@@ -263,28 +271,30 @@ private:
       atTheEnd);
   }
 
-  /// Two trials, between or beyond which errors follow a power of the number of vertices.
+  /// A power law of the error by the number of vertices, through one trial.
   struct Slope
   {
-    double vertices; ///< of the one from which it is counted
+    double vertices; ///< of that trial
     double error;
     double exponent;
   };
 
-  /// Between the largest that does not meet the tolerance and the next one; else beyond the last, or before the first.
+  /// The slope between the largest trial that misses the tolerance and the next one. If all miss it
+  /// or all meet it, the slope beyond the last or before the first.
   Slope slope() const
   {
     const auto isEnough = [&](const Measured& one) { return meets(one.error); };
     const auto first =
       std::find_if(measured_.rbegin(), measured_.rend(), std::not_fn(isEnough)).base();
-    // Of [0, below) the last does not meet it.
+    // The last of [0, below) misses the tolerance.
     const auto below = std::size_t(first - measured_.begin());
     if (below > 0 && below < measured_.size())
     {
       return slopeBetween(below - 1, below);
     }
     const std::size_t from = below > 0 ? below - 1 : 0;
-    // Errors vary: what lies close together tells no power, and what lies apart not all of it.
+    // Errors vary. So trials of nearly the same size do not count, and the exponent of others
+    // counts half.
     constexpr double TimesApart = 1.5;
     Slope result{ double(measured_[from].vertices), errorOf(measured_[from].error), UsualExponent };
     for (std::size_t other = 0; other < measured_.size(); ++other)
@@ -308,7 +318,7 @@ private:
       std::isfinite(exponent) ? std::clamp(exponent, LeastExponent, MostExponent) : UsualExponent };
   }
 
-  /// Vertices that just meet the tolerance, by the trials.
+  /// The number of vertices that just meets the tolerance, by the trials.
   double enough() const
   {
     const Slope by = slope();
@@ -323,7 +333,7 @@ private:
     return by.error * std::pow(by.vertices / double(vertices), by.exponent);
   }
 
-  /// What is learnt at most; under noise more would not come closer.
+  /// The largest size of a mesh. Under noise, more vertices would not come closer.
   std::uint64_t mostVertices() const
   {
     constexpr double PointsPerVertexLearnt = 2.;
@@ -331,14 +341,14 @@ private:
     return std::max(FewestTried, std::uint64_t(double(points_) / part));
   }
 
-  /// In units of the input, noise taken off.
+  /// An error in units of the input, without noise.
   double errorOf(const HeldOutError& error) const
   {
     return request_.cloud.unit() * error.withoutNoise(choice_.goal.measure, noise_);
   }
 
-  /// Of the mean square that the mesh is too coarse for, the factor of its power of the number of vertices: by how much
-  /// less it is with more of them. Noise is in both.
+  /// The mean square error that a mesh of one vertex would have from coarseness alone. It follows
+  /// from the difference of two trials: the noise is in both.
   double coarseness() const
   {
     const Measured& fewer = measured_.front();
@@ -350,8 +360,8 @@ private:
     return std::max(0., square(fewer) - square(more)) / (power(fewer) - power(more));
   }
 
-  /// The fit of a finished mesh tells its noise: where that is clearly less, trials have taken the shape of thin parts
-  /// for more.
+  /// Lowers the noise to that of the fit if that is clearly less: then small trials took the shape
+  /// of thin parts for noise.
   void limitNoise(const Reconstruction& result)
   {
     constexpr double ClearlyLess = 0.9;
@@ -368,7 +378,8 @@ private:
     double size = most;
     if (noise_ > 0.)
     {
-      // Where coarseness and noise have equal parts, and farther on until little is left of the first.
+      // At `balance`, coarseness and noise have equal parts. The chosen size is larger, so that
+      // little coarseness is left.
       const double factor = coarseness();
       const double balance =
         std::pow(factor * double(points_) / (noise_ * noise_), 1. / (PowerOfCoarseness + 1.));
@@ -381,8 +392,8 @@ private:
     return std::uint64_t(std::clamp(size, double(points_) / PointsPerVertexAtLeast, most));
   }
 
-  /// Keeps what is known of a mesh. The more vertices it has, the less of the shape is left in what neighbours do not
-  /// have in common.
+  /// Measures and records the error of a mesh, and the noise if the mesh is one of the first. With
+  /// more vertices, less of the shape is left in the difference between neighbours.
   HeldOutError note(const Mesh& mesh)
   {
     const std::uint64_t vertices = mesh.vertexCount();
@@ -409,7 +420,7 @@ private:
     return parameters;
   }
 
-  /// Where what comes next ends, of the whole progress.
+  /// The next part of the whole progress, which takes this part of what is left.
   ProgressPart next(double part)
   {
     const double begin = done_;
@@ -417,12 +428,12 @@ private:
     return { begin, done_ };
   }
 
-  /// What a mesh of so many vertices grows from: the last one, if its first surface is fine enough for the `largest`
-  /// that is expected, or a new first surface.
+  /// The mesh from which one of so many vertices grows: the last one, if its first surface is fine
+  /// enough for the largest size that is expected, else a new first surface.
   Beginning beginningFor(std::uint64_t vertices, std::uint64_t largest, ProgressPart part)
   {
     constexpr double TimesFiner = 1.5;
-    // A mesh grows from a first surface of fewer vertices.
+    // A first surface must have fewer vertices than the mesh that grows from it.
     constexpr double MostOfMesh = 0.8;
     while (largest > vertices && double(firstVertices(largest)) > MostOfMesh * double(vertices))
     {
@@ -450,13 +461,15 @@ private:
     const std::uint64_t learnt = verticesToLearn(requestWith(request_, parameters));
     Beginning beginning = beginningFor(learnt, largest, { part.begin, middle });
     LearntRun run = run_.learn(learnt, std::move(beginning), { middle, part.end }, none_);
-    // A first surface that has more vertices than are asked for is simplified, and learns nothing.
+    // A first surface that is larger than asked learns nothing. It is finished and simplified all
+    // the same.
     run.isLearnt = true;
     grown_ = Beginning{ run.learnt.mesh, start_.gaps, start_.weights };
     return run;
   }
 
-  /// Makes and measures a mesh. False if that was ended: then there is what the run ends with.
+  /// Learns, finishes and measures a mesh. Returns false if the run was ended: then `ended_` is its
+  /// result.
   bool tryWith(std::uint64_t vertices, std::uint64_t largest)
   {
     const ProgressPart part = next(PartOfTrial);
@@ -483,7 +496,7 @@ private:
       request_.first, {}, {}, request_.executor, request_.hints, request_.explainsAll);
   }
 
-  /// Measures what the run ends with, and tells how it came to be.
+  /// Measures the result and adds the choice of its size.
   Reconstruction conclude(Reconstruction result)
   {
     result.times.add(times_);
@@ -526,11 +539,11 @@ private:
   double done_ = 0.;
   PhaseTimes times_;
   std::optional<Reconstruction> ended_;
-  // For a tolerance: the smallest that meets it, and the largest that does not.
+  // With a tolerance: the smallest mesh that meets it, and the largest that misses it.
   std::optional<Made> enough_, tooFew_;
-  bool isAimed_ = false;   ///< whether so many are made as are expected to be enough
-  bool isLeast_ = false;   ///< the shape needs so many
-  std::size_t missed_ = 0; ///< trials that were made again, and did not meet it
+  bool isAimed_ = false;   ///< whether the next trial has the size that is expected to be enough
+  bool isLeast_ = false;   ///< whether the shape needs all vertices of `enough_`
+  std::size_t missed_ = 0; ///< number of refined trials that missed the tolerance
 };
 }
 

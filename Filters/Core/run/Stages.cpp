@@ -20,29 +20,32 @@ namespace neuralmesh
 {
 namespace
 {
-/// A first surface that is told in detail by a front: the others are learnt.
+/// An advancing front may make a first surface with this part of the vertices. Learning adds the
+/// others.
 constexpr double PartOfFront = 0.75;
 
-/// Of the curvature.
+/// Exponents of the curvature in the density of the samples.
 constexpr double UsualDensityExponent = 0.5;
 constexpr double DensityExponentIfOpen = 0.25;
-/// A piece with so many times the part of the vertices that is small of the area is none of outliers, however little
-/// area it has: its points are denser than others.
+/// A piece with little area stays if its part of the vertices is so many times the part KeepPieces:
+/// its points are too dense for outliers.
 constexpr double VerticesOfDensePiece = 100.;
-/// With fewer vertices, claws and ears are no wider than edges, and would be lost while the mesh grows.
+/// In a mesh with fewer vertices, claws and ears are no wider than edges: with an even density,
+/// growth loses them.
 constexpr std::uint64_t FewestDistributedLater = 10000;
 
-/// Where a mesh is finished that was finished before, with a few more vertices: more rounds bring hardly anything.
+/// A mesh that is finished again is close to its points already. More rounds gain almost nothing.
 constexpr int FidelityRoundsAgain = 2;
 
-/// Points that are explained where only their numbers are wanted: as many as are fitted, for what is lost may have
-/// a handful.
+/// So many points are explained if only their numbers are wanted. They are as many as the fit uses,
+/// as a part that is lost may have only a few points.
 constexpr std::size_t FewestExplained = 10000;
 constexpr std::size_t PointsPerVertexExplained = 10;
-/// Those that vertices rest on: hardly a vertex is without any.
+/// With so many points per vertex, almost every vertex rests on some.
 constexpr std::size_t PointsPerVertexOfSupport = 4;
 
-/// Which points of a cloud are not in what is left of it, which has the same order.
+/// For each point of a cloud, 1 if it is not in `left`, which has some of the points in the same
+/// order.
 std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& left)
 {
   std::vector<std::uint8_t> result(cloud.points().size(), 1);
@@ -57,7 +60,8 @@ std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& l
   return result;
 }
 
-/// Rounds of the fidelity take vertices where they are needed, but for boundaries, which stay.
+/// An even density is enough where later rounds of the fidelity move vertices to where they are
+/// needed. These rounds keep boundaries as they are.
 double densityExponent(const Parameters& parameters, const Mesh& first)
 {
   if (parameters.curvatureDensity >= 0.)
@@ -72,7 +76,8 @@ double densityExponent(const Parameters& parameters, const Mesh& first)
   return first.isOpen() ? DensityExponentIfOpen : 0.;
 }
 
-/// Of the points of what is fitted.
+/// The views of the points of a cloud by their indices in the cloud; `hints` have the indices of
+/// the input.
 PointViews viewsOf(const PointCloud& cloud, const OrientationHints& hints)
 {
   return hints.viewOf && !cloud.origins().empty() ? [&](std::size_t point)
@@ -80,7 +85,6 @@ PointViews viewsOf(const PointCloud& cloud, const OrientationHints& hints)
                                                   : PointViews();
 }
 
-/// What a finish is planned to do with parameters.
 FinishPlan finishPlan(const Parameters& parameters)
 {
   return { .rounds = parameters.fitRounds,
@@ -92,14 +96,14 @@ FinishPlan finishPlan(const Parameters& parameters)
     .gaps = {} };
 }
 
-/// Of length 1; 0 if it tells nothing.
+/// A vector with length 1; 0 if the given one is zero or not finite.
 Vector4 givenDirection(const Eigen::Vector3d& vector)
 {
   const double length = vector.stableNorm();
   return length > 0. && vector.allFinite() ? Vector4(Eigen::Vector3d(vector / length)) : Vector4();
 }
 
-/// Likewise those that came with them.
+/// The normals that came with the points of a cloud, by their indices in the cloud.
 PointNormals normalsOf(const PointCloud& cloud, const OrientationHints& hints)
 {
   return hints.normalOf && !cloud.origins().empty() ? [&](std::size_t point)
@@ -130,8 +134,8 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
     result.gaps = GapPlan{ surface->bridgeWidth, surface->resolution > 0, parameters.keepPieces };
   }
   const double density = densityExponent(parameters, *result.mesh);
-  // The normal-based variant has a way of its own to be dense where the surface bends; and feature
-  // strength tells edges best where vertices are spread evenly.
+  // The normal-based variant makes the mesh dense at bends by itself. Feature strength finds edges
+  // best on an even mesh.
   if (density > 0. && parameters.variant != Variant::NormalBased &&
     !parameters.computeFeatureStrength)
   {
@@ -178,11 +182,12 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const bool isSimplified = plan.vertexCount > vertexCount;
   if (isSimplified)
   {
-    // The rounds of the fidelity would be of the larger mesh.
+    // Rounds of the fidelity would fit the larger mesh, which is simplified afterwards.
     plan.fidelity = Fidelity::Draft;
     plan.residualTo = DistanceTo::TrianglesAtClosestVertex;
   }
-  // Where no vertices go to creases afterwards, one more brings them there that lie near.
+  // If no round of the fidelity moves vertices to creases, one more plain round brings those near a
+  // crease closer to it.
   plan.rounds += plan.rounds > 0 && (isSimplified || plan.keepsPlaces) ? 1 : 0;
   const double endOfFirst = isSimplified ? 0.5 : 1.;
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
@@ -207,7 +212,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   {
     return {};
   }
-  // The fit is that of before.
+  // The figures of the fit are those of the larger mesh.
   FinishReport report = finish.report();
   report.repaired = finishSimplified.report().repaired;
   report.left = finishSimplified.report().left;
@@ -227,7 +232,7 @@ std::optional<FinishReport> finishAgain(LearntMesh& learnt, const FinishReport& 
   if (isSimplified)
   {
     simplifyByQuadrics(learnt.mesh, vertexCount);
-    // Of a clean cloud vertices are where they are needed already.
+    // On a clean cloud, the vertices are where they are needed already.
     plan.fidelity = before.isClean ? Fidelity::Draft : plan.fidelity;
   }
   plan.vertexCount = std::max(vertexCount, learnt.mesh.vertexCount());
@@ -239,7 +244,7 @@ std::optional<FinishReport> finishAgain(LearntMesh& learnt, const FinishReport& 
   {
     return {};
   }
-  // What the fit tells is that of the finer mesh.
+  // After a simplification, the figures of the fit are those of the finer mesh.
   const bool isTold = !isSimplified && finish.report().roundsTakenBack == 0;
   FinishReport report = isTold ? finish.report() : before;
   report.gapTriangles = before.gapTriangles;

@@ -19,7 +19,7 @@
 
 namespace neuralmesh
 {
-/// What learning starts from.
+/// The mesh from which learning starts, and how its samples are drawn.
 struct Beginning
 {
   std::optional<Mesh> mesh;    ///< nothing: a tetrahedron
@@ -27,8 +27,8 @@ struct Beginning
   std::vector<float> weights;  ///< to draw samples by; empty: those of the cloud
 };
 
-/// Makes the first surface, if the parameters have learning start from one. If it is ended before, or
-/// the cloud has too few points to tell a shape, learning starts from a tetrahedron.
+/// Makes the first surface, if the parameters ask for one. If `progress` ends it, or the cloud has
+/// too few points to show a shape, learning starts from a tetrahedron.
 Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Progress& progress,
   const Executor& executor = Executor::sequential());
 
@@ -36,57 +36,60 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
 std::unique_ptr<Learner> learnerFrom(Beginning beginning, const PointCloud& cloud,
   const Parameters& parameters, const Executor& executor = Executor::sequential());
 
-/// The stopping rule that is met, or None; Cancelled if `progress` ends the run.
+/// Returns the stopping rule that is met, or None. Returns Cancelled if `progress` ends the run.
 StopReason ruleMet(const Learner& learner, StoppingRules& rules, const Progress& progress);
 
-/// Often enough to end within milliseconds, rarely enough to cost nothing; large batches are not
-/// cut for it.
+/// Number of samples between two checks. A run then ends within milliseconds, and the checks cost
+/// nothing. Larger batches are not divided.
 inline constexpr std::uint64_t SamplesPerCheck = 4096;
 
-/// Learns so many samples at least, and a whole batch, but no more than all that the parameters allow.
-/// Returns the rule that is met then. To be called again as long as that is None.
+/// Learns at least so many samples and at least one batch, but no more than the parameters allow.
+/// Returns the rule that is met then. Call it again as long as the answer is None.
 StopReason learn(Learner& learner, StoppingRules& rules, const Parameters& parameters,
   std::uint64_t samples, const Progress& progress, const std::function<void()>& afterBatch = {});
 
-/// Finishes what was learnt, for `vertexCount` vertices: if it has more, it is simplified once it is
-/// finished, and finished again. Handles and pieces may need more vertices than those. Returns nothing if it
-/// was ended before.
+/// Finishes a learnt mesh for `vertexCount` vertices. A mesh with more vertices is finished,
+/// simplified and finished again. It keeps more vertices if its handles and pieces need them.
+/// Returns nothing if `progress` ended it.
 std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Parameters& parameters, const std::optional<GapPlan>& gaps, std::size_t vertexCount,
   const Progress& progress, const Executor& executor = Executor::sequential(),
   const OrientationHints& hints = {});
 
-/// Finishes once more what is finished, as `before` tells, with another number of vertices: it is simplified, or long
-/// edges are halved, and fitted in fewer rounds, for it lies close already. Returns nothing if it was ended before.
+/// Finishes a mesh once more with another number of vertices; `before` is the report of the first
+/// finish. The mesh is simplified, or its long edges are halved. Fewer rounds fit it, as it is
+/// close to its points already. Returns nothing if `progress` ended it.
 std::optional<FinishReport> finishAgain(LearntMesh& learnt, const FinishReport& before,
   const PointCloud& cloud, const Parameters& parameters, std::size_t vertexCount,
   const Progress& progress, const Executor& executor = Executor::sequential(),
   const OrientationHints& hints = {});
 
-/// Refines what is finished to so many vertices, beside its creases; `report` follows. Returns false if it was
-/// ended before.
+/// Refines a finished mesh to so many vertices and keeps its creases; see refineBesideCreases().
+/// Updates `report`. Returns false if `progress` ended it.
 bool refineFinished(LearntMesh& learnt, const PointCloud& cloud, const Parameters& parameters,
   std::size_t vertexCount, FinishReport& report, const Progress& progress,
   const Executor& executor = Executor::sequential());
 
-/// Of the progress of finish() and tellUncertainty().
+/// The part of finish() in the progress of finish() and tellUncertainty().
 inline constexpr double PartBeforeUncertainty = 0.7;
 
-/// Tells each vertex of what is finished, as `result` has it, how far it may be off; see Uncertainty.h. Nothing is told
-/// if no round of the fit is left. Returns false if it was ended before.
+/// Gives each vertex of a finished mesh the distance by which it may be off; see Uncertainty.h.
+/// `result` has the report of the finish. Without a round of the fit, vertices get no such value.
+/// Returns false if `progress` ended it.
 bool tellUncertainty(LearntMesh& learnt, const PointCloud& cloud, const Parameters& parameters,
   Reconstruction& result, const Progress& progress,
   const Executor& executor = Executor::sequential(), const OrientationHints& hints = {});
 
-/// Turns the mesh to its outer side, and adds to `result` all that a user gets of it. Its quality is
-/// measured by `all` points, if there are any, unless it is ended before.
+/// Turns the mesh to its outer side, and adds to `result` all that a user gets. Measures the
+/// quality by `all` points unless `all` is null or `progress` ends it.
 void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
   const OrientationHints& hints, Reconstruction& result, const Progress& progress,
   const Executor& executor = Executor::sequential());
 
-/// Adds to what is described what becomes of the points of the cloud, of all or of some; `left` are those
-/// without clusters of outliers, if it has some. Fewer points than the part `leastPiece` are a small piece. Returns false
-/// if it was ended before: then some of it is missing.
+/// Adds to `result` an explanation of the points of the cloud, of all or of some. `left` are the
+/// points without clusters of outliers; it is null if there are no clusters. A piece with less than
+/// the part `leastPiece` of the points is small. Returns false if `progress` ended it: then a part
+/// of the explanation is missing.
 bool explainPoints(const PointCloud& cloud, const PointCloud* left, double leastPiece,
   bool explainsAll, Reconstruction& result, const Progress& progress,
   const Executor& executor = Executor::sequential());

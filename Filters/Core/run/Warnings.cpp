@@ -35,7 +35,7 @@ constexpr double WholeArea = 0.999;
 constexpr double MostDisagreeing = 0.02;
 /// With less points a vertex, the mesh follows single points.
 constexpr std::size_t LeastPointsPerVertex = 2;
-/// Of a closed mesh.
+/// A closed mesh needs at least four vertices.
 constexpr std::size_t FewestVertices = 4;
 
 void warnOfBareArea(double share, WarningList& warnings)
@@ -50,7 +50,7 @@ void warnOfBareArea(double share, WarningList& warnings)
   }
 }
 
-/// However little area a piece has, it is no surface of the cloud where none of its vertices rests on points.
+/// A piece is no surface of the cloud if none of its vertices rests on points, however small it is.
 void warnOfBarePieces(
   const Mesh& surface, const VertexSupport& support, const PointCloud& cloud, WarningList& warnings)
 {
@@ -122,7 +122,7 @@ void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud, WarningLi
       "--boundaries close.");
 }
 
-/// Why triangles intersect, and what helps.
+/// The reason why triangles intersect, and the cure.
 constexpr std::string_view CutsOfCloud = "The surface is thinner there than its triangles are "
                                          "large, or one layer of the mesh covers two of "
                                          "the cloud. Use more vertices or another seed.";
@@ -159,7 +159,7 @@ void warnOfDefects(const Reconstruction& result, std::string_view whyCut, Warnin
   }
 }
 
-/// Where most of the mesh lies between two layers, another warning has said so.
+/// If much of the mesh lies between two layers, warnOfDefects() has warned of that already.
 void warnOfSharedNoise(const FinishReport& finish, double unit, WarningList& warnings)
 {
   if (finish.sharedNoise > finish.ownNoise && !(finish.shareBetweenLayers > MostBetweenLayers))
@@ -188,7 +188,7 @@ void warnOfMissingBars(const Reconstruction& result, WarningList& warnings)
   }
 }
 
-/// Without views, a mesh between two layers is the only sign.
+/// If the views are unknown, a mesh between two layers is the only sign of too short error bars.
 void warnOfShortBars(const Reconstruction& result, const PointCloud& cloud, WarningList& warnings)
 {
   const bool isBetween = result.finish && result.finish->shareBetweenLayers > MostBetweenLayers;
@@ -280,7 +280,8 @@ void warnOfVertices(const Reconstruction& result, const PointCloud& cloud, Warni
   }
 }
 
-/// Before the fit, gaps are spanned, and parts may face each other that are not connected.
+/// Contradictions count only after the fit: before it, the mesh spans gaps, and parts that are not
+/// connected may face each other.
 void warnOfSides(
   const OrientationReport& sides, bool isFitted, const PointCloud& cloud, WarningList& warnings)
 {
@@ -306,8 +307,8 @@ void warnOfSides(
       "The normals of the input determine no side of the surface: they are zero, not finite, or "
       "point to both sides. Check them.");
   }
-  // One piece agrees with itself and with the pieces that follow it: as a whole, it has two sides that
-  // are equally right.
+  // A single piece has two sides that are equally right, and the pieces that follow it agree with
+  // it. A user can turn the whole mesh.
   const bool isOne = sides.unknownPieces == 1 &&
     sides.unknownShare() + sides.share(SideEvidence::Neighbors) > WholeArea;
   if (sides.unknownShare() > LeastUnknownSide && !isOne)
