@@ -28,38 +28,41 @@ namespace neuralmesh
 {
 namespace
 {
-/// A piece can be a gap if so many samples should lie in it.
+/// A piece may be a gap only if at least so many samples should lie in it.
 constexpr double LeastExpectedSamples = 10.;
-/// It is one if a triangle of it is so many times the distance between samples away from all
-/// points. Where points are spread by chance, such a place is one of e^28.
+/// It is a gap if one of its triangles is farther from all points than so many times the distance
+/// between samples ... With points at random, one place in e^28 is that far away.
 constexpr double LeastSpacings = 3.;
-/// ... and so many times the median distance between samples and mesh: points with noise do not lie
-/// on it.
+/// ... and than so many times the median distance from samples to the mesh, as noisy points do not
+/// lie on the mesh.
 constexpr double LeastMedians = 5.;
-/// The two sides of a web are gaps from fewer on: it is unlikely that both are empty.
+/// The same for both sides of a web. Less is enough, as two sides are rarely empty by chance.
 constexpr double LeastSpacingsOfWeb = 1.5;
 constexpr double LeastMediansOfWeb = 3.;
-/// ... and so many roots of the area of one. Between the sides of a thin plate there are points everywhere, however
-/// badly they fit.
+/// The sides of a web are also farther from all points than this times the root of their area. A
+/// thin plate has points everywhere between its sides, even if the mesh fits badly.
 constexpr double LeastRootsOfWeb = 0.25;
-/// With less samples, triangles without any are everywhere, and hang together. A triangle is empty
-/// then if it is so many times the distance between samples away from all points: one of e^7 is by
-/// chance.
+/// If there are fewer samples per triangle, many triangles have none by chance, and they are
+/// connected. Then a triangle is empty only if it is farther from all points than so many times the
+/// distance between samples. One in e^7 is that by chance.
 constexpr std::size_t LeastSamplesPerTriangle = 2;
 constexpr double LeastSpacingsIfEmpty = 1.5;
 /// Parts for the executor.
 constexpr std::size_t TrianglesPerRange = 4096;
 constexpr std::size_t PlacesCountedPerRange = 16384;
-/// Of the distance between samples on average: where they are farther from each other, it is theirs
-/// that counts, and triangles may be too small there.
+/// Samples are sparse where their distance is more than so many times the usual one. There, the
+/// local distance counts.
 constexpr double SparseGapSpacings = 2.;
-/// Of the distance between samples: so far away they lie on a piece, though it has no noise.
+/// A sample lies on a piece without noise if it is closer than this part of the distance between
+/// samples.
 constexpr double MostOffPiece = 0.1;
-/// A piece that is cut off has so many times the samples of a small piece: crumbs of rims have fewer.
+/// A piece that was cut off stays if it has more than so many times the samples of a small piece.
+/// Crumbs at rims have fewer.
 constexpr double TimesForLeftOver = 5.;
-/// Holes in which there are points are filled with edges up to so many of the mesh on average.
+/// A hole with points in it is filled if the edges across it are shorter than so many mean edges
+/// ...
 constexpr double WidestHole = 5.;
-/// ... if the surface around goes on there.
+/// ... and the surface around it continues across it: the least cosine between normals.
 constexpr float CosineOfHole = 0.3f;
 
 /// The closest of some points, which should be near to each other where they follow each other.
@@ -108,7 +111,7 @@ private:
   NearestPoints nearest_;
 };
 
-/// Where samples are sparse: how far they are from each other around those that are closest.
+/// The distance between samples where they are sparse.
 class SparseSpacing
 {
 public:
@@ -124,7 +127,8 @@ public:
   {
   }
 
-  /// 0 where they are not.
+  /// The distance between samples around the one closest to `point`; 0 if they are not sparse
+  /// there.
   double at(Vector4 point)
   {
     if (!isAnywhere_)
@@ -157,8 +161,9 @@ private:
   std::optional<SomePoints> points_;
 };
 
-/// Of the small pieces that are cut off, those that explain no points: others are parts of the surface. These hold
-/// some times the part `leastPiece` of the samples, and half of theirs lie on them but for noise.
+/// The small pieces that were cut off and explain no points. A piece is a part of the surface if it
+/// has more than TimesForLeftOver times the part `leastPiece` of the samples, and at least half of
+/// them lie on it within the noise.
 std::vector<Triangle> leftOverPieces(const Mesh& mesh, std::span<const PlaceOnMesh> places,
   std::span<const std::uint8_t> valencesBefore, float medianDistance, double leastPiece)
 {
@@ -318,7 +323,7 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   const SomePoints points(cloud, places.size(), executor);
   const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
   const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
-  // A bridge may be wide; what goes on where points are is filled anyway.
+  // Holes as wide as a bridge are filled, and those in which there are points.
   result.filled = fillBoundaries(
     mesh, boundaries, std::max(plan.bridgeWidth, WidestHole * mesh.meanEdge()),
     [&](const Triangle& triangle) { return points.distance(centerOf(mesh, triangle)) <= reach; },

@@ -11,43 +11,42 @@
 
 namespace neuralmesh
 {
-/// The triangles of a mesh where the scan has no data: pieces of triangles on which none of the
-/// places of samples lies, and which
-/// - are so large that many should, if samples lay there as densely as around the piece, and
+/// Returns the triangles of a mesh where the scan has no data. They form pieces on which no sample
+/// has its place, and which
+/// - are so large that many samples would lie there at the density around the piece, and
 /// - lie at a boundary, or reach farther away from all points than points are from each other and
-///   from the mesh; else the mesh does not fit yet.
-/// Where triangles are smaller than the distance between samples, everywhere or around those nearest
-/// to them, those near to a point are no part of such pieces.
-/// With `mustBeFar` those at a boundary have to reach away from the points, too.
-/// `places` are those of samples evenly picked from the cloud, `medianDistance` is that of the
-/// samples to the mesh.
+///   from the mesh. Otherwise the mesh does not fit yet.
+/// If triangles are smaller than the distance between samples, those near a point belong to no
+/// piece. With `mustBeFar`, pieces at a boundary must reach away from the points, too. `places` are
+/// the places of samples that were picked evenly from the cloud; `medianDistance` is the median of
+/// their distances to the mesh.
 std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar = false,
   const Executor& executor = Executor::sequential());
 
-/// How gaps are to be opened and closed.
+/// How to open and close gaps.
 struct GapPlan
 {
   double bridgeWidth = 0.; ///< see openDataGaps()
-  bool mayOpen = true;     ///< not where the mesh began with openings where there is no data
+  bool mayOpen = true;     ///< false if the first surface is open already where there is no data
   double leastPiece = 0.0005;
   bool mustBeFar = false; ///< at boundaries, too, see findDataGaps()
 };
 
 struct OpenedGaps
 {
-  std::size_t triangles = 0; ///< that were gaps
-  std::size_t joined = 0;    ///< pairs of boundaries
-  std::size_t filled = 0;    ///< boundaries
+  std::size_t triangles = 0; ///< number of removed triangles
+  std::size_t joined = 0;    ///< number of pairs of boundaries that were joined
+  std::size_t filled = 0;    ///< number of boundaries that were filled
 
   bool any() const { return triangles + joined + filled > 0; }
 };
 
-/// Takes the gaps away, and small pieces that are left over: those that hold no more than five times the part
-/// `leastPiece` of the samples, or do not lie on theirs. Boundaries that face each other, on average closer
-/// than `bridgeWidth`, are joined: they are both sides of a web that lay across a handle. Slits narrower
-/// than that which are close to points all along are closed: webs lay in creases there. Some vertices may
-/// be erased.
+/// Removes the triangles of gaps, and small pieces that are left over: those with no more than five
+/// times the part `leastPiece` of the samples, and those whose samples do not lie on them. Joins
+/// boundaries that face each other closer than `bridgeWidth` on average: they are the two sides of
+/// a web across a handle. Closes slits that are narrower than that and close to points all along:
+/// webs in creases leave them. Some vertices may be erased.
 OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const PlaceOnMesh> places,
   float medianDistance, const GapPlan& plan, const Executor& executor = Executor::sequential());
 }

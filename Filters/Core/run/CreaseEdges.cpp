@@ -18,26 +18,29 @@ using SidePlane = FacePlanes::Plane;
 
 constexpr double PartOfAngle = 0.5; ///< from which on planes differ
 constexpr double StandardErrors = 3.;
-/// How far the two sides reach, in lengths of edges near by: farther where noise asks for it.
+/// The widths of the two sides that are tried, in lengths of nearby edges. Noise needs wider sides.
 constexpr std::array Reaches{ 2.5, 3.5, 5., 7. };
-/// They reach at least so many standard deviations of the noise: slopes are flattened by less.
+/// A side is at least so many standard deviations of the noise wide. On narrower ones, noise
+/// flattens the slopes.
 constexpr double NoisesOfReach = 10.;
-/// Variance of the points about both surfaces over their noise, and what chance adds, in standard errors: where
-/// it is more, the shape is another one.
+/// The largest variance of the points about both surfaces, over their noise, and the standard
+/// errors that are added for chance. If it is larger, the shape is not a crease between two
+/// surfaces.
 constexpr double MostMisfit = 1.1;
 constexpr double ChanceOfMisfit = 3.;
-/// By how many degrees the angle where both sides meet may exceed that of their planes: from farther away it is
-/// guessed.
+/// The angle where both sides meet may exceed that of their planes by so many degrees. More is
+/// extrapolated too far.
 constexpr double MostGuessed = 30.;
-/// Noise below this part of an edge does not matter.
+/// Noise counts as at least this part of an edge.
 constexpr double LeastNoise = 0.03;
-/// One surface without a crease must fit so much worse than two, and by so many times what one more number in
-/// its formula takes away by chance.
+/// The residual of one surface without a crease must be larger than that of two surfaces by this
+/// factor, and by so many times what one more coefficient explains by chance.
 constexpr double WorseWithoutCrease = 1.2;
 constexpr double ChanceOfCrease = 100.;
-/// The planes of a side turn by less, unless the crease is sharper than twice that.
+/// The planes of a side turn by less than this, in degrees, or by less than half of the angle of
+/// the crease.
 constexpr double TurnOfSide = 30.;
-/// Both sides meet so near to the edge of the mesh, and points there may be on either.
+/// Both sides meet within so many lengths of the edge of the mesh.
 constexpr double FarthestMeeting = 1.;
 constexpr unsigned RoundsOfSorting = 3;
 constexpr std::size_t FewestOfPlane = 5;
@@ -91,8 +94,8 @@ struct Slope
   double residual = 0.; ///< of the points, squared and summed
 };
 
-/// Fits z = a + b x + c y + d x^2 + e x y + f y^2 over a plane, with x away from the crease and y along it; of
-/// few points only what is linear.
+/// Fits z = a + b x + c y + d x^2 + e x y + f y^2 over a plane, with x away from the crease and y
+/// along it. With three terms, fits the linear part only.
 template <int Terms>
 std::optional<Slope> fitSlope(const Points& points, const SidePlane& plane,
   const Eigen::Vector3d& along, const Eigen::Vector3d& origin, double unit)
@@ -147,7 +150,7 @@ std::optional<Slope> slopeOf(const Points& points, const SidePlane& plane,
                                         : std::nullopt;
 }
 
-/// The sum of squared distances of points from the surface of third degree that fits them best over a plane.
+/// The sum of squared distances of points to the cubic surface over a plane that fits them best.
 double residualOfOneSurface(const std::array<Points, 2>& points, const Eigen::Vector3d& normal,
   const Eigen::Vector3d& along, const Eigen::Vector3d& origin, double unit)
 {
@@ -185,13 +188,13 @@ double residualOfOneSurface(const std::array<Points, 2>& points, const Eigen::Ve
         t[1] + 2. * t[3] * x + t[4] * y + 3. * t[6] * x * x + 2. * t[7] * x * y + t[8] * y * y;
       const double dy =
         t[2] + t[4] * x + 2. * t[5] * y + t[7] * x * x + 2. * t[8] * x * y + 3. * t[9] * y * y;
-      // The distance from the tangent plane there.
+      // The distance to the tangent plane of the surface.
       sum += (z - height) * (z - height) / (1. + dx * dx + dy * dy);
     });
   return sum * unit * unit;
 }
 
-/// Looks at one edge: finds the points of both sides, and how they meet.
+/// Examines one edge: finds the points of both sides and the angle between them.
 class EdgeExam
 {
 public:
@@ -247,7 +250,7 @@ private:
     double residual = 0.; ///< of the points, squared and summed
   };
 
-  /// How the two sides meet, by the points that are gathered.
+  /// Measures the angle between the two sides by the points that were gathered.
   std::optional<Bend> findBend(std::array<std::uint32_t, 2> triangles,
     const Eigen::Vector3d& middle, double length, std::array<SidePlane, 2>& sides)
   {
@@ -281,7 +284,7 @@ private:
 
   double pointCount() const { return double(points_[0].size() + points_[1].size()); }
 
-  /// Whether two surfaces fit better than one that goes over both sides.
+  /// Whether two surfaces fit better than a smooth one across both sides.
   bool isCrease(double residual, const std::array<SidePlane, 2>& sides, double length) const
   {
     const Eigen::Vector3d normal = (sides[0].normal + sides[1].normal).normalized();
@@ -290,7 +293,7 @@ private:
       (ofOne - residual) * pointCount() > ChanceOfCrease * residual;
   }
 
-  /// The median of the noise on the triangles; 0 where points are too few to tell.
+  /// The median of the noise on the triangles; 0 if they have too few points.
   double noiseOfTaken()
   {
     noises_.clear();
@@ -310,8 +313,9 @@ private:
     return *middle;
   }
 
-  /// Goes out from both triangles over those whose planes are about those of a side: none of a third one.
-  /// (What is more like one side goes there for now only: chosen so, noise would be two slopes.)
+  /// Spreads from both triangles over those whose planes turn little from either side. This leaves
+  /// out a third side. Each triangle goes to the side that it resembles more, but sort() assigns
+  /// the points again: sorted by likeness, noise alone would form two slopes.
   void gather(std::array<std::uint32_t, 2> triangles, const Eigen::Vector3d& middle, double reach)
   {
     const std::array normals{ planes_.planeOf(triangles[0]).normal,
@@ -355,7 +359,7 @@ private:
     }
   }
 
-  /// Where both planes meet, at the place next to the edge. False if that is far off.
+  /// Finds the point next to the edge where both planes meet. Returns false if it is far off.
   bool findMeeting(
     const std::array<SidePlane, 2>& sides, const Eigen::Vector3d& middle, double length)
   {
@@ -375,8 +379,8 @@ private:
     return (origin_ - middle).norm() <= FarthestMeeting * length;
   }
 
-  /// Points go to the side of the plane that halves the angle: the mesh does not know. (Going to the nearer of
-  /// both sides they would make a roof of noise.)
+  /// Divides the points by the plane that halves the angle, as the edge of the mesh may lie beside
+  /// the crease. Divided by the nearer side, noise would form a roof.
   void sort(const std::array<SidePlane, 2>& sides)
   {
     std::array<Eigen::Vector3d, 2> away;
@@ -464,7 +468,7 @@ std::vector<CreaseEdge> findCreaseEdges(const FacePlanes& planes, const CloudPla
       const Eigen::Vector3d b = mesh.position(result[i].ends[1]).toDouble();
       const double area =
         0.25 * (planes.normalOf(triangles[0]).norm() + planes.normalOf(triangles[1]).norm());
-      // Of a triangle of equal sides with that area, or longer.
+      // The edge, or the side of an equilateral triangle of this area if that is longer.
       const double length = std::max((b - a).norm(), std::sqrt(area / 0.433));
       exam.run(triangles, 0.5 * (a + b), length, result[i]);
     }

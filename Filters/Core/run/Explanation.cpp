@@ -20,35 +20,40 @@ namespace neuralmesh
 {
 namespace
 {
-/// A point is away from the mesh beyond so many of its own distances to its neighbours,
-/// and MediansAway.
+// The spacing of a point is its distance to its neighbours.
+
+/// A point is away from the mesh if its distance is more than so many of its spacings, and more
+/// than the noise, MediansAway.
 constexpr float SpacingsAway = 3.f;
-/// ... and is cut off beyond so many, though explained; or where the mesh ends, among sparse points.
+/// An explained point is cut off if its distance is more than so many of its spacings: at a rim, or
+/// where the mesh ends among sparse points.
 constexpr float SpacingsAtRims = 1.f;
-/// A point with larger distances to others, against those that are usual, may be an outlier near the surface.
-constexpr float MostSpacingAtRims = 1.75f;
 constexpr float SpacingsBeyondEnds = 1.6f;
-/// ... and of the mean edge, or of the diagonal: less is what any bend loses.
+/// At a rim, a point with more than so many usual spacings may be an outlier near the surface.
+constexpr float MostSpacingAtRims = 1.75f;
+/// The distance of a point that is cut off is also more than this part of the mean edge or of the
+/// diagonal. Every bend of a mesh causes smaller ones.
 constexpr float EdgesCutOff = 0.5f;
 constexpr double DiagonalCutOff = 0.01;
-/// If the mesh misses most points, their median tells no noise: then it is more than so many distances
-/// between points, and it is the layers of so many points that tell it.
+/// If the mesh misses most points, their median distance is not noise. It is then more than so many
+/// usual spacings, and the noise is measured in the layers of so many points.
 constexpr float SpacingsOfNoise = 3.f;
 constexpr std::size_t LayersOfNoise = 200;
-/// An outlier is so much farther from its neighbours than they are from theirs.
+/// The spacing of an outlier is so many times that of its neighbours.
 constexpr float LoneSpacings = 3.f;
-/// Sparse points make a surface if the variance across it is less than this part of all, on average, among
-/// so many of them that are away from the mesh. Of points anywhere in space it is about an eighth.
+/// Sparse points that are away from the mesh form a surface if the variance across it is less than
+/// this part of the whole, on average over neighbourhoods of so many points. For random points in
+/// space it is about an eighth.
 constexpr double MostVariation = 0.07;
 constexpr std::size_t NeighborsInVariation = 9;
-/// No point is as much closer to the mesh than to others, and lone.
+/// A point is no outlier if its distance to the mesh is less than this part of its spacing.
 constexpr float LonePartOfSpacing = 0.5f;
-/// Points are of one piece if they are closer than so many distances to their neighbours ...
+/// Points belong to one piece if they are closer than so many of their spacings ...
 constexpr float SpacingsOfPiece = 2.5f;
 constexpr std::size_t NeighborsInPiece = 16;
-/// ... or than so many edges: the mesh could not tell them apart.
+/// ... or than so many edges: a mesh with these edges does not separate them.
 constexpr double EdgesOfPiece = 2.;
-/// Of the points asked: fewer are a piece by chance.
+/// A piece has at least so many of the points that were asked. Fewer lie together by chance.
 constexpr double LeastAskedInPiece = 4.;
 
 /// A small piece is a part of the scan if it has so many points, ...
@@ -130,7 +135,7 @@ private:
     return pointSpacing(nearest_, std::uint32_t(result_.asked.points[i]));
   }
 
-  /// The usual distance between points, and the noise.
+  /// Measures the usual spacing and the noise.
   void survey()
   {
     const std::vector<float>& distances = result_.asked.distances;
@@ -161,7 +166,7 @@ private:
 
   bool isSparse(std::size_t i) const { return spacings_[i] > LoneSpacings * usualSpacing_; }
 
-  /// Whether a point is much farther from others than these are from theirs.
+  /// Whether the spacing of a point is much larger than those of its neighbours.
   bool isLone(std::uint32_t point, float spacing) const
   {
     std::array<NearPoint, Neighbors + 1> near;
@@ -177,7 +182,8 @@ private:
     return around.empty() || spacing > LoneSpacings * medianOf(std::move(around));
   }
 
-  /// What is explained, an outlier, or neither, which is unreachable for now.
+  /// Marks each point as explained, outlier or unreachable. findPieces() judges the unreachable
+  /// ones.
   void tellApart()
   {
     const std::size_t all = result_.asked.points.size();
@@ -209,7 +215,7 @@ private:
     {
       return Reason::Outlier;
     }
-    // What is sparse and near is judged with what is around it.
+    // findPieces() judges a sparse point near the mesh together with the points around it.
     return isFar(i) || isSparse(i) ? Reason::Unreachable : Reason::Explained;
   }
 
@@ -218,8 +224,8 @@ private:
     return result_.asked.distances[i] > SpacingsAway * spacings_[i];
   }
 
-  /// Joins those that are unreachable and belong together. Where they are in no layer they are outliers,
-  /// and where they are few a small piece.
+  /// Joins unreachable points that belong together. A piece that forms no layer consists of
+  /// outliers, and one with few points is a small piece.
   void findPieces()
   {
     std::vector<std::size_t> missed;
@@ -263,7 +269,7 @@ private:
     }
     if (variation > MostVariation * double(sparse))
     {
-      // What is dense is none of the clutter around it.
+      // Dense points do not belong to the clutter around them.
       take(piece, Reason::Outlier, [this](std::size_t i) { return isSparse(i); });
     }
     take(piece, Reason::Explained, [this](std::size_t i) { return !isFar(i); });
@@ -332,8 +338,8 @@ private:
     return double(piece.size()) < rules_.leastPiece * double(result_.asked.points.size());
   }
 
-  /// Whether the points of a piece go on where the mesh explains others: then it is a part of what that should
-  /// have, however small.
+  /// Whether a piece continues explained points. Then it is a part of the surface that the mesh
+  /// should have, however small it is.
   bool isOfSurface(const std::vector<std::size_t>& piece)
   {
     if (!nearestExplained_)
@@ -360,7 +366,8 @@ private:
 
   Vector4 placeOf(std::size_t i) const { return cloud_.points()[result_.asked.points[i]]; }
 
-  /// Those of a piece that are meant have this reason, and are no part of it any more.
+  /// Gives this reason to the points of a piece that meet a condition, and removes them from the
+  /// piece.
   template <typename Condition>
   void take(std::vector<std::size_t>& piece, Reason reason, Condition isMeant)
   {
@@ -371,7 +378,8 @@ private:
     std::erase_if(piece, isMeant);
   }
 
-  /// How flat the surface is that sparse points make with others that are missed.
+  /// For each sparse missed point, the part of the variance across the surface that it forms with
+  /// other missed points.
   void findVariations(const std::vector<std::size_t>& missed, const std::vector<Vector4>& places)
   {
     const NearestPoints nearest(places);
@@ -404,10 +412,10 @@ private:
     }
   }
 
-  /// Joins those in the same cell, or in cells that touch.
+  /// Joins points in the same cell or in cells that touch.
   void joinCells(DisjointSets& sets, const std::vector<Vector4>& places) const
   {
-    // Of all, the corners of cells may be as far apart as sixteen million of them.
+    // Cells are not so small that their numbers overflow.
     const double width = std::max(EdgesOfPiece * result_.asked.meanEdge, 1e-6 * cloud_.diagonal());
     using Cell = std::array<long, 3>;
     std::map<Cell, std::size_t> firstIn;
@@ -517,7 +525,7 @@ private:
       const float distance = result_.asked.distances[i];
       const bool isBeyond = result_.asked.isBeyondBoundary[i] != 0;
       const bool isExplained = result_.reasons[i] == Reason::Explained;
-      // The farthest of a sparse end are no piece of their own.
+      // The farthest points at a sparse end count, too: they are few, so they are a small piece.
       if (!(isExplained || (isBeyond && result_.reasons[i] == Reason::SmallPiece)) ||
         !(distance > noise_) || !(double(distance) > least))
       {
@@ -554,7 +562,7 @@ private:
   Explanation result_;
   float usualSpacing_ = 0.f;
   float noise_ = 0.f;
-  // Where they were needed:
+  // Filled only for the points that need them
   std::vector<float> spacings_;
   std::vector<double> variations_;
   std::vector<Vector4> explained_;

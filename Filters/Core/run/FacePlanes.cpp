@@ -14,17 +14,18 @@ namespace neuralmesh
 {
 namespace
 {
-/// With fewer there is a plane through anything.
+/// A plane fits fewer points by chance.
 constexpr std::size_t FewestPoints = 5;
-/// Variance across a patch over that along it, of one that is wide against the noise; and how wide they get.
+/// A patch is wide enough for its noise if the variance across it is less than this part of that
+/// along it. Patches grow until half of them are, up to so many rings.
 constexpr double MostFlatness = 0.1;
 constexpr unsigned MostRings = 3;
 constexpr std::size_t PatchesPerRange = 256;
-/// A triangle goes over to the other side, where that shortens the border, if it lies no farther from it than
-/// such a part of its size.
+/// A triangle changes sides to shorten the border if it lies no farther from the other side than
+/// this part of its size.
 constexpr double FarthestOver = 0.35;
 constexpr unsigned RoundsOfShortening = 4;
-/// Planes that turn by less are those of one side.
+/// Two planes belong to one side if the cosine of their angle is larger.
 constexpr double CosineOfOneSide = 0.94;
 }
 
@@ -156,13 +157,14 @@ double FacePlanes::noiseAcross(std::uint32_t triangle, const Moments& own) const
   const Eigen::Vector2d tilt =
     covariance.topLeftCorner<2, 2>().ldlt().solve(covariance.topRightCorner<2, 1>());
   const double across = covariance(2, 2) - tilt.dot(covariance.topRightCorner<2, 1>());
-  // Of such numbers a median is taken, which for few points lies below the variance: by Wilson and Hilferty.
+  // The caller takes the median of such variances, which is below their mean if points are few
+  // (Wilson, Hilferty).
   const double freedom = double(own.count - 3);
   const double medianToMean = std::pow(1. - 2. / (9. * freedom), 3.);
   return std::max(0., across) * double(own.count) / (freedom * medianToMean);
 }
 
-/// The triangles within so many rings of vertices around one, in rising order.
+/// The triangles within so many rings of vertices around a triangle, in ascending order.
 std::vector<std::uint32_t> FacePlanes::around(std::uint32_t triangle, unsigned rings) const
 {
   const auto makeUnique = [](std::vector<std::uint32_t>& numbers)
@@ -218,7 +220,8 @@ FacePlanes::Patch FacePlanes::patchAround(
   return result;
 }
 
-/// Mean squared distance of the points of a triangle from a plane.
+/// The mean squared distance of the points of a triangle to a plane; that of its centre if it has
+/// no points.
 double FacePlanes::misfit(std::uint32_t triangle, const Plane& plane, const Moments& own) const
 {
   if (own.count == 0)
@@ -254,8 +257,8 @@ std::uint32_t FacePlanes::bestPatch(std::uint32_t triangle, const Moments& own) 
   return best;
 }
 
-/// A triangle that juts into the other side goes over to it, if it lies about as well there: the
-/// border between both is shorter then.
+/// Gives a triangle that juts into the other side to that side, if it lies almost as close to its
+/// plane. This shortens the border between both.
 void FacePlanes::shortenBorders(std::span<const Moments> moments)
 {
   const auto isOneSide = [&](std::uint32_t a, std::uint32_t b)

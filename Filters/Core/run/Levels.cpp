@@ -15,18 +15,19 @@ namespace neuralmesh
 {
 namespace
 {
-/// Of the progress of a level.
+/// The part of growth in the progress of a level.
 constexpr double PartOfGrowth = 0.5;
 
-/// Levels that one mesh grows through, from the first to before the last.
+/// The levels [first, last) through which one mesh grows.
 struct Chain
 {
   std::size_t first;
   std::size_t last;
 };
 
-/// From a first surface that is made for the largest of all, a mesh grows to those levels that have more vertices
-/// than that. For the others it is simplified to what suits the largest of them, and so on.
+/// A mesh grows from the first surface of the largest level to all levels that are larger than that
+/// surface. For the smaller levels, the surface is simplified to suit the largest of them, and so
+/// on.
 std::vector<Chain> chainsOf(std::span<const std::uint64_t> levels)
 {
   std::vector<Chain> result;
@@ -43,7 +44,8 @@ std::vector<Chain> chainsOf(std::span<const std::uint64_t> levels)
   return result;
 }
 
-/// The first surface of a mesh of so many vertices, simplified for one of fewer: it is finer where parts are thin.
+/// Simplifies the first surface for `vertices` vertices to one for `fewer`. It stays finer at thin
+/// parts.
 Beginning simplified(Beginning beginning, std::uint64_t vertices, std::uint64_t fewer)
 {
   if (beginning.mesh && fewer < vertices)
@@ -61,8 +63,9 @@ struct DoubtfulLevel
   Reconstruction mesh;
 };
 
-/// Tells of the doubtful levels: as they are, or simplified from what the last one has learnt if that holds more. If
-/// that has lost thin parts itself, nothing is learnt: then each level is one of its own.
+/// Gives the doubtful levels to `take`. A level is replaced by a simplification of the last level,
+/// `learnt`, if that holds more of the cloud. If the last level has lost thin parts itself,
+/// `learnt` is nothing, and each level is checked by a run of its own.
 void takeDoubtful(Run& run, const std::optional<LearntRun>& learnt, const RunRequest& request,
   Reconstruction& last, std::vector<DoubtfulLevel>& doubtful, const LevelTaker& take,
   const Progress& progress)
@@ -133,7 +136,8 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
       const double endOfGrowth = done + PartOfGrowth * (end - done);
       LearntRun learnt =
         run.learn(verticesToLearn(own), std::move(next), { done, endOfGrowth }, none);
-      // A first surface that has more vertices than a level is simplified, and learns nothing.
+      // A first surface that is larger than its level learns nothing. It is finished and simplified
+      // all the same.
       learnt.isLearnt = true;
       next = { learnt.learnt.mesh, beginning.gaps, beginning.weights };
       const bool isLast = level + 1 == levels.size();
