@@ -19,21 +19,22 @@ constexpr std::size_t MostOfGuard = 5000;
 constexpr std::size_t AskedPerRange = 64;
 /// A point is missed beyond so many of its own distances to its neighbours ...
 constexpr float MissedSpacings = 3.f;
-/// ... and of the median distance to the mesh: no noise is there.
+/// ... and than so many median distances to the mesh: noise is rarely that large.
 constexpr float MissedMedians = 8.f;
-/// ... and if it has come closer or gone farther by this factor: distances of outliers change a little,
-/// whatever is done.
+/// A missed point counts if its distance has changed by this factor. Every change of a mesh alters
+/// the distances of outliers a little.
 constexpr float LeastChangeOfMissed = 1.25f;
-/// More points are missed if they are so many deviations more than chance has it: now and then an
-/// outlier lies near to where the mesh was wrong.
+/// The mesh misses more points than before if the difference exceeds so many deviations of chance:
+/// sometimes an outlier lies near a place where the mesh was wrong.
 constexpr double Deviations = 2.;
-/// Part of the points that mending intersections may cost.
+/// The part of the points that the repair of intersections may lose.
 constexpr double PriceOfRepair = 0.002;
-/// So many steps of single precision are rounding, not a residual.
+/// A residual below so many steps of single precision is rounding.
 constexpr double Rounding = 4.;
-/// Median of the size of a Gaussian variable, against its deviation.
+/// The median of the absolute value of a Gaussian variable, over its deviation.
 constexpr double MedianOfSizes = 0.6745;
-/// Noise is not quite Gaussian in the scans of devices: deviations by their median count so much.
+/// The noise of real scanners is not quite Gaussian: its deviation exceeds the one by the median by
+/// up to this factor.
 constexpr double NoiseMargin = 1.2;
 
 double median(std::vector<float> squared)
@@ -75,7 +76,7 @@ bool FitGuard::losesPoints(const Mesh& mesh, bool isRepaired)
   return losesPoints(squaredDistances(cloud_, points_, mesh, executor_, to_), isRepaired);
 }
 
-/// Of those that are no outliers.
+/// The root mean square distance of the points that are no outliers.
 double FitGuard::residual(const std::vector<float>& squared, double meanEdge) const
 {
   const float most = to_ == DistanceTo::NearestTriangle

@@ -13,34 +13,36 @@
 
 namespace neuralmesh
 {
-/// What of the residual counts as worse.
+/// Whether the residual of a mesh may grow.
 enum class ResidualRule
 {
-  MayNotGrow, ///< any growth: the cloud is clean
-  MayBeNoise, ///< growth beyond what noise all over would be
-  MayGrow     ///< nothing
+  MayNotGrow, ///< any growth makes the mesh worse: the cloud is clean
+  MayBeNoise, ///< it may grow up to the noise
+  MayGrow     ///< no growth makes the mesh worse
 };
 
-/// Tells whether a mesh has become worse than it was, by points that are held out of the fit:
-/// - by their residual: the root of the mean squared distance of those that are no outliers. With
-///   noise a mesh that follows it is closer to any point than the surface is, so that a residual
-///   which is noise all over is none that has become worse;
-/// - by their coverage: how many are missed, farther from the mesh than three of their own distances
-///   to their neighbours, and than any noise: more of them than chance has it (two deviations).
-///   If intersections were mended, that may cost one of 500.
+/// Finds whether a mesh has become worse, by points that are held out of the fit:
+/// - by their residual: the root mean square distance of those that are no outliers. A mesh that
+///   follows the noise is closer to all points than the surface is. So a residual that is as large
+///   as the noise is not worse;
+/// - by their coverage: the number of points that the mesh misses, as they are farther away than
+///   three times their distance to their neighbours, and than the noise. It is worse if the number
+///   grows by more than two deviations of chance. The repair of intersections may lose one point in
+///   500.
 class FitGuard
 {
 public:
-  /// Of the mesh as it is. Cloud and executor must outlive the guard.
-  /// Distances are measured to `to`; to the nearest triangle, of a surface, no point is an outlier.
+  /// Measures the mesh as it is now. Cloud and executor must outlive the guard. `to` says how
+  /// distances are measured; with DistanceTo::NearestTriangle, for points of a surface, no point is
+  /// an outlier.
   FitGuard(const PointCloud& cloud, const Mesh& mesh,
     const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::Surface);
 
-  /// Whether `mesh` is worse than the mesh was at first.
+  /// Whether `mesh` is worse than the first one.
   bool isWorse(const Mesh& mesh, ResidualRule rule, bool isRepaired = false);
-  /// Whether its residual is larger than that of `before` by more than this part.
+  /// Whether the residual of `mesh` exceeds that of `before` by more than this part.
   bool hasGrown(const Mesh& before, const Mesh& mesh, double part) const;
-  /// Whether it misses more points than the mesh did at first.
+  /// Whether `mesh` misses more points than the first one.
   bool losesPoints(const Mesh& mesh, bool isRepaired);
 
 private:
@@ -54,6 +56,6 @@ private:
   std::vector<std::size_t> points_;
   std::vector<float> before_; ///< squared distances
   double residual_ = 0.;
-  std::optional<PointSpacing> spacing_; ///< known where it was needed
+  std::optional<PointSpacing> spacing_; ///< made when it is needed
 };
 }

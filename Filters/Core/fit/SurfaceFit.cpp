@@ -15,46 +15,53 @@ namespace neuralmesh
 {
 namespace
 {
-/// What a distance along the surface counts, against one across it.
+/// The weight of a distance along the surface, relative to one across it: at first, and once the
+/// places have settled.
 constexpr double Slip = 0.01;
 constexpr double SettledSlip = 0.001;
-/// What it counts, then, that a vertex moves, against a sample.
+/// The weight, relative to a sample, that then keeps a vertex near its position.
 constexpr float AnchorWeight = 0.01f;
-/// ... and of a vertex that is to stay.
+/// The weight that keeps a vertex where it is.
 constexpr float WeightOfKept = 1e4f;
-/// Around a boundary that is kept.
+/// Rings around a boundary that is kept, which stay with it.
 constexpr int KeptRings = 2;
-/// In the first round samples are no outliers up to so many edges: the mesh does not fit yet.
+/// A sample within so many mean edges is no outlier. More are allowed in the first round, as the
+/// mesh does not fit yet.
 constexpr float FirstOutlierEdges = 1.f;
 constexpr float LaterOutlierEdges = 0.5f;
-/// ... and, where samples are sparse, up to so many edges and so many times the distance between samples around
-/// their places.
+/// A sample among sparse ones is no outlier either within so many times the local distance between
+/// samples.
 constexpr float OutlierSpacings = 3.f;
 constexpr std::size_t SamplesPerAbortCheck = 65536;
-/// A place elsewhere on the mesh must be nearer than this part of the squared distance.
+/// A place elsewhere on the mesh counts if its squared distance is less than this part of the
+/// present one.
 constexpr double NearerPart = 0.9;
-/// Of the residual of the equations, against the largest at the start of a round.
+/// The solver stops at this part of the largest residual that the equations had at the start of a
+/// round.
 constexpr double Tolerance = 1e-3;
 
-// Where the mesh lies between layers
-/// So many samples tell it; by their mean distance over the root mean square, which is 0.80 with noise, 0.87
-/// for what is evenly spread, and 0.95 for layers six deviations of the noise apart; and by how many are at
-/// either side.
+// A vertex between two layers
+/// It has so many samples or more. Their mean distance over the root mean square is 0.80 for noise,
+/// 0.87 for an even distribution, and 0.95 for two layers that are six deviations of the noise
+/// apart. Each side has at least this part of them.
 constexpr float LeastSamplesOfLayers = 20.f;
 constexpr float LeastEvennessOfLayers = 0.92f;
 constexpr float LeastPartOfLayer = 0.2f;
 
 // The pull at boundaries
-/// Chance at which a strip along a boundary has no sample although there is data.
+/// The probability that a strip along a boundary has no sample although the surface continues
+/// there.
 constexpr double ChanceOfEmptyStrip = 0.05;
-/// Samples beyond a boundary count as that much farther away: as much again would bring it too far out.
+/// Samples beyond a boundary count as farther away by this part of their distance. The whole
+/// distance would move the boundary too far.
 constexpr float PartBeyond = 0.8f;
-/// In units of the cloud: less has no direction.
+/// A shorter normal, in units of the cloud, has no direction.
 constexpr float LeastNormal = 1e-15f;
-/// Where a whole triangle is without, how far its edge goes towards the corner within.
+/// If a triangle at the boundary has no sample, its boundary edge moves by this part towards the
+/// opposite corner.
 constexpr double RetreatOfEmpty = 0.5;
 
-/// Of the time of moveVertices().
+/// The part of the choice of lambda in the time of moveVertices().
 constexpr double PartOfChoice = 0.6;
 }
 
@@ -129,8 +136,8 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   return true;
 }
 
-/// At first on the layer that faces the sample. Where the surface is thin, a sample may come to be
-/// closer to the other layer later: of such one there is no telling to which it belongs.
+/// The first place of a sample is on the layer that faces it. If a sample of a thin part is later
+/// closer to the other layer, it may belong to either one, so it is not used.
 void SurfaceFit::findPlace(std::size_t sample, const VertexGrid& grid)
 {
   const Vector4 point = samples_[sample];
@@ -155,8 +162,8 @@ void SurfaceFit::findPlace(std::size_t sample, const VertexGrid& grid)
   isUsed_[sample] = other.squaredDistance < place.squaredDistance ? 0 : 1;
 }
 
-/// Where the mesh is coarse, places near by are not always the nearest. Those of the other side of a thin part do not
-/// count.
+/// Searches the whole mesh for nearer places, as the nearest place of a coarse mesh may be
+/// elsewhere. Places on the other side of a thin part do not count.
 void SurfaceFit::findNearerPlaces()
 {
   const TriangleMesh triangles = trianglesIn(mesh_);
@@ -242,7 +249,7 @@ void SurfaceFit::keep(std::span<const std::uint8_t> vertices)
 
 void SurfaceFit::fillSystem()
 {
-  // Anew, as edges may have been flipped.
+  // The matrix is new each time, as edges may have been flipped.
   system_.emplace(mesh_, isSettled_ ? SettledSlip : Slip, executor_);
   system_->setSmoothnessParts(smoothnessParts_);
   for (VertexIndex v = 0; v < mesh_.indexEnd() && (isSettled_ || !isKept_.empty()); ++v)
@@ -266,8 +273,8 @@ void SurfaceFit::fillSystem()
   }
 }
 
-/// Samples beyond a boundary are on average half as far from it as the data goes: a step to where these
-/// end is twice as long, along the surface.
+/// Samples beyond a boundary are on average half as far from it as the end of the data. So a step
+/// to that end is twice as long, along the surface.
 Vector4 SurfaceFit::beyondBoundary(
   const Vector4& sample, const PlaceOnMesh& place, const Vector4& normal) const
 {
@@ -287,7 +294,8 @@ void SurfaceFit::fillRows(const FitSystem::Rows& rows, std::size_t sample)
   const Vector4 normal = normalAt(place, mesh_.positions());
   if (isOnBoundary(place, mesh_))
   {
-    // Beyond a boundary the distance along the surface counts in full: there is no other place.
+    // Beyond a boundary, the distance along the surface counts in full: the sample has no closer
+    // place.
     system_->add(
       place, beyondBoundary(samples_[sample], place, normal), Vector4(), weight(sample), rows);
     return;
@@ -299,9 +307,9 @@ void SurfaceFit::fillRows(const FitSystem::Rows& rows, std::size_t sample)
   }
 }
 
-/// Samples beyond a boundary pull it outwards, but where it is beyond the samples there are none to
-/// pull it back. So from each triangle at a boundary that has no samples in a strip along it, one is
-/// added for the edge, where the samples begin.
+/// Samples beyond a boundary pull it outwards, but no sample pulls a boundary back that lies beyond
+/// the data. So each boundary triangle with an empty strip along its edge gets an equation that
+/// pulls the edge to where the samples begin.
 void SurfaceFit::pullBoundariesIn()
 {
   /// Samples on the triangle at a boundary edge.
@@ -339,7 +347,7 @@ void SurfaceFit::pullBoundariesIn()
     double retreat = 0.;
     if (samples > 0. && 2. * samples * std::log(1. - width) < logarithm)
     {
-      // What the strip would be on average if the edge were where the data ends.
+      // Subtracts the mean width of the strip for an edge at the end of the data.
       retreat = width - 1. / (2. * samples + 1.);
     }
     else if (samples == 0. && -samplesPerTriangle < logarithm)

@@ -29,104 +29,106 @@ namespace neuralmesh
 /// Moves all vertices of a mesh to where the surface is closest to its cloud: to the positions x
 /// that minimise
 ///
-///   sum over samples p of w_p |p - b_p x|^2  +  lambda sum over vertices |L x|^2
 ///
 /// where b_p x is the place on the mesh that is closest to p, w_p is the weight of the point (0 for
-/// outliers), and L is the umbrella Laplacian. A distance along the surface counts little, as another
-/// place is then closer. Places change with the positions, so that it takes rounds of finding places
-/// and solving for positions. The topology stays as it is.
+/// outliers), and L is the umbrella Laplacian. A distance along the surface counts little, as a
+/// sample then has a closer place elsewhere. Places change with the positions. So a fit takes
+/// rounds: each finds places and solves for positions. The topology does not change.
 class SurfaceFit
 {
 public:
-  /// The least lambda that is worth trying: with less, triangles would fold.
+  /// The least lambda. With a smaller one, triangles fold.
   static constexpr double LeastSmoothness = 0.03;
-  /// With a lambda by the data below this one, the cloud counts as clean.
+  /// A cloud is clean if the lambda that was chosen for it is smaller.
   static constexpr double CleanSmoothness = 0.2;
 
-  /// Takes so many points of the cloud, evenly picked but for those held out, as samples. No vertex
-  /// may be erased. `normalOf` gives the normal that came with a point of the cloud, if there are some, and
-  /// `viewOf` its view. Cloud, mesh and executor must outlive the fit.
+  /// Picks so many samples evenly from the points of the cloud that are not held out. No vertex may
+  /// be erased. `normalOf` returns the given normal of a point of the cloud, `viewOf` its view;
+  /// both may be empty. Cloud, mesh and executor must outlive the fit.
   SurfaceFit(const PointCloud& cloud, Mesh& mesh, std::size_t sampleCount,
     const Executor& executor = Executor::sequential(), const PointNormals& normalOf = {},
     const PointViews& viewOf = {});
 
-  /// From now on a round brings boundaries all the way to the end of the samples, not half of it. Not before
-  /// holes are filled in which there are samples: their sides would run into each other.
+  /// From now on, a round moves boundaries all the way to the end of the samples, not half of it.
+  /// Fill holes with samples in them first: otherwise their sides run into each other.
   void reachTheEnd() { reachesTheEnd_ = true; }
 
   bool hasPlaces() const { return hasPlaces_; }
-  /// Finds the places of the samples on the mesh as it is now. Returns false if it was ended before.
+  /// Finds the places of the samples on the mesh as it is now. Returns false if `progress` ended
+  /// it.
   bool findPlaces(const Progress& progress);
-  /// Moves the vertices. With `lambda` 0 chooses it first. Vertices stay where they are if samples
-  /// around them would be lost: farther from the mesh than some distances between samples, though
-  /// they were closer. Returns false, and moves none, if it was ended before.
+  /// Moves the vertices. If `lambda` is 0, chooses it first. A vertex stays where it is if samples
+  /// around it would be lost: farther from the mesh than some distances between samples, although
+  /// they were closer. Returns false and moves no vertex if `progress` ended it.
   bool moveVertices(double lambda, const Progress& progress);
-  /// Follows a change of the mesh since findPlaces(): indices of erased vertices are given up, and samples on
-  /// what has changed get new places near by.
+  /// Follows a change of the mesh since findPlaces(): drops erased vertices, and finds new places
+  /// for the samples on triangles that have changed.
   void follow(const ChangedVertices& changed);
-  /// Vertices at creases, where the surface bends more sharply than usual by some `deviations`, are held less
-  /// smooth from the next moveVertices() on, but for those with few samples.
+  /// From the next moveVertices() on, lambda is smaller at creases, where the bend exceeds so many
+  /// `deviations` of the usual one. Vertices with few samples keep it.
   void relaxCreases(double deviations);
-  /// From the next moveVertices() on, samples count as moved against what noise of this variance does where the
-  /// surface bends: more of it lies on the outer side there. The bends are those of the mesh as it is.
+  /// From the next moveVertices() on, samples are shifted against the bias of noise with this
+  /// variance: at a bend, more of it lies on the outer side. The bends are those of the mesh as it
+  /// is now.
   void shiftAgainstNoise(double variance);
-  /// From the next moveVertices() on the surface turns to the normals that came with the samples, as far as they
-  /// are to be trusted, for samples whose distances have this variance.
+  /// From the next moveVertices() on, the surface turns to the given normals of the samples. Their
+  /// weight follows from their errors and from the variance of the distances of samples.
   void turnToNormals(double variance);
-  /// Chooses lambda by the risk of the surface that it gives, with places as they are, and how much of it
-  /// counts at each vertex; goes down from `first`. Returns false if it was ended before.
+  /// Chooses lambda and its part at each vertex by the risk of the surface, with the places as they
+  /// are. The search goes down from `first`. Returns false if `progress` ended it.
   bool chooseSmoothnessByRisk(double first, const Progress& progress);
-  /// From now on the surface slides less below its samples, and vertices keep to where they are where nothing
-  /// pulls them: for rounds that come after the places have settled.
+  /// From now on, the surface slides less below its samples, and vertices without samples stay near
+  /// their positions. For rounds after the places have settled.
   void settle() { isSettled_ = true; }
   /// From now on vertices that lie beyond the samples, at tips and in pits, are pulled to where these end; see
   /// EmptyCaps.h.
   void endWithSamples() { endsWithSamples_ = true; }
   /// From now on places are looked for beyond the triangles of the closest vertex, too.
   void findExactly() { isExact_ = true; }
-  /// The samples are those of a surface, in the coordinates of the cloud, which must outlive the fit: none is an outlier,
-  /// their places are looked for all over the mesh, if they have normals, and no vertex leaves the surface for where
-  /// nothing holds it.
+  /// From now on, the samples are those of a surface, in the coordinates of the cloud. No sample is
+  /// an outlier, places are searched on the whole mesh if samples have normals, and no vertex
+  /// overshoots the surface. The surface must outlive the fit.
   void keepTo(const NearestTriangle& surface) { surface_ = &surface; }
-  /// From now on the boundaries, and what is next to them, stay where they are.
+  /// From now on, the boundaries and the vertices near them stay where they are.
   void keepBoundaries();
-  /// ... and so do the vertices for which this is not 0.
+  /// From now on, the vertices whose value is not 0 stay where they are.
   void keep(std::span<const std::uint8_t> vertices);
-  /// From now on moveVertices() tells each vertex its lambda, in this property of the mesh.
+  /// From now on, moveVertices() stores the lambda of each vertex in this property of the mesh.
   void tellSmoothness(VertexProperty<float> property) { smoothnessOfVertices_ = property; }
   /// The lambda of the last moveVertices().
   double smoothness() const { return smoothness_; }
-  /// Whether it is that of a cloud without noise to speak of.
+  /// Whether that lambda is one of a clean cloud.
   bool isClean() const { return smoothness_ < CleanSmoothness * partOfUsualSamples(); }
 
-  /// Of samples in use, to the planes of their triangles, root of the mean square, with what the
-  /// vertices have followed of it added: the noise of the cloud, and what the triangles are too
-  /// coarse for.
+  /// The root mean square distance of used samples to the planes of their triangles, plus the noise
+  /// that the vertices have followed. It consists of the noise of the cloud and of the error of
+  /// coarse triangles.
   double noise() const { return noise_; }
-  /// What each point has of it for itself, and what the points of a view share, told on the mesh as it is. The mesh
-  /// must be smooth against the noise: else it follows the views.
+  /// The noise of single points, and the noise that the points of a view share, measured on the
+  /// mesh as it is. The mesh must be smoother than the noise: otherwise it follows the views.
   NoiseParts noiseParts() const;
-  /// Vertices that the last moveVertices() has not moved, so that no samples were lost.
+  /// Number of vertices that the last moveVertices() left where they were, so that no samples were
+  /// lost.
   std::size_t heldCount() const { return heldCount_; }
-  /// Moves vertices back to where they were in `before`, a mesh of the same vertices, if samples around
-  /// them are lost now. Returns how many. Then places must be found anew.
+  /// Moves vertices back to their positions in `before`, a mesh of the same vertices, if samples
+  /// around them are lost now. Returns how many. Places must then be found again.
   std::size_t holdAgainst(const Mesh& before);
-  /// Part of the samples that are outliers.
+  /// The part of the samples that are outliers.
   double outlierShare() const;
-  /// Beyond this distance a sample is an outlier; where points are sparse, beyond some edges around its
-  /// place, and some distances between samples there.
+  /// Beyond this distance a sample is an outlier. Where samples are sparse, it must also be farther
+  /// than some local edges and local distances between samples.
   float outlierDistance() const { return outlierDistance_; }
-  /// Mean over root mean square of the distances of samples to the mesh: 0.8 for noise, 1 if all are
-  /// as far away.
+  /// The mean distance of samples to the mesh over the root mean square: 0.8 for noise, 1 for equal
+  /// distances.
   double distanceEvenness() const;
-  /// Of the vertices with enough samples on their triangles, the part that lies between two layers of them:
-  /// at either side of the surface, all nearly as far from it.
+  /// The part of the vertices that lie between two layers of samples: samples on both sides, all at
+  /// nearly the same distance. Only vertices with enough samples on their triangles count.
   double shareBetweenLayers() const;
-  /// Of the samples to the mesh.
+  /// The median distance of the samples to the mesh.
   float medianDistance() const { return medianDistance_; }
-  /// Of the samples about the surface, by their median distance.
+  /// The variance of the samples about the surface, by their median distance.
   double variance() const;
-  /// Of the samples, at the last findPlaces().
+  /// The places of the samples at the last findPlaces().
   std::span<const PlaceOnMesh> places() const { return places_; }
   PlacedSamples placedSamples() const { return { samples_, places_, isUsed_, weights_ }; }
 
@@ -134,9 +136,9 @@ private:
   // Parts for the executor.
   static constexpr std::size_t SamplesPerRange = 1024;
   static constexpr std::size_t VerticesPerRange = 4096;
-  /// Median of the square of a Gaussian variable, against its variance.
+  /// The median of the square of a Gaussian variable, over its variance.
   static constexpr double MedianOfSquares = 0.455;
-  /// With fewer samples memory does not matter.
+  /// With fewer samples, memory does not matter.
   static constexpr std::size_t LeastLaidAside = 500'000;
   /// Samples that are so many times farther from each other than usual are sparse.
   static constexpr float SparseSpacings = 2.f;
@@ -145,11 +147,12 @@ private:
   float weight(std::size_t sample) const { return weights_.empty() ? 1.f : weights_[sample]; }
   void findPlace(std::size_t sample, const VertexGrid& grid);
   void findNearerPlaces();
-  /// Tells outliers by how far samples are from each other around their places.
+  /// Finds outliers by the distance between samples around their places.
   void chooseUsed(float edges);
   void fillSystem();
-  /// The answer of `solve()`, while which the rings of the mesh and the places are laid aside, as the equations take
-  /// most of the memory. `positions` are those for which the places are.
+  /// Calls `solve()` and returns its answer. Meanwhile the rings of the mesh and the places are
+  /// packed, as the equations take most of the memory. `positions` are those to which the places
+  /// belong.
   template <typename Positions, typename Solve>
   bool laidAside(const Positions& positions, const Solve& solve)
   {
@@ -202,7 +205,7 @@ private:
   // In SurfaceFitHold.cpp
   bool isLost(std::size_t sample, float squaredBefore) const;
   template <typename Distance>
-  std::vector<std::uint8_t> lostPlaces(const Distance& squaredBefore) const;
+  std::vector<std::uint8_t> verticesWithLostSamples(const Distance& squaredBefore) const;
   template <typename Positions, typename Distance>
   std::size_t hold(const Positions& before, const Distance& squaredBefore);
   std::size_t holdLost(const PackedVectors& before);
@@ -212,7 +215,7 @@ private:
   std::vector<float> squaredBends(std::span<const Vector4> positions) const;
   std::vector<float> supports() const;
   std::vector<float> creaseParts(double deviations) const;
-  /// A sample, moved against what noise does.
+  /// A sample, shifted against the bias of the noise.
   Vector4 shifted(std::size_t sample) const
   {
     return shifts_.empty() ? samples_[sample]
@@ -235,19 +238,18 @@ private:
   ZeroedArray<PlaceOnMesh> places_;
   /// Of the samples, those that are no outliers, and have not switched to the other side of a thin part.
   std::vector<std::uint8_t> isUsed_;
-  std::vector<VertexIndex> opposite_; ///< of each vertex, see OppositeLayer.h
+  std::vector<VertexIndex> opposite_; ///< for each vertex, see OppositeLayer.h
   bool hasPlaces_ = false;
-  bool hasDistances_ = false; ///< whether those of the places are still those to the mesh
+  bool hasDistances_ = false; ///< whether the distances of the places are those to the present mesh
   bool reachesTheEnd_ = false;
   bool isSettled_ = false;
   bool endsWithSamples_ = false;
   bool isExact_ = false;
-  const NearestTriangle* surface_ = nullptr; ///< of which the samples are; null: of none
-  std::vector<std::uint8_t>
-    isKept_;                    ///< of each vertex, whether it stays where it is; empty: none does
-  std::vector<Vector4> shifts_; ///< of samples, at each vertex; empty: none
-  std::vector<float> localParts_;      ///< by the risk, likewise
-  std::vector<float> smoothnessParts_; ///< of lambda, for each vertex; empty: all 1
+  const NearestTriangle* surface_ = nullptr; ///< from which the samples come; null: from a cloud
+  std::vector<std::uint8_t> isKept_;   ///< for each vertex, whether it stays; empty: all may move
+  std::vector<Vector4> shifts_;        ///< of the samples at each vertex; empty: none
+  std::vector<float> smoothnessParts_; ///< the part of lambda at each vertex; empty: all 1
+  std::vector<float> localParts_;      ///< the same as chosen by the risk
   std::optional<VertexProperty<float>> smoothnessOfVertices_;
   std::optional<LocalSpacing> spacing_; ///< at the last findPlaces()
   std::size_t usedCount_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where samples would be lost, vertices stay.
+// Vertices that stay where they are, as samples would be lost otherwise.
 #include "fit/SurfaceFit.h"
 
 #include <algorithm>
@@ -8,27 +8,29 @@ namespace neuralmesh
 {
 namespace
 {
-/// Beyond so many median distances, and distances between samples around it, a sample is lost. Points
-/// whose own neighbours are three times their usual distance away count as missed; samples are told
-/// earlier.
+/// A sample is lost if it is farther from the mesh than so many median distances, and than so many
+/// local distances between samples. The latter limit is below that of FitGuard, which counts points
+/// as missed beyond three distances.
 constexpr float LostMedians = 10.f;
 constexpr float LostSpacings = 2.5f;
-/// A vertex stays if more than this part of the samples around it would be lost, and, where samples are
-/// not sparse, more than so many: single ones are outliers to which the mesh has been drawn.
+/// A vertex stays if more than this part of the samples around it would be lost. Where samples are
+/// not sparse, more than so many must be lost: single ones are outliers that have attracted the
+/// mesh.
 constexpr float LeastLostPart = 0.05f;
 constexpr float LeastLost = 2.f;
 constexpr int MostHolds = 4;
-/// Of the samples about the mesh, so many: a vertex is not to be farther from the surface.
+/// A vertex must not be farther from the surface than so many deviations of the samples about the
+/// mesh.
 constexpr double OvershotDeviations = 3.;
 }
 
-/// Whether the mesh was near to a sample, and is not now.
+/// Whether the mesh was near a sample and is not any more.
 bool SurfaceFit::isLost(std::size_t sample, float squaredBefore) const
 {
   const PlaceOnMesh& place = places_[sample];
   const float toPlace = squaredNorm(samples_[sample] - pointAt(place, mesh_.positions()));
   const float usual = LostMedians * medianDistance_;
-  // Most are still near to the same place: only the others are looked for.
+  // Most samples are still near their place. The search is for the others only.
   if (squaredBefore < 0.f || toPlace <= usual * usual)
   {
     return false;
@@ -39,10 +41,10 @@ bool SurfaceFit::isLost(std::size_t sample, float squaredBefore) const
     isBeyond(closestPlaceFrom(samples_[sample], mesh_, place.triangle[0]).squaredDistance);
 }
 
-/// The vertices around which samples are lost. `squaredBefore(i)` is the distance of sample i if that
-/// was used, else less than 0.
+/// For each vertex, 1 if samples around it are lost. `squaredBefore(i)` is the squared distance
+/// that sample i had before, or less than 0 if it was not used.
 template <typename Distance>
-std::vector<std::uint8_t> SurfaceFit::lostPlaces(const Distance& squaredBefore) const
+std::vector<std::uint8_t> SurfaceFit::verticesWithLostSamples(const Distance& squaredBefore) const
 {
   std::vector<std::uint8_t> lostSamples(samples_.size());
   executor_.forEachRange(samples_.size(), SamplesPerRange,
@@ -84,14 +86,14 @@ std::vector<std::uint8_t> SurfaceFit::lostPlaces(const Distance& squaredBefore) 
   return result;
 }
 
-/// Vertices around which samples are lost go back.
+/// Moves vertices back if samples around them are lost. Returns how many.
 template <typename Positions, typename Distance>
 std::size_t SurfaceFit::hold(const Positions& before, const Distance& squaredBefore)
 {
   std::size_t held = 0;
   for (int i = 0; i < MostHolds; ++i)
   {
-    const std::vector<std::uint8_t> isLostAt = lostPlaces(squaredBefore);
+    const std::vector<std::uint8_t> isLostAt = verticesWithLostSamples(squaredBefore);
     const std::size_t heldBefore = held;
     for (VertexIndex v = 0; v < before.size(); ++v)
     {
@@ -115,8 +117,8 @@ std::size_t SurfaceFit::holdLost(const PackedVectors& before)
     before, [this](std::size_t i) { return isUsed(i) ? places_[i].squaredDistance : -1.f; });
 }
 
-/// Where little holds them, vertices would leave the surface for places beyond it: they go back if they are farther from
-/// it than samples are from the mesh.
+/// Moves vertices back that have overshot the surface: they are farther from it than samples are
+/// from the mesh. Few samples hold such vertices.
 std::size_t SurfaceFit::holdOvershot(const PackedVectors& before)
 {
   double sum = 0.;

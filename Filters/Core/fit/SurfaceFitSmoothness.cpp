@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How smooth the surface is to be: the choice of lambda.
+// The smoothness of the surface: the choice of lambda.
 #include "fit/SurfaceFit.h"
 
 #include "base/Median.h"
@@ -16,39 +16,41 @@ namespace
 {
 constexpr double FirstSmoothness = 1000.;
 constexpr double MostSmoothness = 1e4;
-/// A bit more: too rough a surface would follow the noise all the way.
+/// Lambda is a little larger than measured: a surface that is too rough follows the noise.
 constexpr double SmoothnessFactor = 1.1;
 constexpr int MostChoices = 8;
-/// It is found if it changes by no more than that.
+/// Lambda is found if the next one is more than this part of it.
 constexpr double NearPart = 0.85;
-/// A learnt mesh follows noise: of its variance it leaves q / (q + 7) where there are q points a vertex
-/// (measured for 2 to 10). So the surface is farther from the samples, but not much more than that, or than so many
-/// times. Beyond, what is narrow has shrunk, and passes for noise: then lambda is a tenth at most.
+/// A learnt mesh follows noise. It leaves q / (q + 7) of the variance if there are q points per
+/// vertex (measured for 2 to 10). So the variance about the fitted surface is larger by the inverse
+/// of that, with a margin, but no more. If it is still larger, narrow parts have shrunk and look
+/// like noise: then lambda is a tenth at most.
 constexpr double PointsOfHalf = 7.;
 constexpr double MarginOfGrowth = 2.3;
 constexpr double LeastMostGrowth = 4.;
 constexpr double PartIfShrunk = 0.1;
-/// With fewer samples a vertex the bends of neighbours are the more alike, and lambda comes out too large.
+/// With fewer samples per vertex, the bends of neighbours become similar, and the measured lambda
+/// is too large.
 constexpr double UsualSamples = 10.;
-/// Of the residual of the equations, against that at the start.
+/// The solver stops at this part of the residual that the equations had at the start.
 constexpr double ToleranceOfChoice = 1e-2;
-/// Where the surface bends most, this part of lambda is left.
+/// The sharpest crease keeps this part of lambda.
 constexpr float LeastSmoothnessPart = 0.02f;
-/// Where the surface bends more than so many deviations, so that so much of lambda is left, distances are more than
-/// noise.
+/// Vertices at bends beyond so many deviations, which keep less than this part of lambda, do not
+/// count for the noise: the distances there are not only noise.
 constexpr double DeviationsOfNoise = 3.;
 constexpr float LeastPartOfNoise = 0.5f;
-/// Bends that are usual are no less than this part of the mean: elsewhere all may be flat.
+/// The usual bend is at least this part of the mean bend, as most of the surface may be flat.
 constexpr double LeastPartOfMeanBend = 0.001;
-/// A vertex with this part of the samples that others rest on has enough of them.
+/// A vertex has enough samples if it has this part of the mean.
 constexpr float EnoughSupport = 0.5f;
-/// Shifts against noise are averaged over so many rings.
+/// The shifts against noise are means over so many rings.
 constexpr int RingsOfShifts = 2;
 }
 
 /// With Gaussian noise of variance s^2 and a surface whose L x has the variance r^2 across it, the
-/// most probable positions are those for lambda = s^2 / r^2. Both are measured, beginning with a
-/// smooth surface: on a rough one, noise would pass for shape.
+/// most probable positions are those for lambda = s^2 / r^2. Both are measured in turn. The search
+/// begins with a smooth surface: on a rough one, noise looks like shape.
 bool SurfaceFit::chooseSmoothness(const Progress& progress)
 {
   smoothness_ = FirstSmoothness;
@@ -79,7 +81,7 @@ bool SurfaceFit::chooseSmoothness(const Progress& progress)
     const bool isNear = next > NearPart * before;
     const bool isShrunk = isNear && variance > mostVariance && before > LeastSmoothness;
     most = isShrunk ? std::max(PartIfShrunk * before, LeastSmoothness) : most;
-    // From far away it falls further yet.
+    // Far from the result, the step is longer.
     smoothness_ =
       std::clamp(isNear ? next : next * std::sqrt(next / before), LeastSmoothness, most);
     if (isNear && !isShrunk)
@@ -90,7 +92,7 @@ bool SurfaceFit::chooseSmoothness(const Progress& progress)
   return true;
 }
 
-/// Of samples a vertex, at most 1.
+/// The number of samples per vertex over the usual one, at most 1.
 double SurfaceFit::partOfUsualSamples() const
 {
   return std::min(1., double(samples_.size()) / (UsualSamples * double(mesh_.vertexCount())));
@@ -117,14 +119,14 @@ double SurfaceFit::residualVariance(std::span<const Vector4> positions, double l
     const float across = dot(offset, normal);
     const float squared = squaredNorm(normal);
     const float distance = squared > 0.f ? across * across / squared : squaredNorm(offset);
-    // Where points are sparse the mesh may be farther off than any noise.
+    // Where points are sparse, the error of the mesh may exceed the noise.
     const float most = outlierDistance_ * outlierDistance_;
     return double(weight(i)) *
       double(place.squaredDistance > most ? std::min(most, distance) : distance);
   };
   const double sum = executor_.sum(samples_.size(), SamplesPerRange, squaredDistance);
-  // Vertices follow noise, the less the smoother they are held: so many of them do (a curve through
-  // traces of the solution, measured for 2 to 20 samples a vertex).
+  // The number of vertices that follow noise. It falls with lambda (a curve through traces of the
+  // solution, measured for 2 to 20 samples per vertex).
   const auto vertices = double(positions.size());
   const auto samples = double(std::max<std::size_t>(1, usedCount_));
   const double followers = vertices / (1. + std::pow(2. * lambda * vertices / samples, 0.75));
@@ -139,7 +141,7 @@ double SurfaceFit::roughness(std::span<const Vector4> positions) const
     double(bends.size());
 }
 
-/// Of L x, what is across the surface, for each vertex.
+/// The squared part of L x across the surface, for each vertex.
 std::vector<float> SurfaceFit::squaredBends(std::span<const Vector4> positions) const
 {
   std::vector<float> result(positions.size());
@@ -160,7 +162,7 @@ std::vector<float> SurfaceFit::squaredBends(std::span<const Vector4> positions) 
   return result;
 }
 
-/// How many of the samples each vertex rests on, against half of what is usual, but at most 1.
+/// For each vertex the weight of its samples, over half of the mean; at most 1.
 std::vector<float> SurfaceFit::supports() const
 {
   std::vector<float> result(mesh_.indexEnd());
@@ -192,7 +194,7 @@ std::vector<float> SurfaceFit::supports() const
   return result;
 }
 
-/// Of lambda at each vertex, the less the more sharply the surface bends there.
+/// The part of lambda at each vertex. It is smaller where the surface bends more sharply.
 std::vector<float> SurfaceFit::creaseParts(double deviations) const
 {
   std::vector<float> parts = squaredBends(mesh_.positions());
@@ -255,8 +257,8 @@ void SurfaceFit::turnToNormals(double variance)
   normalWeight_ = normals_.any() ? normals_.weight(mesh_, placedSamples(), variance) : 0.;
 }
 
-/// Where the surface has the mean curvature H, the expectation of isotropic noise of the variance s^2 lies
-/// s^2 H on its outer side; L x across the surface is e^2 H / 2 for edges of the length e.
+/// At the mean curvature H, the mean of isotropic noise with variance s^2 lies s^2 H on the outer
+/// side of the surface. L x across the surface is e^2 H / 2 for edges of length e.
 void SurfaceFit::shiftAgainstNoise(double variance)
 {
   const auto positions = mesh_.positions();
