@@ -9,8 +9,8 @@
 
 namespace neuralmesh
 {
-/// What became of the vertices of a mesh while it was changed, so that who knows them can follow. Indices
-/// are those during the change: erased vertices are still there.
+/// The changes of the vertices of a mesh, for code that has values of vertices. Indices are those
+/// during the changes: erased vertices keep theirs.
 struct ChangedVertices
 {
   explicit ChangedVertices(std::size_t indexEnd)
@@ -20,13 +20,13 @@ struct ChangedVertices
     std::iota(heir.begin(), heir.end(), VertexIndex(0));
   }
 
-  /// Triangles at the vertex have changed.
+  /// Notes that triangles at the vertex have changed.
   void touch(VertexIndex v)
   {
     isTouched[v] = 1;
     any = true;
   }
-  /// Triangles at the vertex and its neighbours have changed.
+  /// Notes that triangles at the vertex and its neighbours have changed.
   void touchAround(const Mesh& mesh, VertexIndex v)
   {
     touch(v);
@@ -35,9 +35,9 @@ struct ChangedVertices
       touch(neighbor);
     }
   }
-  /// The vertex went into another.
+  /// Notes that a vertex was collapsed into another one.
   void erase(VertexIndex removed, VertexIndex kept) { heir[removed] = kept; }
-  /// A vertex was split from another.
+  /// Notes that a vertex was split from another one.
   void add(VertexIndex added, VertexIndex from)
   {
     if (added >= heir.size())
@@ -48,7 +48,7 @@ struct ChangedVertices
     heir[added] = from;
     touch(added);
   }
-  /// Where a vertex is to be found: itself, or the one that it went into.
+  /// The vertex itself, or the living one into which it was collapsed.
   VertexIndex alive(const Mesh& mesh, VertexIndex v) const
   {
     while (!mesh.isAlive(v))
@@ -59,7 +59,7 @@ struct ChangedVertices
   }
 
   std::vector<VertexIndex>
-    heir; ///< itself; of an erased vertex, what it went into; of a new one, whence
+    heir; ///< itself; for an erased vertex, the one that stayed; for a new one, its origin
   std::vector<std::uint8_t> isTouched;
   bool any = false;
 };

@@ -15,10 +15,10 @@ namespace neuralmesh
 {
 namespace
 {
-/// Cosine of the angle between the normals beside an edge, at most, for it to be one of a crease.
+/// An edge belongs to a crease if the cosine between the normals beside it is smaller.
 constexpr float CosineOfCrease = 0.6f;
 constexpr double TimesAcross = 2.;
-/// In which the vertices move.
+/// Number of rounds in which the vertices move.
 constexpr int Rounds = 2;
 
 /// Calls `body` with the ends of each edge, once.
@@ -116,7 +116,7 @@ bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
     report.heldVertices += fit.heldCount();
     return true;
   }
-  // The same surface, with more vertices.
+  // The fallback is the same surface with more vertices.
   mesh = before;
   const bool isDone = refine(mesh, count, partOf(progress, 1., 1.), EdgesAfterSplit::Keep);
   report.left = defects();

@@ -11,16 +11,17 @@
 
 namespace neuralmesh
 {
-/// With fewer points a vertex, creases come out rounder than they would on a coarser mesh.
+/// With fewer points per vertex, creases are rounder than on a coarser mesh.
 inline constexpr std::size_t PointsThatTellCreases = 10;
 
-/// Whether creases are a good part of the surface: whether their edges are more than go twice across it.
+/// Whether creases are a large part of the surface: whether their length exceeds twice the width of
+/// the surface.
 bool hasCreases(const Mesh& mesh);
 
-/// Refines a mesh that is finished, and has creases, to `count` vertices, and keeps the creases as they are: edges
-/// are halved, flat ones are flipped to be more regular, and vertices that are not at a crease move to so many
-/// samples a vertex once more. `report` is that of the mesh, and follows. For clean clouds. Returns false if it was
-/// ended before; then the mesh is valid all the same.
+/// Refines a finished mesh with creases to `count` vertices and keeps the creases as they are.
+/// Halves edges, flips flat edges to make the mesh more regular, and fits the vertices beside
+/// creases once more. For clean clouds. `report` is that of the mesh and is updated. Returns false
+/// if `progress` ended it; the mesh is valid even then.
 bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
   double samplesPerVertex, FinishReport& report, const Executor& executor,
   const Progress& progress);

@@ -47,7 +47,7 @@ constexpr double LeastRootsOfWeb = 0.25;
 /// distance between samples. One in e^7 is that by chance.
 constexpr std::size_t LeastSamplesPerTriangle = 2;
 constexpr double LeastSpacingsIfEmpty = 1.5;
-/// Parts for the executor.
+/// Sizes of parts for the executor.
 constexpr std::size_t TrianglesPerRange = 4096;
 constexpr std::size_t PlacesCountedPerRange = 16384;
 /// Samples are sparse where their distance is more than so many times the usual one. There, the

@@ -14,12 +14,12 @@ namespace neuralmesh
 double areaOf(const Mesh& mesh, const Triangle& triangle);
 Vector4 centerOf(const Mesh& mesh, const Triangle& triangle);
 
-/// A piece of triangles without samples.
+/// A connected piece of triangles without samples.
 struct EmptyPiece
 {
   std::vector<std::uint32_t> triangles;
   double area = 0.;
-  double areaAround = 0.; ///< of the triangles that touch it
+  double areaAround = 0.; ///< area of the triangles that touch it
   double samplesAround = 0.;
   bool isAtBoundary = false;
 

@@ -11,10 +11,11 @@ namespace
 {
 constexpr int MostIterations = 300;
 constexpr int IterationsPerCheck = 4;
-/// Of a triangle, in units of the cloud: with less, what is divided by it is beyond all numbers.
+/// The least squared normal of a triangle, in units of the cloud. Divisions by a smaller one
+/// overflow.
 constexpr float LeastSquaredNormal = 1e-30f;
 
-/// A part for the executor.
+/// The size of a part for the executor.
 constexpr std::size_t RowsPerRange = 4096;
 
 /// L x at a vertex with this ring; see UmbrellaLaplacian.h.
@@ -249,7 +250,8 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
   const Progress& progress, PackedVectors residual) const
 {
   const std::size_t n = x.size();
-  // Across the surface the system is stiff, along it not: a whole block tells these apart.
+  // The system is stiff across the surface, but not along it. So the preconditioner has blocks of 3
+  // x 3.
   const SymmetricBlocks inverse = inverseDiagonal(lambda);
   PackedVectors direction(n), product(n), laplacian(n);
   const auto sumOver = [&](const auto& term) { return executor_.sum(n, RowsPerRange, term); };
@@ -267,7 +269,7 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
   double done = 0.;
   for (int i = 0; i < MostIterations && squared > end; ++i)
   {
-    // The residual falls by about the same factor each time.
+    // The residual falls by about the same factor in each iteration.
     done = std::max(done, std::log(squared / start) / std::log(end / start));
     if (i % IterationsPerCheck == 0 && !progress(done))
     {
@@ -281,7 +283,7 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
     }
     const auto step = float(squared / curvature);
     const double before = squared;
-    // Of what is no longer needed the memory is still near.
+    // This memory is free now, and in the cache.
     PackedVectors& preconditioned = product;
     squared = sumOver(
       [&](std::size_t v)

@@ -9,19 +9,21 @@ namespace neuralmesh
 {
 namespace
 {
-/// Of the angle to the normals of the mesh, in each direction along the surface: random ones have .58.
+/// The largest deviation from the normals of the mesh, in each direction along the surface. That of random normals is
+/// 0.58.
 constexpr double MostDeviation = 0.5;
-/// The same of their mean over some rings, by which they are turned together.
+/// The largest deviation of their mean over some rings: then they are turned together.
 constexpr double MostTurn = 0.12;
 constexpr int RingsOfTurn = 3;
-/// Of a normal: without an area there is none.
+/// A triangle with a smaller squared normal has no direction.
 constexpr float LeastSquaredFacet = 1e-30f;
-/// Three edges of a triangle tell two directions, each of two times: so much less is for each.
+/// The three edges of a triangle determine two directions, so each edge has this part of the weight
+/// of a normal.
 constexpr double PartOfEachEdge = 2. / 3.;
-/// ... and less again: triangles are flat, and the surface is not.
+/// The weight is smaller again, as triangles are flat and the surface is not.
 constexpr double PartOfNormal = 0.3;
 
-/// From the normals of a mesh to those that are given: the sum, and of how many.
+/// The sum of the differences between given normals and those of a mesh, and their number.
 struct Turn
 {
   Vector4 sum;
@@ -54,7 +56,8 @@ double meanSquaredEdge(const Mesh& mesh, const Triangle& triangle)
   return double(squaredNorm(b - a) + squaredNorm(c - b) + squaredNorm(a - c)) / 3.;
 }
 
-/// How far normals are turned together around each vertex: in each direction, root of the mean square.
+/// The root mean square, in each direction, of the turn that normals around a vertex have in
+/// common.
 double commonTurn(const Mesh& mesh, std::vector<Turn> turns)
 {
   std::vector<Turn> next(turns.size());
@@ -110,7 +113,7 @@ double GivenNormals::weight(const Mesh& mesh, const PlacedSamples& samples, doub
     }
     const float along = dot(normals_[i], ofMesh) / squared;
     const Vector4 turn = (along < 0.f ? -1.f : 1.f) * (normals_[i] - along * ofMesh);
-    // What is asked of the triangle is less than what a bend within it turns normals by.
+    // The deviation from the flat triangle includes the bend of the surface within it.
     const Vector4 facet = normalAt(place, mesh.positions());
     const float onFacet = dot(normals_[i], facet) / std::max(squaredNorm(facet), LeastSquaredFacet);
     squares += 0.5 * double(squaredNorm(normals_[i] - onFacet * facet));

@@ -10,25 +10,26 @@
 
 namespace neuralmesh
 {
-/// The normal that came with a point of a cloud, of any length.
+/// The given normal of a point of a cloud, with any length.
 using PointNormals = std::function<Vector4(std::size_t)>;
 
-/// Normals that came with the samples of a fit, and how much they tell of the surface: that is measured, by
-/// how far they are from those of the mesh, while it is smooth. Their signs do not count. Normals that are zero,
-/// random, or turned together from those of the surface tell nothing.
+/// The given normals of the samples of a fit, and their weight. The weight follows from their
+/// differences from the normals of the mesh while it is smooth. Signs do not count. Normals that
+/// are zero, random, or turned together from those of the surface have no weight.
 class GivenNormals
 {
 public:
-  /// Of the samples, of any length; none: there are no normals.
+  /// Takes the normals of the samples, with any length; none if there are no normals.
   GivenNormals() = default;
   explicit GivenNormals(std::vector<Vector4> normals);
 
   bool any() const { return !normals_.empty(); }
-  /// Of length 1, or 0 where nothing is given.
+  /// The normal of a sample with length 1, or 0 if none is given.
   Vector4 at(std::size_t sample) const { return normals_[sample]; }
 
-  /// How much a normal weighs, against a sample whose distance has this variance, for the distance by which an
-  /// edge of its triangle leaves the plane that it tells. 0 if normals are not to be trusted.
+  /// The weight of a normal relative to a sample whose distance has this variance. It counts for
+  /// the distance by which an edge of the triangle leaves the plane of the normal. 0 if the normals
+  /// are unreliable.
   double weight(const Mesh& mesh, const PlacedSamples& samples, double variance) const;
 
 private:

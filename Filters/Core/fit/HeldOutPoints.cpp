@@ -11,14 +11,14 @@ namespace neuralmesh
 {
 namespace
 {
-/// A part for the executor.
+/// The size of a part for the executor.
 constexpr std::size_t HeldOutPerRange = 512;
 
-/// Where edges are long beside how thin the mesh is, the closest vertex may lie on another part of it: what seems to be
-/// farther away than this part of an edge is measured to all triangles.
+/// A point that seems farther away than this part of an edge is measured to all triangles. If the
+/// mesh is thin compared to its edges, the closest vertex may lie on another part of it.
 constexpr double EdgesToLookAgain = 0.05;
 
-/// Those that are larger than `least` are measured to all triangles.
+/// Measures the distances that are larger than `least` again, to all triangles.
 void measureToAll(const PointCloud& cloud, const std::vector<std::size_t>& points, const Mesh& mesh,
   float least, const Executor& executor, std::vector<float>& squared)
 {

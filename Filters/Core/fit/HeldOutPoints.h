@@ -10,24 +10,24 @@
 
 namespace neuralmesh
 {
-/// Of so many points in the order of the cloud, the fit leaves out the last: they tell how well it
-/// went.
+/// The fit leaves out the last of so many points, in the order of the cloud. These held-out points
+/// measure its quality.
 constexpr std::size_t HeldOutStride = 20;
 
-/// At most so many of the points that are held out, evenly picked; of all, if the cloud is so small
-/// that none is.
+/// Picks at most so many held-out points evenly; from all points if the cloud is so small that none
+/// is held out.
 std::vector<std::size_t> heldOutPoints(const PointCloud& cloud, std::size_t most);
 
-/// What of a mesh a distance is to.
+/// How to measure the distance of a point to a mesh.
 enum class DistanceTo
 {
-  Surface,                  ///< around the closest vertex
-  SurfaceAgain,             ///< and to all triangles where that seems to be far
-  TrianglesAtClosestVertex, ///< alone: where another is closer, the mesh lies ill there
-  NearestTriangle           ///< wherever it is: where the mesh is coarse, others may be closer
+  Surface,                  ///< to the surface around the closest vertex
+  SurfaceAgain,             ///< the same, and to all triangles if that seems far
+  TrianglesAtClosestVertex, ///< to these only: a larger distance shows that the mesh lies badly
+  NearestTriangle           ///< to all triangles, as on a coarse mesh the nearest may be elsewhere
 };
 
-/// The squared distance of each of these points to the mesh, of which no vertex may be erased.
+/// The squared distances of these points to the mesh. No vertex may be erased.
 std::vector<float> squaredDistances(const PointCloud& cloud, const std::vector<std::size_t>& points,
   const Mesh& mesh, const Executor& executor = Executor::sequential(),
   DistanceTo to = DistanceTo::Surface);

@@ -15,14 +15,16 @@ namespace neuralmesh
 namespace
 {
 constexpr unsigned MaximumRounds = 16;
-/// After so many rounds in which a vertex is part of a defect its neighbourhood grows by one ring.
+/// The neighbourhood of a vertex grows by one ring after each so many rounds in which the vertex is
+/// part of a defect.
 constexpr unsigned RoundsOfRing = 3;
-/// How far neighbours go towards the mean of theirs in a round.
+/// The part of the way to the mean of its neighbours that a neighbour moves in a round.
 constexpr float RateOfNeighbors = 0.5f;
 
-/// Every so many rounds, from the first on, parts that have come through others retract.
+/// Parts that have come through others retract in the first round and in each so many rounds after
+/// it.
 constexpr unsigned RoundsOfRetreat = 4;
-/// Parts retract only where so many times as many triangles are there as intersect.
+/// Parts retract only if the mesh has so many times as many triangles as intersect.
 constexpr std::size_t MinimumSound = 4;
 constexpr std::size_t MaximumSweeps = 200;
 
@@ -34,7 +36,8 @@ struct Defects
   DefectCount count() const { return { intersecting.size(), folds.size() }; }
 };
 
-/// A mesh with more defects than that, of its triangles, is a tangle: nothing would be left of it.
+/// A mesh with more defects than these, as a part of the triangles and as a number, stays as it is:
+/// a repair would leave nothing of it.
 constexpr double MostPartBroken = 0.05;
 constexpr std::size_t LeastBroken = 6000;
 
@@ -59,7 +62,7 @@ public:
       return result;
     }
     StoredMesh best(mesh_, executor_);
-    // From now on, new defects can only be where something has changed.
+    // New defects can only appear where something changes from now on.
     isTouched_.assign(mesh_.indexEnd(), false);
     for (unsigned round = 0; round < MaximumRounds && result.after.total() > 0; ++round)
     {
@@ -92,7 +95,7 @@ private:
       foldedEdges(mesh_, isTouched_, executor_) };
   }
 
-  /// The corners of all that is broken.
+  /// Marks the vertices of all defects.
   void markBroken()
   {
     broken_.clear();
@@ -121,7 +124,7 @@ private:
   {
     for (const Edge& edge : defects_.folds)
     {
-      // An earlier flip may have removed or unfolded it.
+      // An earlier flip may have removed or unfolded the edge.
       if (mesh_.ring(edge[0]).contains(edge[1]) && isFolded(mesh_, edge) &&
         mesh_.canFlip(edge[0], edge[1]))
       {
@@ -130,8 +133,8 @@ private:
     }
   }
 
-  /// Flips an edge if fewer edges are folded then; or as many and the edge is shorter: sheets back
-  /// to back retract so.
+  /// Flips an edge if that reduces the number of folds, or if it keeps the number and shortens the
+  /// edge. The latter makes sheets retract that lie back to back.
   void flipIfBetter(const Edge& edge)
   {
     const Edge flipped = oppositeTo(mesh_, edge);
@@ -148,7 +151,7 @@ private:
     }
   }
 
-  /// The folds at an edge and at the four edges of the quadrangle around it.
+  /// The number of folds at an edge and at the four edges of the quadrangle around it.
   unsigned foldsOfQuadrangle(const Edge& edge, const Edge& opposite) const
   {
     unsigned folds = isFolded(mesh_, edge);
@@ -169,9 +172,9 @@ private:
 
   // --- Retreat -----------------------------------------------------------------------------------
 
-  /// Smooths the parts of the surface that have come through others, until they span flatly what
-  /// holds them: so they come out again, and the others keep their place. Returns whether there
-  /// were any. Where most is broken there are no others.
+  /// Smooths the parts of the surface that have come through others until they are flat. They come
+  /// out again, and the other parts do not move. Returns whether there were such parts. If most of
+  /// the mesh is broken, there are none.
   bool retract()
   {
     if (MinimumSound * defects_.intersecting.size() > mesh_.triangleCount())
@@ -197,8 +200,8 @@ private:
 
   // --- Smoothing ---------------------------------------------------------------------------------
 
-  /// Moves the broken vertices and those around them. What is farthest off goes first: a vertex
-  /// that sticks out comes back before it can draw its neighbours after it.
+  /// Moves the broken vertices and those around them, by descending distance: a vertex that sticks
+  /// out comes back before its neighbours can follow it.
   void smooth()
   {
     struct Move
@@ -222,8 +225,9 @@ private:
     }
   }
 
-  /// Towards the mean of the neighbours; on a boundary, along it, or what is broken itself towards
-  /// the middle of the neighbours along it, unless that lies on an edge between them.
+  /// The position of a vertex after a move to the mean of its neighbours. A vertex on a boundary
+  /// moves along it. If it is broken, it moves to the middle of its neighbours along the boundary,
+  /// unless an edge connects these.
   Vector4 smoothed(VertexIndex v, float rate) const
   {
     const Ring& ring = mesh_.ring(v);
@@ -241,8 +245,8 @@ private:
     return center + (rate / float(ring.size())) * sum;
   }
 
-  /// The broken vertices, and around each so many rings as it has been broken for long; with
-  /// whether they are broken.
+  /// The broken vertices and those in rings around them, each with whether it is broken. The number
+  /// of rings grows with the number of rounds for which a vertex has been broken.
   std::vector<std::pair<VertexIndex, bool>> neighborhood() const
   {
     std::vector<std::pair<VertexIndex, bool>> vertices;
@@ -254,7 +258,7 @@ private:
       vertices.emplace_back(v, true);
       byRings[roundsBroken_[v] / RoundsOfRing].push_back(v);
     }
-    // By rings still to go, the most first.
+    // The vertices by the number of rings that are left, the most first.
     for (std::size_t rings = byRings.size() - 1; rings > 0; --rings)
     {
       for (const VertexIndex v : byRings[rings])

@@ -9,7 +9,7 @@
 
 namespace neuralmesh
 {
-/// What is wrong with a surface: see SelfIntersections.h.
+/// The numbers of defects of a surface, see SelfIntersections.h.
 struct DefectCount
 {
   std::size_t intersectingTriangles = 0;
@@ -25,18 +25,18 @@ struct IntersectionRepair
   std::size_t flips = 0;
 };
 
-/// Repairs where a finished mesh cuts through itself or is folded. Folded edges flip. Parts that have
-/// come through another part of the surface are drawn back: they span flatly what they hang on.
-/// What is still broken is smoothed, where it stays so for long in a growing neighbourhood.
+/// Repairs a finished mesh where it intersects itself or is folded. Flips folded edges. Retracts
+/// parts that have come through another part of the surface: they become flat. Smooths what is
+/// still broken, in a neighbourhood that grows with the number of rounds.
 ///
-/// Only vertices near defects move, those on a boundary along it, and a mesh without defects stays
-/// as it is. Vertices, triangles, pieces, handles and boundaries stay in number. After some rounds
-/// it ends with the fewest defects that it came by: a mesh that passes right through itself, as two
-/// crossed tubes do, keeps defects. A mesh that is broken in more than 6000 places and 5 % of its
-/// triangles stays as it is. Ended by `progress`, it has the fewest defects so far. The same
-/// mesh gives the same result on every machine.
+/// Only vertices near defects move; those on a boundary move along it. A mesh without defects stays
+/// as it is. The numbers of vertices, triangles, pieces, handles and boundaries do not change. The
+/// result is the mesh with the fewest defects among some rounds. A mesh that passes right through
+/// itself, like two crossed tubes, keeps defects. A mesh with more than 6000 defects that are more
+/// than 5 % of its triangles stays as it is. If `progress` ends the repair, the result has the
+/// fewest defects so far. The same mesh gives the same result on every machine.
 ///
-/// About O(n log n) for n triangles, of which most is spent to see whether there are defects.
+/// About O(n log n) for n triangles. Most of the time is spent on the search for defects.
 IntersectionRepair repairIntersections(
   Mesh& mesh, const Progress& progress = [](double) { return true; },
   const Executor& executor = Executor::sequential());

@@ -10,7 +10,7 @@ namespace neuralmesh
 {
 namespace
 {
-/// A part for the executor.
+/// The size of a part for the executor.
 constexpr std::size_t SpacingsPerRange = 4096;
 }
 
@@ -19,7 +19,7 @@ LocalSpacing::LocalSpacing(
   : spacings_(mesh.indexEnd())
   , edges_(mesh.indexEnd())
 {
-  // Of the triangles at a vertex. Each sample counts at three vertices, as the area does.
+  // The areas and samples of the triangles at each vertex. Both count at three vertices.
   std::vector<float> areas(mesh.indexEnd()), samples(mesh.indexEnd());
   forEachPlaceByRows(
     places, RowParts(mesh.indexEnd(), executor), executor, [](std::size_t) { return true; },

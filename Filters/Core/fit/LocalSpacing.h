@@ -10,10 +10,10 @@
 
 namespace neuralmesh
 {
-/// How far the samples of a cloud are from each other, and how long edges are, around each vertex of
-/// a mesh: by the area of the triangles at the vertex and its neighbours, and the samples that have
-/// their places there. So it costs next to nothing, but is the mean of some ten triangles, and tells
-/// nothing of a part of the mesh without samples, where it is as if there were one.
+/// The distance between samples and the length of edges around each vertex of a mesh. Both are
+/// means over the triangles at the vertex and its neighbours, by their area and the samples with
+/// places there. They cost almost nothing. A part of the mesh without samples counts as if it had
+/// one.
 class LocalSpacing
 {
 public:
@@ -21,14 +21,15 @@ public:
   LocalSpacing(const Mesh& mesh, std::span<const PlaceOnMesh> places,
     const Executor& executor = Executor::sequential());
 
-  /// The root of the area for a sample, around a place, in units of the cloud.
+  /// The distance between samples around a place, in units of the cloud: the root of the area per
+  /// sample.
   float samplesAt(const PlaceOnMesh& place) const { return meanAt(spacings_, place); }
   float samplesAt(VertexIndex v) const { return spacings_[v]; }
-  /// That of all samples on the whole mesh.
+  /// The distance between samples on the whole mesh.
   float usual() const { return usual_; }
-  /// The mean edge.
+  /// The mean edge around a place.
   float edgeAt(const PlaceOnMesh& place) const { return meanAt(edges_, place); }
-  /// Edges are not asked for any more.
+  /// Frees the memory of the edges, which are not needed any more.
   void forgetEdges() { std::vector<float>().swap(edges_); }
 
 private:

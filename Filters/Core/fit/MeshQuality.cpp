@@ -47,7 +47,7 @@ MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const Tria
     return quality;
   }
   quality.surface = reportSurface(triangles, executor);
-  // What is closed has one inside.
+  // A closed mesh has one inside, so no part of it is turned.
   quality.turnedShare = quality.surface.boundaryLoops > 0 ? turnedShare(triangles) : 0.;
   if (progress(0.7))
   {

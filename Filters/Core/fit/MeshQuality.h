@@ -11,15 +11,16 @@
 
 namespace neuralmesh
 {
-/// How well a mesh stands for its cloud, and what it is by itself.
+/// The figures of a mesh: its distance to the cloud, and properties of its surface.
 struct MeshQuality
 {
-  /// Distance of the points that are held out of the fit to the mesh, without outliers: root of the
-  /// mean square, in units of the input.
+  /// The root mean square distance of the held-out points to the mesh, without outliers, in units
+  /// of the input.
   double residual = 0.;
-  double outlierShare = 0.; ///< of these points
+  double outlierShare = 0.; ///< part of these points
   SurfaceReport surface;
-  /// Of the area: what looks inwards though most of its piece looks outwards, or the other way round.
+  /// The part of the area that looks inwards although most of its piece looks outwards, or the
+  /// other way round.
   double turnedShare = 0.;
   NarrowHandles narrowHandles;
 };

@@ -11,12 +11,12 @@ namespace neuralmesh
 {
 namespace
 {
-/// A part is shallow if it has no more vertices than half a sphere with as many edges at its rim,
-/// the square of their number over this, or than a small spike.
+/// A part is shallow if it has no more vertices than a half sphere with as many edges at its rim:
+/// the square of their number over this ratio. A small spike may have more.
 constexpr std::size_t ShallowRatio = 16;
 constexpr std::size_t VerticesOfSpike = 20;
 
-/// Adds the edges of `cutting` that pass through `cut`, without those that end there.
+/// Adds the edges of `cutting` that pass through `cut` and do not end there.
 void addPiercingEdges(
   const Mesh& mesh, const Triangle& cutting, const Triangle& cut, std::vector<Edge>& edges)
 {
@@ -48,7 +48,7 @@ std::vector<Edge> piercingEdges(const Mesh& mesh, const std::vector<bool>& isAsk
   return edges;
 }
 
-/// Joins the ends of all edges, but those in a sorted list.
+/// Joins the ends of all edges except those in a sorted list.
 DisjointSets joinedByEdges(const Mesh& mesh, const std::vector<Edge>& without)
 {
   DisjointSets sets(mesh.indexEnd());
@@ -65,7 +65,7 @@ DisjointSets joinedByEdges(const Mesh& mesh, const std::vector<Edge>& without)
   return sets;
 }
 
-/// Pieces, and the parts into which the edges that pass through triangles divide them.
+/// The pieces of a mesh, and their parts. Edges that pass through triangles separate parts.
 class Parts
 {
 public:
@@ -137,10 +137,10 @@ private:
 
   DisjointSets pieces_;
   DisjointSets parts_;
-  // All by the root of the piece or of the part.
+  // Indexed by the root of the piece or of the part
   std::vector<std::size_t> pieceSizes_;
   std::vector<std::size_t> partSizes_;
-  std::vector<std::size_t> rims_; ///< edges that pass through something
+  std::vector<std::size_t> rims_; ///< number of edges that pass through a triangle
   std::vector<long> eulerCharacteristics_;
   std::vector<bool> hasMain_;
 };

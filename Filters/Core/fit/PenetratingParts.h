@@ -7,13 +7,13 @@
 
 namespace neuralmesh
 {
-/// The vertices of the parts of a surface that have come through another part of it, in order. Such
-/// a part is all that hangs together by edges that do not pass through any triangle, and less than
-/// the rest of its piece: of a surface with a spike it is the tip of the spike, of two that overlap
-/// it is the cap of each that lies within the other. Told are only those that can be drawn back
-/// through where they came: discs that are shallow, about half a sphere at most; and none of a piece
-/// in which no part is larger than all the others together.
+/// The vertices of the parts of a surface that have come through another part of it, in ascending
+/// order. A part is connected by edges that pass through no triangle, and is smaller than the rest
+/// of its piece. For a spike, the part is its tip. For two bodies that overlap, it is the cap of
+/// each one inside of the other. Only shallow discs are returned, up to about half a sphere, as
+/// they can retract the way they came. A piece has none if no part of it is larger than all others
+/// together.
 std::vector<VertexIndex> penetratingVertices(const Mesh& mesh);
-/// The same, if of every two triangles that intersect one has a corner v with `isAsked[v]`.
+/// The same if, of each pair of triangles that intersect, one has a corner v with `isAsked[v]`.
 std::vector<VertexIndex> penetratingVertices(const Mesh& mesh, const std::vector<bool>& isAsked);
 }

@@ -14,7 +14,7 @@
 
 namespace neuralmesh
 {
-/// Some of the vertices of a mesh: those from `begin` to before `end`.
+/// The vertices [begin, end) of a mesh.
 struct VertexRows
 {
   VertexIndex begin = 0;
@@ -23,7 +23,7 @@ struct VertexRows
   bool has(VertexIndex v) const { return v >= begin && v < end; }
 };
 
-/// The vertices of a mesh in parts for the threads of an executor, one behind the other.
+/// Divides the vertices of a mesh into consecutive parts for the threads of an executor.
 class RowParts
 {
 public:
@@ -64,9 +64,9 @@ private:
   int shift_ = 32;
 };
 
-/// Calls `body(rows, i)` for the places that are used, as `isUsed(i)` tells, in their order, for each part of the
-/// vertices that has a corner of theirs: what it adds up at the vertices of these rows is the same, to the last bit,
-/// on any number of threads.
+/// Calls `body(rows, i)` for each used place and each part of the vertices that has one of its
+/// corners, in the order of the places. So sums at the vertices of `rows` are the same to the last
+/// bit on any number of threads. `isUsed(i)` says whether a place is used.
 template <typename IsUsed, typename Body>
 void forEachPlaceByRows(std::span<const PlaceOnMesh> places, const RowParts& parts,
   const Executor& executor, const IsUsed& isUsed, const Body& body)

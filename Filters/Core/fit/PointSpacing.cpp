@@ -11,7 +11,7 @@ namespace neuralmesh
 namespace
 {
 constexpr std::size_t MostOfSpacing = std::size_t(1) << 20;
-/// A part for the executor.
+/// The size of a part for the executor.
 constexpr std::size_t PickedPerRange = 16384;
 
 /// As many as are allowed, evenly picked; none if these are all.

@@ -23,8 +23,9 @@ public:
   PointSpacing(const PointSpacing&) = delete;
   PointSpacing& operator=(const PointSpacing&) = delete;
 
-  /// Around a point of the cloud, which does not count itself; in units of the cloud. Points that coincide count
-  /// as one; 0 where hundreds do. If there are fewer places than six others, of those.
+  /// The distance around a point of the cloud, in units of the cloud. The point itself does not
+  /// count. Points that coincide count as one; the answer is 0 if hundreds coincide. With fewer
+  /// than six other places, it is their mean.
   float at(Vector4 point) const;
 
 private:

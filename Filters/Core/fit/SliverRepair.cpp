@@ -15,14 +15,15 @@ namespace neuralmesh
 {
 namespace
 {
-/// Of triangles.
+/// A triangle of less quality is a sliver.
 constexpr float LeastQuality = 0.1f;
-/// Vertices that come in again halve slivers that are left, and where some have gone others can.
+/// The removal is repeated: new vertices halve slivers that are left, and other slivers can go
+/// after their neighbours.
 constexpr int MostTimes = 6;
-/// Each refuses more changes.
+/// Each attempt refuses more changes.
 constexpr int MostAttempts = 16;
 
-/// What is broken around changes that was not before.
+/// The differences in defects around changes.
 struct NewDefects
 {
   long crossings = 0;  ///< triangles, fewer if negative
@@ -70,8 +71,8 @@ NewDefects newDefects(const Mesh& mesh, const StoredMesh& before,
   return defects;
 }
 
-/// Until nothing is broken that was not before. Returns whether there is something to gain: else the mesh is
-/// not what it was.
+/// Removes slivers, and refuses changes until none causes a defect. Returns false if no change is
+/// left; the mesh is undefined then.
 bool removeUnbroken(Mesh& mesh, const StoredMesh& before, const Executor& executor)
 {
   std::set<SliverChange> refused;

@@ -7,8 +7,8 @@
 
 namespace neuralmesh
 {
-/// Takes slivers away, see removeSlivers(), but for those without which triangles would intersect or fold, and
-/// all of them stay where points would be lost. As many vertices come in again where edges are long. No vertex
-/// may be erased, and none is in the end.
+/// Removes slivers, see removeSlivers(), unless triangles would intersect or fold. All slivers stay
+/// if points would be lost. Halves long edges to keep the number of vertices. No vertex may be
+/// erased, before or after.
 void repairSlivers(Mesh& mesh, FitGuard& guard, const Executor& executor = Executor::sequential());
 }

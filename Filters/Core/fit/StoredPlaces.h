@@ -11,8 +11,8 @@
 
 namespace neuralmesh
 {
-/// Places that are laid aside, but for their distances, in some 13 bytes each where neighbours on the mesh have indices
-/// near to each other, and samples follow each other there.
+/// Packed places without their distances. A place takes about 13 bytes if indices of neighbours on
+/// the mesh are close, and samples are in the order of their places.
 class StoredPlaces
 {
 public:

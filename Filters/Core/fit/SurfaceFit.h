@@ -133,7 +133,7 @@ public:
   PlacedSamples placedSamples() const { return { samples_, places_, isUsed_, weights_ }; }
 
 private:
-  // Parts for the executor.
+  // Sizes of parts for the executor.
   static constexpr std::size_t SamplesPerRange = 1024;
   static constexpr std::size_t VerticesPerRange = 4096;
   /// The median of the square of a Gaussian variable, over its variance.

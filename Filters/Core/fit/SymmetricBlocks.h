@@ -11,7 +11,7 @@
 
 namespace neuralmesh
 {
-/// A symmetric matrix of 3 x 3.
+/// A symmetric 3 x 3 matrix.
 struct SymmetricBlock
 {
   Vector4 diagonal; ///< xx, yy, zz
@@ -42,7 +42,8 @@ struct SymmetricBlock
   }
 };
 
-/// Such matrices in 24 bytes each. Different ones may be used at the same time.
+/// An array of such matrices with 24 bytes each. Threads may use different elements at the same
+/// time.
 class SymmetricBlocks
 {
 public:

@@ -14,14 +14,15 @@ namespace neuralmesh
 {
 namespace
 {
-/// So far behind a side is the other one at most: in roots of its area, and edges.
+/// The other side of a web is at most so far behind: in roots of the area of the side, and in mean
+/// edges.
 constexpr double RootsBehind = 1.;
 constexpr double EdgesBehind = 1.5;
-/// Of the angle between the normals of both.
+/// The largest cosine between the normals of both sides.
 constexpr float MostCosineBehind = -0.5f;
-/// A triangle is behind another one if the way there leads backwards by so much of its length.
+/// A triangle is behind another one if this part of the way to it leads backwards.
 constexpr float LeastBackwards = 0.8f;
-/// Of the area of a side: behind which is the other one.
+/// The other side lies behind at least this part of the area of a side.
 constexpr double LeastOfSide = 0.5;
 
 /// Parts for the executor.
@@ -53,7 +54,7 @@ public:
     }
   }
 
-  /// The piece behind most of the area of one, if there is one.
+  /// The piece behind most of the area of a piece; NoPiece if there is none.
   std::size_t behind(const EmptyPiece& piece) const
   {
     const double reach = std::max(RootsBehind * std::sqrt(piece.area), EdgesBehind * meanEdge_);
@@ -73,7 +74,7 @@ public:
   }
 
 private:
-  /// The triangles in an order in which those that are near in space are near each other.
+  /// The triangles along a Morton curve.
   static std::vector<std::uint32_t> sortedByPlace(
     const Mesh& mesh, std::span<const Triangle> triangles, const Executor& executor)
   {
@@ -120,7 +121,7 @@ private:
     return squared > 0.f ? 1.f / std::sqrt(squared) * normal : Vector4();
   }
 
-  /// The nearest one that looks the other way.
+  /// The nearest triangle behind another one that looks the other way.
   std::uint32_t triangleBehind(std::uint32_t t, float reach) const
   {
     const Vector4 normal = normalOf(t), center = centerOf(mesh_, triangles_[t]);

@@ -12,9 +12,10 @@
 
 namespace neuralmesh
 {
-/// Finds webs: membranes that a mesh spans across a ring, or between limbs that touch. Both of their sides are there,
-/// back to back, and without samples. Tells pairs of the pieces that may be a side: one lies behind most of the area of
-/// the other, as close as that is wide, and nothing lies between.
+/// Finds webs: membranes that a mesh spans across a ring, or between limbs that touch. A web has
+/// two sides without samples, back to back. Returns pairs of the pieces that may be a side: one
+/// lies behind most of the area of the other, no farther away than that is wide, and nothing lies
+/// between them.
 std::vector<std::pair<std::size_t, std::size_t>> findWebs(const Mesh& mesh,
   std::span<const Triangle> triangles, std::span<const EmptyPiece> pieces,
   const std::vector<bool>& mayBeSide, const Executor& executor = Executor::sequential());
