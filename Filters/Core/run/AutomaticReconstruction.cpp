@@ -7,7 +7,7 @@ namespace neuralmesh
 {
 namespace
 {
-/// Where parameters are chosen, as a fraction of the run.
+/// The end of the choice of parameters, as a fraction of the run.
 constexpr double EndOfChoice = 0.3;
 }
 
@@ -21,7 +21,7 @@ AutomaticReconstruction reconstructAutomatically(const PointCloud& cloud, const 
   std::optional<Tuning> tuning = tune(cloud, wanted, partOf(progress, 0., EndOfChoice), executor);
   times.leave();
   plan.areParametersChosen = tuning.has_value();
-  // Whoever ends the choice ends the run, with parameters as they were.
+  // If `progress` ends the choice, it ends the run, with the given parameters.
   AutomaticReconstruction result{ tuning ? *std::move(tuning) : Tuning{ wanted, {}, {}, {} }, {} };
   if (chosen)
   {

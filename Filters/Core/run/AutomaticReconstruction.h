@@ -9,16 +9,17 @@
 
 namespace neuralmesh
 {
-/// A run for whose cloud parameters are chosen first.
+/// A run that first chooses parameters for its cloud.
 struct AutomaticReconstruction
 {
-  /// What was chosen; if that was ended, the parameters that were wanted, and the run ends, too.
+  /// The chosen parameters. If `progress` ended the choice, the given parameters, and the run ends,
+  /// too.
   Tuning tuning;
   Reconstruction reconstruction;
 };
 
-/// Chooses parameters by tune(), which takes about a third of the run, calls `chosen`, and goes on as
-/// reconstruct() does with them.
+/// Chooses parameters by tune(), which takes about a third of the run, calls `chosen`, and
+/// reconstructs with them.
 AutomaticReconstruction reconstructAutomatically(const PointCloud& cloud, const Parameters& wanted,
   const Progress& progress, const std::function<void(const Tuning&)>& chosen = {},
   const std::optional<Mesh>& first = {}, const GrowthWatch& watch = {}, CheckpointPlan plan = {},

@@ -6,9 +6,9 @@
 
 namespace neuralmesh
 {
-/// The part of the area of a mesh, 0 to 1, that has hardly any points: of vertices that rest on next to none,
-/// though with the density that most points have there would be several. What is spanned between scattered
-/// points is such, and what fills a gap; a sparse part of a surface is not, for its vertices have points. 0 where
-/// it is not known what the vertices rest on.
+/// The part of the area of a mesh, 0 to 1, that has almost no points: the area of vertices that
+/// rest on no point, although several points would lie there at the usual density. Triangles
+/// between scattered points are bare, and fillings of gaps. A sparse part of a surface is not bare,
+/// as its vertices have points. 0 if `support` is empty.
 double bareShare(const TriangleMesh& mesh, const VertexSupport& support);
 }

@@ -13,22 +13,23 @@
 
 namespace neuralmesh
 {
-/// Where a run leaves its state, so that another one can go on from there.
+/// Where and how often a run saves its state, so that another run can continue it.
 struct CheckpointPlan
 {
-  std::string path;      ///< of the file; empty: nowhere
-  double interval = 60.; ///< seconds from one to the next
-  /// Told once, in words, if the file cannot be written later on: learning goes on without.
+  std::string path;      ///< of the file; empty: no checkpoint
+  double interval = 60.; ///< seconds between two checkpoints
+  /// Called once with a sentence if the file cannot be written later on. Learning continues without
+  /// checkpoints.
   std::function<void(const std::string&)> warn = [](const std::string&) {};
-  // A run that was cut short before it began, and so ends at once, goes on from its checkpoint all the
-  // same.
-  /// Not if the mesh to start from was cut short: it is not compared then.
+  // A run that is ended before it begins still continues its checkpoint, and ends at once. Then its
+  // start is incomplete and is not compared with that of the file.
+  /// False if `progress` ended the making of the mesh from which learning starts.
   bool isStartWhole = true;
-  /// Not if the choice of parameters was: those that tune() chooses are not compared then.
+  /// False if `progress` ended the choice of parameters by tune().
   bool areParametersChosen = true;
 };
 
-/// All that learning changes.
+/// The state that learning changes.
 struct LearningState
 {
   Learner& learner;
@@ -39,25 +40,26 @@ struct LearningState
   void exchange(Archive& archive);
 };
 
-/// The checkpoint of a run: a file with the state of learning, in which the run that wrote it, or the
-/// same one in another process, goes on to the same bytes as without a break. The same one is that of
-/// the same points, weights, start and parameters, but for the time limit, by the same version of
-/// the program. The file is replaced as a whole or not at all. One in which nothing is learnt is that
-/// of any run: it says no more than that a run has not come to its end.
+/// The checkpoint of a run: a file with the state of learning. The same run, in this or another
+/// process, continues from it to the same bytes as without a break. A run is the same if it has the
+/// same points, weights, start and parameters except the time limit, and the same version of the
+/// program. The file is replaced as a whole or not at all. A file in which nothing is learnt
+/// belongs to any run: it only shows that a run has not ended.
 class Checkpoint
 {
 public:
-  /// Throws std::runtime_error, with a message that names the file, if it cannot be written, or
-  /// if one is there that is damaged or that of another run: then it says what differs.
+  /// Throws std::runtime_error, with a message that names the file, if the file cannot be written,
+  /// is damaged, or belongs to another run. In the last case the message says what differs.
   Checkpoint(CheckpointPlan plan, const PointCloud& cloud, const Parameters& parameters);
 
-  /// Reads the file, if there is one, into a state in which nothing is learnt yet. Returns how many
-  /// samples are learnt then. Throws as the constructor; that learning starts from another mesh does
-  /// not count if the start was cut short, for then the run is to be ended at once.
+  /// Reads the file, if there is one, into a state in which nothing is learnt yet. Returns the
+  /// number of learnt samples. Throws like the constructor. The mesh from which learning starts is
+  /// not compared if `isStartWhole` is false, as the run then ends at once.
   std::uint64_t resume(LearningState& state, bool isStartWhole);
 
-  /// Writes the file if it is time to, or if learning has ended: to be called between batches. Not
-  /// if nothing was learnt since the last time, but if learning has ended the file is there.
+  /// Writes the file if the interval has passed or learning has ended. Call it between batches.
+  /// Writes nothing if no sample was learnt since the last time, unless learning has ended and
+  /// there is no file.
   void saveIfDue(LearningState& state);
 
 private:
@@ -71,10 +73,10 @@ private:
   CheckpointPlan plan_;
   Parameters parameters_;
   std::vector<std::pair<std::string, std::uint64_t>> input_; ///< names and checksums
-  std::uint64_t start_ = 0; ///< checksum of what learning starts from
+  std::uint64_t start_ = 0; ///< checksum of the mesh from which learning starts
   std::uint64_t savedIterations_ = 0;
   bool isThere_ = false;
-  bool goesOn_ = false; ///< whether something is learnt in the file that was found
+  bool goesOn_ = false; ///< whether the file that was found has learnt something
   bool hasWarned_ = false;
   Clock::time_point saveTime_ = Clock::now();
 };

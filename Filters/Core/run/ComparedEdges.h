@@ -11,21 +11,21 @@
 
 namespace neuralmesh
 {
-/// The sharp edges of a surface, where it turns by more than 30 degrees, and points drawn evenly over their
-/// length.
+/// The sharp edges of a surface, at which it turns by more than 30 degrees, and random points on
+/// them.
 class ComparedEdges
 {
 public:
-  /// On a surface whose extent is about 1. One point lies in each of `count` equal shares of the length, if
-  /// there are edges.
+  /// The extent of the surface is about 1. One point lies in each of `count` equal parts of the
+  /// length, if there are edges.
   ComparedEdges(const TriangleMesh& surface, std::size_t count, Random random);
 
-  /// 0 if no edge is sharp.
+  /// The length of all sharp edges; 0 if there are none.
   double length() const { return lengthUpTo_.empty() ? 0. : lengthUpTo_.back(); }
-  /// The mean distance of the points from the nearest place on the edges of another surface; NaN if one of
-  /// the two has none.
+  /// The mean distance of the points to the nearest place on the edges of another surface; NaN if
+  /// one of the two has no edges.
   double meanTo(const ComparedEdges& other, const Executor& executor) const;
-  /// ... or anywhere on another surface; NaN if there are no edges here.
+  /// The mean distance of the points to another surface; NaN if there are no points.
   double meanTo(const NearestTriangle& surface, const Executor& executor) const;
 
 private:

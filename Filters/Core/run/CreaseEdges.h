@@ -15,19 +15,20 @@ struct CreaseEdge
 {
   std::array<VertexIndex, 2> ends{};
   double angle =
-    0.; ///< between both sides of the surface, by the points, where they meet; in degrees
+    0.; ///< between both sides of the surface where they meet, by the points; in degrees
   bool isConfirmed = false;
-  /// Of the two sides, at the edge; unknown where there are too few points.
+  /// The planes of the two sides at the edge; unknown if there are too few points.
   std::array<FacePlanes::Plane, 2> sides;
 };
 
-/// The edges whose planes differ by more than half of `leastAngle`, in degrees. Such an edge is confirmed if
-/// the points say so: on each side a surface of second degree is fitted to the points within a few edges,
-/// which goes up to where both sides meet. There its slope has a standard error, by the residuals and the
-/// number of points. The angle between both slopes must be larger than `leastAngle` by three standard errors, both
-/// surfaces must fit within the noise, and one surface of third degree over both sides must fit clearly worse.
-/// So neither noise nor a smooth bend makes a crease: what bends smoothly has about the same slope from both
-/// sides. If `progress` ends it, the edges that were not looked at are not confirmed.
+/// Returns the edges whose planes differ by more than half of `leastAngle`, in degrees, and
+/// confirms some by the points. On each side, a quadratic surface is fitted to the points within a
+/// few edges, up to the line where both sides meet. Its slope there has a standard error, which
+/// follows from the residuals and the number of points. A confirmed edge meets three conditions.
+/// The angle between both slopes exceeds `leastAngle` by three standard errors. Both surfaces fit
+/// within the noise. One cubic surface over both sides fits clearly worse. So neither noise nor a
+/// smooth bend makes a crease: a smooth bend has about the same slope from both sides. If
+/// `progress` ends the search, edges that were not examined are not confirmed.
 std::vector<CreaseEdge> findCreaseEdges(const FacePlanes& planes, const CloudPlaces& places,
   double leastAngle, const Progress& progress, const Executor& executor = Executor::sequential());
 }

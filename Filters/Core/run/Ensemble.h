@@ -13,55 +13,60 @@
 
 namespace neuralmesh
 {
-/// Which members are learnt here, if processes share the work: every `count`-th one from `index` on.
+/// The members that this process learns if processes share the work: every `count`-th one from
+/// `index` on.
 struct EnsembleShare
 {
   std::size_t index = 0;
   std::size_t count = 1;
 };
 
-/// The first two steps of Algorithm 5 (chapter 10): several meshes of one cloud, which differ by
-/// their seeds, and what most of them hold. Members grow by the noise-filtering variant with exact
-/// counters and the product's defaults, as spheres.
+/// The first two steps of Algorithm 5 (chapter 10): several meshes of one cloud with different
+/// seeds, and the space that most of them fill. Members grow by the noise-filtering variant with
+/// exact counters and the product's defaults, as spheres.
 ///
-/// What concerns one member may be called at the same time for different ones; what comes out does
-/// not depend on that, nor on how members are shared. Members are numbered among those learnt here.
+/// Threads may call functions of a member for different members at the same time. The result does
+/// not depend on that, nor on how processes share the members. A member has its number among those
+/// that this process learns.
 class Ensemble
 {
 public:
-  /// Members of a cloud of few points have fewer vertices: a triangle for every so many points.
+  /// If the cloud has few points, members have fewer vertices: one triangle for every so many
+  /// points.
   Ensemble(const PointCloud& cloud, const EnsembleParameters& parameters, EnsembleShare share = {});
 
-  /// Voxels of the grid along each axis.
+  /// Number of voxels of the grid along each axis.
   static std::size_t gridCount(unsigned resolution);
 
-  /// Members that are learnt here.
+  /// Number of members that this process learns.
   std::size_t size() const { return members_.size(); }
 
-  /// Learns on, for some milliseconds.
+  /// Continues to learn for some milliseconds.
   void learn(std::size_t member);
-  /// Whether all members are learnt, or have stalled.
+  /// Whether all members are learnt or have stalled.
   bool isLearnt() const;
-  /// How much of that is done, 0 to 1.
+  /// The part of learning that is done, 0 to 1.
   double progress() const;
   /// A member as it is now, in the coordinates of the cloud.
   const Mesh& mesh(std::size_t member) const { return members_[member]->learner.mesh(); }
-  /// The same without gaps in its numbers, for a learner to start from.
+  /// The same without gaps in its indices, so that a learner can start from it.
   const Mesh& renumberedMesh(std::size_t member);
-  /// Samples that the members here will have drawn in the end, all together, about.
+  /// About the number of samples that all members of this process will have drawn in the end.
   double expectedSamples() const;
 
-  /// When all members are learnt: looks for the phantoms of each,
+  // The steps after all members are learnt, in this order:
+
+  /// Finds the phantoms of a member.
   void findPhantoms(std::size_t member);
-  /// then tells their boxes: for each member of all shares the least and the most x, y and z, in the
-  /// coordinates of the input, or 0 if it is learnt elsewhere,
+  /// The boxes of all members: for each member of all shares the least and the largest x, y and z,
+  /// in the coordinates of the input; 0 if another process learns it.
   std::vector<double> boxes() const;
-  /// then, from the sum of all shares, makes the grid in which they are compared: a cube around what
-  /// most of them can hold,
+  /// Makes the grid in which members are compared, from the sum of the boxes of all shares: a cube
+  /// around the space that most members can fill.
   void makeGrid(const std::vector<double>& boxes);
-  /// then finds the voxels of each.
+  /// Finds the voxels of a member.
   void voxelize(std::size_t member);
-  /// Of the members here; those of all shares are to be added up.
+  /// The votes of the members of this process. Add up those of all shares.
   VoxelVotes votes() const;
 
 private:

@@ -10,7 +10,7 @@
 
 namespace neuralmesh
 {
-/// The second step of Algorithm 5: what the members of an ensemble have in common.
+/// The second step of Algorithm 5: the average of the members of an ensemble.
 struct EnsembleAverage
 {
   /// Solid shapes of enough points have 0.9 and more, open ones about 0.7, planes less than 0.2.

@@ -19,8 +19,8 @@
 
 namespace neuralmesh
 {
-/// What processes that share the members of an ensemble tell each other. All of them make the same calls, with
-/// as many numbers. This one is alone.
+/// The communication of processes that share the members of an ensemble. All of them make the same
+/// calls with as many numbers. This class is for a single process.
 class EnsembleProcesses
 {
 public:
@@ -30,7 +30,8 @@ public:
   virtual ~EnsembleProcesses() = default;
 
   virtual EnsembleShare share() const { return {}; }
-  /// Each number becomes the largest, or the sum, of those that the processes have in its place.
+  /// Replaces each number by the largest, or by the sum, of the numbers of all processes in its
+  /// place.
   virtual void findLargest(std::span<int> /*numbers*/) const {}
   virtual void addUp(std::span<double> /*numbers*/) const {}
   virtual void addUp(std::span<std::uint8_t> /*numbers*/) const {}
@@ -47,27 +48,29 @@ enum class EnsembleStep
 /// "Learning the members", "Averaging", "Refining".
 std::string_view name(EnsembleStep step);
 
-/// The first two steps of Algorithm 5, and what the third begins with.
+/// The results of the first two steps of Algorithm 5, with which the third one begins.
 struct EnsembleStart
 {
-  /// Of all members; nothing if there was no time for all of them, or it was ended.
+  /// The votes of all members; nothing if there was no time for all of them, or `progress` ended
+  /// the run.
   std::optional<VoxelVotes> votes;
-  /// The average mesh; without votes the first member as far as it has come; nothing if the members agree on
-  /// too little, or this process helps another one: learning starts as parameters say.
+  /// The average mesh; without votes, the first member as it is. Nothing if the members agree on
+  /// too little, or if another process makes the average: then learning starts as the parameters
+  /// say.
   std::optional<Mesh> mesh;
   std::string warning;      ///< a sentence, if the members do not agree well; else empty
-  bool isCancelled = false; ///< by the progress of whatever process
-  double timeLimit = 0.;    ///< what is left of it for the refinement, in seconds; 0: there is none
-  double end = 0.;          ///< of these steps, as a fraction of the whole run
+  bool isCancelled = false; ///< whether the progress of any process ended the run
+  double timeLimit = 0.;    ///< seconds that are left for the refinement; 0: no limit
+  double end = 0.;          ///< end of these steps, as a fraction of the whole run
 
   bool isAverage() const { return votes && mesh; }
 };
 
-/// Learns the members of an ensemble beside each other, and averages them. `refinement` are the parameters of
-/// the third step, whose time limit holds for all three. Progress is that of the whole run; it
-/// and `enter`, which is told of each step as it begins, are called on the calling thread alone. The same bytes, whatever
-/// the executor and however the processes share the members, unless the time limit is met or it is ended.
-/// Only the process with index 0 makes the average.
+/// Learns the members of an ensemble at the same time, and averages them. `refinement` are the
+/// parameters of the third step; their time limit holds for all three steps. `progress` is that of
+/// the whole run. `enter` is called when a step begins. Both are called on the calling thread only.
+/// The result has the same bytes with any executor and any number of processes, unless the time
+/// limit or `progress` ends the run. Only the process with index 0 makes the average.
 EnsembleStart startByEnsemble(const PointCloud& cloud, const EnsembleParameters& parameters,
   const Parameters& refinement, const Progress& progress,
   const std::function<void(EnsembleStep)>& enter, const Executor& executor = Executor::sequential(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What does not go with a run of some kind.
+// Requests that exclude each other.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,15 @@
 
 namespace neuralmesh
 {
-/// Something else that a run may be asked for.
+/// Another request of a run.
 struct AskedBeside
 {
   bool isThere;
   std::string_view name;
 };
 
-/// The sentence that `wanted` and the first of these that is there exclude each other; empty if none is.
+/// The sentence that `wanted` and the first request in use exclude each other; empty if none is in
+/// use.
 inline std::string whyExcluded(std::string_view wanted, std::initializer_list<AskedBeside> beside)
 {
   const auto* const first = std::ranges::find_if(beside, &AskedBeside::isThere);

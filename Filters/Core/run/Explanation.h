@@ -16,46 +16,47 @@
 
 namespace neuralmesh
 {
-/// Why a point of the input lies where it lies against the mesh.
+/// The reason for the distance of a point of the input to the mesh.
 enum class Reason : std::uint8_t
 {
   Explained, ///< the mesh is there
-  Outlier, ///< away from the mesh, and apart from other points, or in a cluster that was left out; or very
-           ///< far from all others (PointCloud::farPoints())
-  SmallPiece,  ///< away from the mesh, with few others, and not beside what is explained
-  Unreachable, ///< away from the mesh, though there are others: the surface is missing there
-  Dropped      ///< no coordinates, no weight, or too far off to be taken in
+  Outlier,   ///< away from the mesh, and apart from other points or in a cluster that was left out;
+             ///< or very far from all others (PointCloud::farPoints())
+  SmallPiece,  ///< away from the mesh, with few other points, and not beside explained ones
+  Unreachable, ///< away from the mesh, with many other points: the surface is missing there
+  Dropped      ///< no coordinates, no weight, or too far off
 };
 constexpr std::size_t Reasons = 5;
 
 /// "explained", "outlier", "small piece", "unreachable", "dropped".
 std::string_view name(Reason reason);
 
-/// Points that belong together and that the mesh does not reach.
+/// A connected piece of points that the mesh does not reach.
 struct MissedPiece
 {
   Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< in the coordinates of the input
-  double points = 0.;                               ///< of the cloud, about
+  double points = 0.;                               ///< about the number of points of the cloud
   double farthest = 0.;                             ///< from the mesh, in units of the input
-  bool isBeyondBoundary = false; ///< whether most of them lie nearest to a boundary of the mesh
+  bool isBeyondBoundary = false; ///< whether most points are nearest to a boundary of the mesh
 
-  /// Whether the mesh is there, but too coarse: they are no farther than half an edge.
+  /// Whether the mesh is there but too coarse: no point is farther away than half an edge.
   bool isCoarse(double meanEdge) const { return !isBeyondBoundary && farthest < 0.5 * meanEdge; }
 };
 
-/// Points that are explained, though the mesh does not quite reach them.
+/// Explained points that the mesh does not quite reach.
 struct CutOffPoints
 {
-  std::size_t count = 0; ///< of those asked
+  std::size_t count = 0; ///< number among the points asked
   Eigen::Vector3d place =
-    Eigen::Vector3d::Zero(); ///< of the farthest, in the coordinates of the input
-  double farthest = 0.;      ///< from the mesh, in units of the input
+    Eigen::Vector3d::Zero(); ///< the farthest one, in the coordinates of the input
+  double farthest = 0.;      ///< its distance to the mesh, in units of the input
 };
 
-/// What a mesh leaves of a cloud. A point is away from the mesh if it is farther than three of its own
-/// distances to its six nearest neighbours, and than any noise: than eight median distances. It is an
-/// outlier if its own distances are three times those of its neighbours; or three times those that are
-/// usual, and most of those that are away with it lie in no layer.
+/// The points of a cloud that a mesh explains, and those that it does not. The spacing of a point
+/// is its mean distance to its six nearest neighbours. A point is away from the mesh if it is
+/// farther than three of its spacings, and farther than the noise: eight median distances. It is an
+/// outlier if its spacing is three times that of its neighbours. It is also one if its spacing is
+/// three times the usual one, and the points of its piece form no layer.
 struct Explanation
 {
   PointDistances asked;
@@ -73,27 +74,26 @@ struct Explanation
   /// As rims are that are narrower than edges are long: farther from the mesh than from each other, and than any noise,
   /// and not beyond a boundary.
   CutOffPoints atRims;
-  /// Where points are sparse, beyond a boundary, and farther from it than one and a half distances between them.
+  /// Sparse points beyond a boundary that are farther from it than 1.6 times their spacing.
   CutOffPoints beyondEnds;
   double scatteredShare = 0.; ///< of a run: see ScatteredPoints.h
 
   double count(Reason reason) const { return counts[std::size_t(reason)]; }
-  /// Points that are no outliers, and that the mesh does not reach.
+  /// The number of points that the mesh does not reach and that are no outliers.
   double unexplained() const { return count(Reason::SmallPiece) + count(Reason::Unreachable); }
-  /// Of all that were not dropped.
+  /// Their part of all points that were not dropped.
   double unexplainedShare() const;
 };
 
-/// What decides.
 struct ExplanationRules
 {
-  /// Fewer points than this part of all are a small piece, unless they go on from what is explained.
+  /// A piece with less than this part of all points is small, unless it continues explained points.
   double leastPiece = 0.0005;
-  /// Points that the run took for clusters of outliers; empty if it has none.
+  /// For each point, 1 if it is in a cluster of outliers; empty if there are none.
   std::vector<std::uint8_t> isLeftOut;
 };
 
-/// Takes about as long as the distances do.
+/// Takes about as long as the distances.
 Explanation explain(const PointCloud& cloud, PointDistances distances,
   const ExplanationRules& rules, const Executor& executor = Executor::sequential());
 }

@@ -15,20 +15,20 @@
 
 namespace neuralmesh
 {
-/// The triangles of a mesh with the points of the cloud that lie on each, and the plane in which the points
-/// around it lie.
+/// The triangles of a mesh with the points on each, and a plane through the points around it.
 ///
-/// A triangle near an edge of the shape has points of both sides around it, and one that bridges the edge
-/// lies on neither. So each takes the plane of one of the patches near it: the one that points lie in best,
-/// those around its center and its own. The planes of triangles side by side are then either about the
-/// same or those of the two sides, however the mesh rounds the edge. Patches are the triangles within one ring
-/// of vertices around a triangle, or within more: so many that most are wide against the noise.
+/// A triangle near an edge of the shape has points of both sides around it, and a triangle across
+/// the edge lies on neither side. So a triangle takes the plane of one of the patches near it. It
+/// takes the plane that fits best both the points of the patch and its own points. The planes of
+/// neighbouring triangles are then either almost the same or those of the two sides, even if the
+/// mesh rounds the edge. A patch consists of the triangles within some rings of vertices around a
+/// triangle. The number of rings is such that most patches are wide compared to the noise.
 class FacePlanes
 {
 public:
   struct Plane
   {
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< outwards; zero where points tell none
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< outwards; zero if unknown
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
 
     bool isKnown() const { return !normal.isZero(); }
@@ -36,7 +36,7 @@ public:
   };
   static constexpr std::uint32_t None = 0xffffffffu;
 
-  /// The mesh of the places must outlive it, as must their cloud.
+  /// The mesh of the places and their cloud must outlive this.
   FacePlanes(const CloudPlaces& places, const Executor& executor);
 
   const NumberedTriangles& triangles() const { return triangles_; }
@@ -50,11 +50,11 @@ public:
   {
     return beyond_[triangle][corner];
   }
-  /// How many rings of vertices a patch has.
+  /// The number of rings of vertices in a patch.
   unsigned rings() const { return rings_; }
   const Plane& planeOf(std::uint32_t triangle) const { return patches_[chosen_[triangle]].plane; }
-  /// Variance of the points on a triangle across the plane that fits them best, so that the median of several
-  /// triangles is that of the noise; NaN where they are too few.
+  /// The variance of the points on a triangle across the plane that fits them best; NaN if they are
+  /// too few. The median over several triangles is the variance of the noise.
   double noiseOn(std::uint32_t triangle) const { return noise_[triangle]; }
   /// Twice the area, as a vector.
   Eigen::Vector3d normalOf(std::uint32_t triangle) const;

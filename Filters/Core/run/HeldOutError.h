@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far points are from a mesh that its fit has not seen, with and without their noise.
+// The distances to a mesh of points that its fit has not seen, with and without their noise.
 #pragma once
 
 #include "base/Choices.h"
@@ -16,18 +16,19 @@ struct HeldOutError
 {
   std::size_t count = 0; ///< of the points
   double rootMeanSquare = 0.;
-  double ninetyNine = 0.; ///< so far are 99 % of them at most
+  double ninetyNine = 0.; ///< 99 % of the distances are at most this
   double largest = 0.;
-  double farthest = 0.; ///< what is farther is an outlier
+  double farthest = 0.; ///< a point farther away is an outlier
 
   double of(ToleranceMeasure measure) const;
 
-  /// The same with noise of such a standard deviation taken off: the root of the difference of squares, where noise
-  /// alone would give so many standard deviations; 0 if the noise is more.
+  /// The error without noise of this standard deviation: the root of the difference of squares. For
+  /// the 99 % and the largest distance, the noise counts by the deviations that it has there alone.
+  /// 0 if the noise is larger.
   double withoutNoise(ToleranceMeasure measure, double noise) const;
 };
 
-/// Of a mesh of which no vertex may be erased. At most 20,000 points are measured, of those that the fit leaves out.
+/// Measures at most 20,000 of the points that the fit leaves out. No vertex may be erased.
 HeldOutError heldOutError(
   const PointCloud& cloud, const Mesh& mesh, const Executor& executor = Executor::sequential());
 

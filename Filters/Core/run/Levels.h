@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Levels of detail: several meshes of a cloud, of more and more vertices, in one run.
+// Levels of detail: several meshes of a cloud in one run, with ascending numbers of vertices.
 #pragma once
 
 #include "base/Progress.h"
@@ -15,7 +15,7 @@
 
 namespace neuralmesh
 {
-/// What else a run may be asked for that levels exclude.
+/// Other requests that levels exclude.
 struct BesideLevels
 {
   bool firstMesh = false;
@@ -24,18 +24,18 @@ struct BesideLevels
   bool automatic = false;
 };
 
-/// Why there is no run with such levels, as a sentence; empty if there is.
+/// The reason why a run with these levels is impossible, as a sentence; empty if it is possible.
 std::string whyNoLevels(std::span<const std::uint64_t> levels, const Parameters& parameters,
   const BesideLevels& beside = {});
 
-/// Told of each level but the last, with its place among all. A level that may have lost thin parts comes after the
-/// others.
+/// Receives each level except the last one, with its index. Levels that may have lost thin parts
+/// come after the others.
 using LevelTaker = std::function<void(std::size_t level, Reconstruction mesh)>;
 
-/// Grows one mesh and finishes a copy of it whenever it has as many vertices as a level, so that each level
-/// is as good as a run of its own, and all start and learn in little more time than the largest. `levels`
-/// ascend; each is given to `take`, the last one is returned. A run that ends early, by a rule or its
-/// caller, ends with the level that it is at. There must be such a run, see whyNoLevels().
+/// Grows one mesh, and finishes a copy of it at each level. Each level is as good as a run of its
+/// own, and all levels start and learn in little more time than the largest one. `levels` ascend.
+/// `take` receives each of them; the last one is returned. If a rule or `progress` ends the run
+/// early, it returns the level that it has reached. whyNoLevels() must be empty.
 Reconstruction reconstructLevels(const RunRequest& request, std::span<const std::uint64_t> levels,
   const LevelTaker& take, const Progress& progress);
 }

@@ -10,16 +10,17 @@
 
 namespace neuralmesh
 {
-/// The points of a cloud that tell phantoms, for each triangle. Where the mesh follows the cloud,
-/// triangles get about so many each, whatever the density is; none by chance in one of e^5 cases.
+/// The number of points per triangle by which phantoms are found. If the mesh follows the cloud, a
+/// triangle has about so many, at any density. By chance, one triangle in e^5 has none.
 constexpr std::size_t PointsPerTriangle = 5;
 
-/// Which triangles are phantoms: spanned over an opening or through a handle, where a mesh of the
-/// topology of a sphere must have some, but the shape has no surface. No point of the cloud is
-/// closest to them. 1 for phantoms, 0 for others, in the order of Mesh::forEachTriangle().
+/// Finds phantom triangles: those over an opening or through a handle, where a mesh with the
+/// topology of a sphere must have triangles, but the shape has no surface. No point of the cloud is
+/// closest to them. The result has 1 for phantoms and 0 for others, in the order of
+/// Mesh::forEachTriangle().
 ///
-/// Looks at PointsPerTriangle points for each triangle, evenly picked from all; of a cloud with
-/// less, at all points, and then triangles are taken for phantoms that are none.
+/// Uses PointsPerTriangle points for each triangle, evenly picked. A smaller cloud is used as a
+/// whole; other triangles are then taken for phantoms, too.
 std::vector<std::uint8_t> findPhantoms(
   const PointCloud& cloud, const Mesh& mesh, const VertexGrid& grid);
 }

@@ -13,10 +13,11 @@
 
 namespace neuralmesh
 {
-/// A point is away from a mesh only beyond so many times the median distance of all: no noise is there.
+/// A point is away from a mesh if it is farther than so many median distances of all points: noise
+/// is rarely that large.
 constexpr float MediansAway = 8.f;
 
-/// How far points are from the mesh, as is told from outside.
+/// The distances of points to a mesh, as users get them.
 struct PointDistances
 {
   std::vector<std::size_t> points;            ///< which of the cloud, in rising order
@@ -40,18 +41,18 @@ struct VertexSupport
   double pointsPerAsked = 1.;
 };
 
-/// At most `most` points of the cloud, evenly picked, and how far they are from a mesh of which no
+/// Picks at most `most` points of the cloud evenly, and measures their distances to a mesh. No
 /// vertex may be erased.
 PointDistances distancesTo(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
   const Executor& executor = Executor::sequential());
-/// The same; nothing if it was ended before.
+/// The same; nothing if `progress` ended it.
 std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cloud,
   std::size_t most, const Progress& progress, const Executor& executor = Executor::sequential());
 
-/// What the vertices of such a mesh rest on, by at most so many points.
+/// The support of the vertices of such a mesh, by at most so many points.
 VertexSupport supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
   const Executor& executor = Executor::sequential());
-/// The same; nothing if it was ended before.
+/// The same; nothing if `progress` ended it.
 std::optional<VertexSupport> supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
   const Progress& progress, const Executor& executor = Executor::sequential());
 }

@@ -23,10 +23,10 @@
 
 namespace neuralmesh
 {
-/// What a run gives, in the coordinates of the input.
+/// The result of a run, in the coordinates of the input.
 struct Reconstruction
 {
-  /// Whether the run came to its end: it was not cancelled, and there was time for all of it.
+  /// Whether the run was neither cancelled nor ended by the time limit.
   bool isComplete() const
   {
     return stopReason != StopReason::Cancelled && stopReason != StopReason::TimeLimit;
@@ -36,48 +36,50 @@ struct Reconstruction
   Mesh surface; ///< the same mesh, in the coordinates of the cloud
   std::vector<Eigen::Vector3d> normals;
   std::vector<double> activities;
-  VertexSupport support; ///< what the vertices rest on; empty if the run was cancelled
+  VertexSupport support;                ///< points at the vertices; empty if the run was cancelled
   std::vector<double> featureStrengths; ///< empty unless they were asked for
-  std::vector<float> uncertainties;     ///< likewise, or if no round of the fit is left
-  /// Part of the vertices around which views lie apart by more than error bars know, and where most.
+  std::vector<float> uncertainties; ///< empty unless asked for, and if no round of the fit is left
+  /// Part of the vertices around which views lie farther apart than error bars explain, and the
+  /// place where they lie farthest apart
   double disagreeingShare = 0.;
   Vector4 disagreement;
   RunCounts counts;
   LearningCurve curve;
   StopReason stopReason = StopReason::None;
-  std::uint64_t resumedIterations = 0; ///< those of the checkpoint from which the run went on
+  std::uint64_t resumedIterations = 0; ///< iterations of the checkpoint that the run continued
   /// Nothing if the mesh was not finished.
   std::optional<FinishReport> finish;
   /// Nothing if the run was cancelled.
   std::optional<MeshQuality> quality;
   OrientationReport orientation;
-  /// Of some points, or of all if that was asked for. Nothing if the run was cancelled.
+  /// An explanation of some points, or of all on demand. Nothing if the run was cancelled.
   std::optional<Explanation> explanation;
   std::vector<SpannedGap> gaps;      ///< that the mesh spans; empty if the run was cancelled
   std::vector<std::string> warnings; ///< see Warnings.h
-  std::optional<SizeChoice> size;    ///< if nobody said how many vertices there are to be
+  std::optional<SizeChoice> size;    ///< if the program chose the number of vertices
   PhaseTimes times;                  ///< of start, learning and finish
 };
 
-/// A mesh that is finished learns no more vertices than there is something to learn for.
+/// Limits the number of vertices of a fitted mesh to the number that the points support.
 Parameters learnable(Parameters parameters, const PointCloud& cloud);
-/// Vertices of the first surface: a part of all, but enough for a shape, if all are twice as many.
+/// The number of vertices of the first surface: an eighth of all, but enough for a shape, up to
+/// half of all.
 std::size_t firstVertices(std::uint64_t vertices);
-/// How many points of a file are used if nobody says: fifty a vertex, as many as samples are drawn, but a
-/// million at least, which tell the shape.
+/// The default number of points of a file: fifty per vertex, as many as samples are drawn, but at
+/// least a million, which show the shape.
 std::uint64_t usualPoints(std::uint64_t vertices);
 
-// Where the parts of a run begin and end, as fractions of its progress.
+// The begin and end of learning, as fractions of the progress of a run.
 inline constexpr double StartOfLearning = 0.15;
 inline constexpr double EndOfLearning = 0.65;
 
-/// Grows a mesh over a cloud that has an extent: from `first`, or what the parameters have it start
-/// from if there is none, until a stopping rule is met. Then finishes it, unless there is no time
-/// left, or there is neither a first mesh nor anything learnt; and turns it to its outer side, by
-/// `hints` if they tell. Snapshots of the growth go to `watch`. The run goes on from the checkpoint
-/// that `plan` names, if there is one, and leaves one there: in the end, too, for what becomes of the
-/// result is not known here. With `explainsAll` all points are explained, else some. Throws as Checkpoint
-/// does.
+/// Grows a mesh over a cloud with an extent until a stopping rule is met. It starts from `first`
+/// or, without it, from the start of the parameters. Then finishes the mesh, unless no time is
+/// left, or there is neither a first mesh nor a learnt sample. Turns it to its outer side by
+/// `hints`. Snapshots of the growth go to `watch`. The run continues from the checkpoint that
+/// `plan` names, if there is one, and leaves a checkpoint even at the end, as the caller may still
+/// fail to save the result. With `explainsAll`, all points are explained, else some. Throws like
+/// Checkpoint.
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
   const Progress& progress, const std::optional<Mesh>& first = {}, const GrowthWatch& watch = {},
   const CheckpointPlan& plan = {}, const Executor& executor = Executor::sequential(),

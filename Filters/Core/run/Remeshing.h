@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of surfaces: what comes in has triangles already.
+// Remeshing: the input is a surface of triangles.
 #pragma once
 
 #include "base/Executor.h"
@@ -15,7 +15,7 @@
 
 namespace neuralmesh
 {
-/// What else a run may be asked for that a surface excludes.
+/// Other requests that a surface excludes.
 struct BesideSurface
 {
   bool points = false; ///< in a file, in place of an input
@@ -31,16 +31,16 @@ struct BesideSurface
   bool estimate = false; ///< of what a run takes, without it
 };
 
-/// Why a surface is not remeshed with this, as a sentence; empty if it is.
+/// The reason why a surface cannot be remeshed with these, as a sentence; empty if it can.
 std::string whyNoRemeshing(const Parameters& parameters, const BesideSurface& beside);
 
-/// How many samples of a surface a mesh with these parameters is fitted to.
+/// The number of samples of a surface to which a mesh with these parameters is fitted.
 std::size_t samplesOfSurface(const Parameters& parameters);
 
-/// Remeshes `surface`, of which `samples` are points with normals, by their index in the cloud: refines and simplifies it
-/// to as many vertices as the
-/// parameters have, evens them, and fits them to the samples. Nothing is learnt, boundaries and sides stay what they
-/// are. Where the topology needs more vertices, there are more.
+/// Remeshes `surface`; `samples` are points on it with normals by their index in the cloud. Refines
+/// and simplifies it to the number of vertices of the parameters, makes it more even, and fits it
+/// to the samples. Nothing is learnt. Boundaries and sides do not change. The mesh has more
+/// vertices if the topology needs them.
 Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, Mesh surface,
   const PointNormals& normalOf, const Progress& progress,
   const Executor& executor = Executor::sequential());

@@ -6,7 +6,7 @@
 
 namespace neuralmesh
 {
-/// What a run will take, roughly.
+/// A rough estimate of the memory and time of a run.
 struct RunEstimate
 {
   double bytes = 0.;   ///< of memory, at the peak, the whole process
@@ -14,7 +14,7 @@ struct RunEstimate
   double seconds = 0.; ///< of learning on one core of this machine
 };
 
-/// What is known of a run beforehand.
+/// The figures of a run that are known beforehand.
 struct PlannedRun
 {
   double vertices = 0.; ///< of the mesh
@@ -24,7 +24,7 @@ struct PlannedRun
   bool isEnsemble = false;
 };
 
-/// What a run has come to: a row of its learning curve.
+/// The state of a run: a row of its learning curve.
 struct GrowthRow
 {
   double iterations = 0.;
@@ -32,13 +32,13 @@ struct GrowthRow
   double seconds = 0.;
 };
 
-/// Vertices by which a mesh grows so as to see how fast it goes.
+/// Number of vertices by which a mesh grows to measure its speed.
 inline constexpr std::uint64_t TriedVertices = 5000;
 
-/// From the learning curve of a run with TriedVertices vertices, or as many more than its first mesh, how it
-/// goes on to all vertices. `secondsOfTrial` is what that took as a whole. Time limits and targets of
-/// distance are not foreseen: runs that they end take less. Of a curve with fewer than two rows only the
-/// memory is told.
+/// Extrapolates to all vertices from the learning curve of a run with TriedVertices vertices, or
+/// with so many more than its first mesh. `secondsOfTrial` is the time of that whole run. Time
+/// limits and targets of distance are ignored: runs that end by them take less. With fewer than two
+/// rows, only the memory is estimated.
 RunEstimate estimateRun(
   const PlannedRun& run, std::span<const GrowthRow> growth, double secondsOfTrial);
 }

@@ -15,7 +15,7 @@ namespace neuralmesh
 {
 namespace
 {
-/// With fewer there is no surface to try sizes on.
+/// With fewer points there is no surface on which sizes can be tried.
 constexpr std::size_t FewestToChooseBy = 500;
 
 std::string lengthText(double length)
@@ -40,7 +40,8 @@ std::string_view measureText(ToleranceMeasure measure)
   return "root mean square distance";
 }
 
-/// By which power of the number of vertices the error falls from one trial to the other; 0 if it does not.
+/// The power of the number of vertices by which the error falls between two trials; 0 if it does
+/// not fall.
 double exponentOf(const SizeTrial& fewer, const SizeTrial& more)
 {
   const double gain = std::log(fewer.error / more.error);
@@ -100,7 +101,7 @@ std::optional<double> SizeChoice::expectedWith(std::uint64_t wanted) const
   {
     return byNoise->errorWith(wanted);
   }
-  // What is too near in size tells no power of it.
+  // Trials of nearly the same size do not determine a power.
   constexpr double TimesApart = 1.3;
   std::vector<SizeTrial> known;
   for (const SizeTrial& trial : trials)
@@ -121,7 +122,7 @@ std::optional<double> SizeChoice::expectedWith(std::uint64_t wanted) const
   double exponent = known.empty() ? exponentOf(own, *larger) : exponentOf(known.back(), own);
   if (wanted > vertices && known.size() > 1)
   {
-    // It falls: what noise and edges leave cannot be had by vertices.
+    // The power falls: more vertices do not reduce the error that noise and edges cause.
     const double before = exponentOf(known[known.size() - 2], known.back());
     exponent *= before > 0. ? std::min(1., exponent / before) : 1.;
   }

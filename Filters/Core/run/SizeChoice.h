@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many vertices a mesh is to have where nobody says: what is wanted, what was tried, and what came of it.
+// The choice of a number of vertices: its goal, its trials and its result.
 #pragma once
 
 #include "base/Choices.h"
@@ -13,11 +13,11 @@
 
 namespace neuralmesh
 {
-/// What a run without a number of vertices is to reach.
+/// The goal of a run without a given number of vertices.
 struct SizeGoal
 {
-  double tolerance = 0.;  ///< in units of the input; 0: all that the cloud tells
-  bool isPercent = false; ///< ... or in percent of the diagonal of its bounding box
+  double tolerance = 0.;  ///< 0: as many vertices as the points support
+  bool isPercent = false; ///< of the diagonal of the bounding box, instead of units of the input
   ToleranceMeasure measure = ToleranceMeasure::RootMeanSquare;
 
   bool isAutomatic() const { return tolerance == 0.; }
@@ -29,7 +29,7 @@ struct SizeGoal
 std::optional<SizeGoal> sizeGoalOf(
   std::uint64_t vertices, double tolerance, bool isPercent, ToleranceMeasure measure);
 
-/// What else a run may be asked for that the choice of a number excludes.
+/// Other requests that the choice of a number excludes.
 struct BesideSize
 {
   bool firstMesh = false;
@@ -39,48 +39,50 @@ struct BesideSize
   bool levels = false;
 };
 
-/// Why there is no such run, as a sentence; empty if there is.
+/// The reason why such a run is impossible, as a sentence; empty if it is possible.
 std::string whyNoSize(const Parameters& parameters, const BesideSize& beside = {});
 
-/// Why no number can be chosen for this cloud, as a sentence; empty if one can.
+/// The reason why no number can be chosen for this cloud, as a sentence; empty if one can.
 std::string whyNoSizeFor(const PointCloud& cloud, const SizeGoal& goal);
 
-/// A mesh that was made to be measured: errors in units of the input, noise taken off.
+/// A trial mesh. Its error is in units of the input, without noise.
 struct SizeTrial
 {
   std::uint64_t vertices = 0;
   double error = 0.;
 };
 
-/// What is left of the error of a mesh under noise: less for more vertices, down to what noise makes of it.
+/// The error of a mesh under noise by its number of vertices: it falls down to a floor that the
+/// noise causes.
 struct ErrorUnderNoise
 {
   double errorWith(std::uint64_t vertices) const;
 
-  double coarseness = 0.; ///< what one vertex would give
-  double exponent = 0.;   ///< by which it falls with their number
+  double coarseness = 0.; ///< error that a mesh of one vertex would have
+  double exponent = 0.;   ///< power of the number of vertices by which it falls
   double floor = 0.;
 };
 
-/// A number of vertices, and why it is that.
+/// The chosen number of vertices, with its reasons.
 struct SizeChoice
 {
-  /// Of the error that so many vertices would give, by the last trials; nothing if they do not tell.
+  /// The expected error with so many vertices, by the last trials; nothing if these do not
+  /// determine it.
   std::optional<double> expectedWith(std::uint64_t vertices) const;
 
-  /// In words, a line each.
+  /// The reasons in words, a line each.
   std::vector<std::string> reasons() const;
-  /// What is to be warned of: a tolerance that was not met; else empty.
+  /// The warning that the tolerance was not met; else empty.
   std::string warning() const;
 
   SizeGoal goal;
   double length = 0.;                     ///< the tolerance in units of the input
-  double noise = 0.;                      ///< that was taken off, of one point; 0 if none is told
-  std::optional<ErrorUnderNoise> byNoise; ///< if the number was chosen by it
-  std::vector<SizeTrial> trials;          ///< of rising numbers; without the mesh itself
-  std::uint64_t vertices = 0;             ///< that the mesh has
-  double predicted = 0.;                  ///< before it was made
+  double noise = 0.;                      ///< of a point, without which errors are; 0 if unknown
+  std::optional<ErrorUnderNoise> byNoise; ///< if the number was chosen by the noise
+  std::vector<SizeTrial> trials;          ///< by ascending numbers, without the result
+  std::uint64_t vertices = 0;             ///< of the result
+  double predicted = 0.;                  ///< error that was expected for the result
   double reached = 0.;
-  double least = 0.; ///< no smaller error is told apart from none under the noise
+  double least = 0.; ///< smaller errors are not significant under the noise
 };
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs that find out themselves how many vertices their mesh is to have.
+// Runs that choose the number of vertices themselves.
 #pragma once
 
 #include "base/Progress.h"
@@ -8,10 +8,10 @@
 
 namespace neuralmesh
 {
-/// A run whose mesh has as many vertices as the points support, or as few as meet a tolerance. The
-/// number of vertices of the parameters does not count. Small meshes are made and measured first, and what they tell
-/// is checked in the end; the result has a `size`, unless the run was ended before. There must be such a run, see
-/// whyNoSize() and whyNoSizeFor().
+/// Makes a mesh with as many vertices as the points support, or with as few as meet a tolerance.
+/// The number of vertices of the parameters does not count. Small meshes are made and measured
+/// first, and the prediction is checked at the end. The result has a `size`, unless `progress`
+/// ended the run. whyNoSize() and whyNoSizeFor() must be empty.
 Reconstruction reconstructSized(
   const RunRequest& request, const SizeGoal& goal, const Progress& progress);
 }

@@ -15,24 +15,24 @@ namespace neuralmesh
 {
 namespace
 {
-/// With fewer there is nothing to see yet.
+/// With fewer points there is no mesh yet.
 constexpr std::size_t LeastPointsToMesh = 100;
-/// Learnt between two looks at the clock.
+/// Number of samples between two looks at the clock.
 constexpr std::uint64_t SamplesPerLook = 20000;
 
-/// The mesh is begun anew if so much more of the occupied space is away from it than when it was
-/// begun ...
+/// A new mesh starts if the part of the occupied space beyond the mesh has grown by so much since
+/// its start ...
 constexpr double MostUncovered = 0.02;
-/// ... or if there are so many times the points that it was begun with.
+/// ... or if there are so many times the points of its start.
 constexpr std::size_t MorePoints = 2;
 
-/// Voxels to see that by are about an edge wide, but wide enough that so many points are in one, and
-/// within these resolutions.
+/// The voxels of the occupied space are about an edge wide, but wide enough for so many points
+/// each, and within these resolutions.
 constexpr double PointsPerVoxel = 36.;
 constexpr double CoarsestCover = 4., FinestCover = 32.;
 
 /// The part of the space occupied by a cloud that is farther than a voxel from all vertices of a
-/// mesh, in the coordinates of another cloud.
+/// mesh. The mesh is in the coordinates of another cloud.
 double uncoveredPart(const PointCloud& cloud, const Mesh& mesh, const PointCloud& ofMesh)
 {
   const double edge = mesh.meanEdge() * ofMesh.unit() / cloud.unit();
@@ -178,7 +178,7 @@ std::uint64_t StreamingReconstruction::learnFor(double seconds, const Progress& 
   return all;
 }
 
-/// Has the mesh learn from the points that have come. False if there is no mesh then.
+/// Lets the mesh learn from the points that have arrived. Returns false if there is no mesh then.
 bool StreamingReconstruction::takeInPoints(const Progress& progress)
 {
   if (takenIn_ == reservoir_.seen() || reservoir_.points().size() < LeastPointsToMesh)
@@ -227,7 +227,7 @@ bool StreamingReconstruction::mustBegin(const PointCloud& cloud) const
     uncoveredPart(cloud, learner_->mesh(), *cloud_) > uncoveredAtBeginning_ + MostUncovered;
 }
 
-/// False if that was ended; then all is as before.
+/// Starts a new mesh. Returns false if `progress` ended it: then nothing has changed.
 bool StreamingReconstruction::beginAnew(
   const PointCloud& cloud, const Parameters& parameters, const Progress& progress)
 {

@@ -13,47 +13,51 @@
 
 namespace neuralmesh
 {
-/// A mesh that is learnt while points arrive. Samples are drawn from a reservoir of all points that
-/// have come, so that memory is bounded however many those are.
+/// A mesh that learns while points arrive. Samples are drawn from a reservoir of all points so far,
+/// so that memory is bounded.
 ///
-/// The mesh follows in two ways. Where points come that it does not reach, or twice as many as it was
-/// begun with, it is begun anew from the space that the reservoir occupies: only that tells handles,
-/// pieces and openings. In between it grows, and once it has all its vertices, they wander: the
-/// laziest go where the mesh is busiest.
+/// The mesh follows new points in two ways. If they lie beyond the mesh, or there are twice as many
+/// as at its start, a new mesh starts from the space that the reservoir occupies, as only this
+/// shows handles, pieces and openings. Otherwise the mesh grows. Once it has all its vertices, the
+/// least active ones move to where the mesh is most active.
 ///
 /// The same calls give the same mesh.
 class StreamingReconstruction
 {
 public:
-  /// For the noise-filtering variant with exact counters. Samples are drawn evenly: curvature density
-  /// does not count, nor do stopping rules but the number of vertices.
+  /// Takes the parameters of the noise-filtering variant with exact counters. Samples are drawn
+  /// evenly, so the curvature density does not count. Of the stopping rules, only the number of
+  /// vertices counts.
   StreamingReconstruction(const Parameters& parameters, std::size_t reservoirSize);
 
-  /// The direction in which the surface looks at a point, by its index among those that are added; of
-  /// any length, 0 or not finite if that is not known.
+  /// The direction in which the surface looks at a point, by the index of the point among the added
+  /// ones. It has any length; 0 or not finite if it is unknown.
   using DirectionOf = std::function<Eigen::Vector3d(std::size_t)>;
 
-  /// Why a stream cannot be learnt with these parameters, in a sentence; empty if it can.
+  /// The reason why a stream with these parameters is impossible, as a sentence; empty if it is
+  /// possible.
   static std::string errorOf(const Parameters& parameters);
 
-  /// Points that are not finite are dropped.
+  /// Adds points. Those that are not finite are dropped.
   void addPoints(const PointSpans& points, const DirectionOf& directionOf = {});
-  /// The surface looks at where a point was seen from, or in the direction of its normal. Of several
-  /// viewpoints without a view of each point mesh() is to be told: it finds out what was seen from where.
+  /// Adds points with a viewpoint or with normals, towards which the surface looks. If several
+  /// viewpoints have no view of each point, give them to mesh(), which finds the viewpoint of each
+  /// point.
   void addPoints(const PointSpans& points, const OrientationHints& hints);
 
-  /// Learns so many samples, of all points that have come, and returns how many they were: fewer if
-  /// `progress` ends it, none if there are too few points for a mesh.
+  /// Learns so many samples of all points so far. Returns their number: fewer if `progress` ends
+  /// it, none if there are too few points for a mesh.
   std::uint64_t learn(std::uint64_t samples, const Progress& progress);
-  /// The same for so many seconds, to some thousand samples.
+  /// Learns for so many seconds, to some thousand samples.
   std::uint64_t learnFor(double seconds, const Progress& progress);
 
   bool hasMesh() const { return learner_ != nullptr; }
-  /// The mesh as it is, if there is one. With `isFinished` it is fitted to the points of the last
-  /// learn() by FitRounds, opened and repaired, and measured, unless `progress` ends that; and if it
-  /// has all its vertices, it has as many as were asked for. Without rounds it is only measured. What is
-  /// measured has warnings, too. The stream itself stays as it is. The mesh is turned to its outer side by
-  /// `hints`, of which viewpoints and up direction count, and by the directions of the points.
+  /// Returns the present mesh, if there is one. With `isFinished`, it is fitted in FitRounds rounds
+  /// to the points of the last learn(), opened, repaired and measured, unless `progress` ends that.
+  /// If it has learnt all vertices, it has the number that was asked for. Without rounds it is only
+  /// measured. A measured mesh has warnings. The stream itself does not change. The viewpoints and
+  /// the up direction of `hints`, and the directions of the points, turn the mesh to its outer
+  /// side.
   Reconstruction mesh(
     bool isFinished, const Progress& progress, const OrientationHints& hints = {}) const;
 

@@ -24,23 +24,24 @@ namespace
 {
 /// Angles settle with fewer samples than the tail of the distances.
 constexpr std::size_t MostAngleSamples = 20000;
-/// So do means over edges.
+/// Means over edges settle with fewer samples, too.
 constexpr std::size_t MostEdgeSamples = 20000;
 /// The distances of the scores, as parts of the diagonal of the reference.
 constexpr double TenthPercent = 0.001;
 constexpr double HalfPercent = 0.005;
-/// Where the maximum is looked for: in so many triangles, with so many steps that get smaller.
+/// The search for the maximum climbs in so many triangles, with so many steps of decreasing size.
 constexpr std::size_t ClimbedTriangles = 128;
 constexpr std::size_t ClimbSteps = 96;
 constexpr std::size_t StepsOfOneSize = 8;
 constexpr std::size_t MeasuredPerRange = 512;
-/// Found between two looks at whether to go on.
+/// Number of places between two checks of the progress.
 constexpr std::size_t MeasuredPerLook = 16384;
-/// Where the distances of the samples begin and end, as fractions of the whole.
+/// The begin and end of the distances of the samples, and the end of those of the edges, as
+/// fractions of the whole.
 constexpr double BeginOfDistances = 0.05;
 constexpr double EndOfDistances = 0.8;
 constexpr double EndOfEdges = 0.9;
-/// Edges have random numbers of their own.
+/// The stream of random numbers for the edges.
 constexpr std::uint64_t EdgeStream = 1;
 
 using Samples = std::vector<SurfaceSampler::Sample>;
@@ -51,7 +52,8 @@ struct Near
   std::uint32_t triangle;
 };
 
-/// The nearest place of a surface, and its triangle, for each of `count` points. Fewer if it was ended.
+/// The nearest place of a surface, and its triangle, for each of `count` points. Fewer if
+/// `progress` ended it.
 template <typename PointOf>
 std::vector<Near> nearestPlaces(std::size_t count, const PointOf& pointOf,
   const NearestTriangle& surface, const Progress& progress, const Executor& executor)
@@ -79,7 +81,7 @@ std::vector<Near> nearestPlaces(std::size_t count, const PointOf& pointOf,
   return found;
 }
 
-/// Moved and scaled with the other one, and samples on it.
+/// A surface with its samples. Both surfaces are moved and scaled together.
 class ComparedSurface
 {
 public:
@@ -98,7 +100,8 @@ public:
     samples_ = SurfaceSampler(mesh()).drawFromShares(count, random);
   }
 
-  /// Measures how far points and samples are from another surface. Returns false if it was ended.
+  /// Measures the distances of points and samples to another surface. Returns false if `progress`
+  /// ended it.
   bool measure(const NearestTriangle& other, const Progress& progress, const Executor& executor)
   {
     const auto& points = mesh().points;
@@ -115,7 +118,7 @@ public:
     return ofSamples_.size() == samples_.size();
   }
 
-  /// Of the points of the mesh as it came in; NaN where these are not finite.
+  /// The distances of the points of the input mesh; NaN for points that are not finite.
   std::vector<double> pointDistances(const TriangleMesh& input, double unit) const
   {
     std::vector<double> distances(input.points.size());
@@ -147,7 +150,7 @@ public:
     return figures;
   }
 
-  /// The part of the samples that is nearer to the other surface than that.
+  /// The part of the samples that is nearer to the other surface than this distance.
   double partWithin(double distance) const
   {
     const auto count = std::count_if(ofSamples_.begin(), ofSamples_.end(),
@@ -156,8 +159,8 @@ public:
   }
 
 private:
-  /// Over the samples, the vertices of triangles, and what is found by climbing on from the farthest
-  /// samples: the peaks are narrow.
+  /// The largest distance of the samples, the vertices of triangles, and places found by climbing
+  /// from the farthest samples, as peaks are narrow.
   double maximum(const NearestTriangle& other, Random& random, const Executor& executor) const
   {
     double maximum = 0.;
@@ -173,7 +176,7 @@ private:
       }
     }
     const std::vector<std::size_t> farthest = farthestSamples();
-    // Drawn before, so that it does not matter who climbs where.
+    // All random numbers are drawn first, so that the order of the climbs does not matter.
     const SurfaceSampler sampler(mesh());
     std::vector<Eigen::Vector3d> targets;
     targets.reserve(farthest.size() * ClimbSteps);
@@ -191,7 +194,8 @@ private:
       reached.begin(), reached.end(), maximum, [](double a, double b) { return std::max(a, b); });
   }
 
-  /// From a sample towards places of its triangle, as long as that is farther from the other surface.
+  /// Climbs from a sample towards places of its triangle while the distance to the other surface
+  /// grows.
   double climb(
     std::size_t sample, const Eigen::Vector3d* targets, const NearestTriangle& other) const
   {
@@ -211,7 +215,7 @@ private:
     return distance;
   }
 
-  /// Those with the largest distances, each in a triangle of its own.
+  /// The samples with the largest distances, each in a different triangle.
   std::vector<std::size_t> farthestSamples() const
   {
     std::vector<std::size_t> order(ofSamples_.size());
@@ -234,7 +238,7 @@ private:
     return farthest;
   }
 
-  /// The normals here at samples, and those of the other surface at the nearest places.
+  /// Compares the normals at samples with those of the other surface at the nearest places.
   void compareNormals(const ComparedSurface& other, DistanceFigures& figures) const
   {
     const std::size_t stride = (samples_.size() + MostAngleSamples - 1) / MostAngleSamples;
@@ -259,7 +263,7 @@ private:
   std::vector<Near> ofSamples_;
 };
 
-/// What sets out from the edges of one surface.
+/// Measures the figures that start from the edges of one surface.
 void compareEdges(const ComparedEdges& edges, const ComparedEdges& other,
   const NearestTriangle& otherSurface, double unit, DistanceFigures& figures,
   const Executor& executor)

@@ -23,9 +23,10 @@ constexpr std::size_t LeastProbes = 1000;
 constexpr std::array FidelitiesToTry = { Fidelity::Default, Fidelity::High };
 constexpr double LeastGain = 0.01;
 constexpr double LeastGainInDoubts = 3.;
-/// Noise, in mean edge lengths: with less there is nothing to smooth but edges.
+/// Larger lambdas are tried only if the noise, in mean edges, is larger. With less there is nothing
+/// to smooth.
 constexpr double NoiseToSmooth = 0.05;
-/// Lambda by the data, of patches.
+/// No lambda is tried if the automatic lambdas of patches differ by a larger factor.
 constexpr double MostSmoothnessOverLeast = 3.;
 
 std::string text(double value, int digits = 2)
@@ -36,7 +37,7 @@ std::string text(double value, int digits = 2)
   return stream.str();
 }
 
-/// A word, or a number of so many digits.
+/// The word for a value, or the value with so many digits.
 std::string text(std::string_view parameter, double value, int digits = 2)
 {
   const std::string_view word = tunedWord(parameter, value);
@@ -49,7 +50,7 @@ std::string inWords(const TuningTrial& trial)
     text(trial.parameter, trial.before);
 }
 
-/// To two digits: what is told is what is used.
+/// Rounds to two digits, so that the value in the report is the one in use.
 double rounded(double value)
 {
   const double unit = std::pow(10., std::floor(std::log10(value)) - 1.);
@@ -66,7 +67,7 @@ double meanOf(std::span<const double> values)
   return sum / double(values.size());
 }
 
-/// By how much squared distances are less than those before.
+/// The reduction of squared distances.
 struct Comparison
 {
   double before = 0.;
@@ -74,9 +75,9 @@ struct Comparison
   double doubt = 0.; ///< standard error of the gain
 };
 
-/// Points side by side have their distances in common, and where one of the meshes has a gap or a
-/// fold the other one is no better: so what is compared are the means of blocks of points, without
-/// the fifth of them that gain most and the fifth that lose most (a trimmed mean).
+/// Compares means of blocks of points, as points side by side have similar distances. The fifth of
+/// the blocks that gain most and the fifth that lose most do not count (a trimmed mean): a gap or a
+/// fold in one mesh makes the other one no better.
 Comparison compare(std::span<const double> before, std::span<const double> after)
 {
   constexpr std::size_t Blocks = 100;
@@ -125,7 +126,7 @@ Comparison compare(std::span<const double> before, std::span<const double> after
   return { meanOf(befores), mean, std::sqrt(variance / double(gains.size())) / kept };
 }
 
-/// Tries values one after the other.
+/// Tries values one after another.
 class Tuner
 {
 public:
@@ -152,7 +153,7 @@ public:
   }
 
 private:
-  /// Learns with the parameters as they are. Returns whether there is enough to measure by.
+  /// Learns with the present parameters. Returns whether there are enough points to measure by.
   bool learn()
   {
     onAll([&](std::size_t i, const Progress& progress)
@@ -218,7 +219,7 @@ private:
     }
   }
 
-  /// Whether there is a patch for which the one does something else than the other.
+  /// Whether two fidelities make different rounds on any patch.
   bool hasOtherRounds(Fidelity one, Fidelity other) const
   {
     return std::any_of(isClean_.begin(), isClean_.end(),
@@ -226,7 +227,7 @@ private:
       { return FidelityRounds::count(one, isClean) != FidelityRounds::count(other, isClean); });
   }
 
-  /// Less than lambda by the data, or more.
+  /// Tries smaller and larger factors of the automatic lambda.
   void chooseSmoothness()
   {
     if (result_.parameters.fitSmoothness > 0.)
@@ -268,7 +269,7 @@ private:
     }
   }
 
-  /// The vertices alone end a trial.
+  /// The parameters of a trial, which only the number of vertices ends.
   static Parameters forTrial(Parameters parameters)
   {
     parameters.maximumIterations = 0;
@@ -280,10 +281,10 @@ private:
     return parameters;
   }
 
-  /// Of each patch; nothing where it was not finished.
+  /// The mesh of each patch; nothing if it was not finished.
   using PatchMeshes = std::vector<std::optional<PatchMesh>>;
 
-  /// Finishes what all patches have learnt, with the lambda of each by the data times a factor.
+  /// Finishes the learnt meshes of all patches. Each has its automatic lambda times a factor.
   PatchMeshes finishAll(const Parameters& parameters, double factor)
   {
     PatchMeshes meshes(patches_.size());
@@ -310,7 +311,7 @@ private:
     }
   }
 
-  /// Calls work(patch, progress), with as many at once as the executor runs.
+  /// Calls work(patch, progress) for all patches, with as many at once as the executor runs.
   template <typename Work>
   void onAll(const Work& work)
   {
@@ -319,7 +320,7 @@ private:
     executor_.forEachPart(patches_.size(),
       [&](std::size_t i)
       {
-        // Only the thread of the caller may tell him.
+        // Only the calling thread may call the progress of the caller.
         const Progress progress = [&](double)
         {
           if (std::this_thread::get_id() == asking && !progress_(done()))

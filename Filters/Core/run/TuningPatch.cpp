@@ -18,12 +18,12 @@ namespace
 {
 constexpr std::size_t PatchCount = 4;
 constexpr std::size_t PointsPerHeldOut = 5;
-/// Different ones: around many points in one place there is no more to learn than there is of it.
+/// A patch has at least so many different points: points that coincide count once.
 constexpr std::size_t LeastPointsOfPatch = 1000;
-/// Of the radius of a patch: what is beyond is not measured, as meshes have their rim there.
+/// Points beyond this part of the radius are not measured, as the rim of the mesh is there.
 constexpr float InnerPart = 0.8f;
 
-/// The radius of a ball that holds such a share of the points.
+/// The radius of a ball that holds this share of the points.
 float radiusOf(const PointCloud& cloud, Vector4 center, double share)
 {
   constexpr std::size_t Enough = 50000;
@@ -45,8 +45,8 @@ Vector4 unitVector(Vector4 vector)
   return squared > 0.f ? (1.f / std::sqrt(squared)) * vector : vector;
 }
 
-/// Unit normals of the vertices, averaged over a few rings: they tell of the shape at large, and not
-/// of the roughness that one fit has and another one has not.
+/// Unit normals of the vertices, averaged over a few rings: they follow the large shape, not the
+/// roughness, which differs between fits.
 std::vector<Vector4> normalsAtLarge(const Mesh& mesh)
 {
   constexpr int Rounds = 10;
@@ -86,7 +86,7 @@ TuningPatch::TuningPatch(
     [&](Vector4 point)
     {
       const bool isHeldOut = index++ % PointsPerHeldOut == 0;
-      // In Morton order, equal ones are neighbours; each is evidence only once.
+      // Equal points are neighbours in Morton order. Each counts once.
       if (isHeldOut && (heldOut_.empty() || squaredNorm(point - heldOut_.back()) > 0.f))
       {
         heldOut_.push_back(point);
@@ -144,7 +144,7 @@ Parameters TuningPatch::own(Parameters parameters) const
 
 void TuningPatch::beginFor(const Parameters& parameters, const Progress& progress)
 {
-  // By itself it is the same for all meshes as small as that of a patch.
+  // The automatic density is the same for all meshes as small as that of a patch.
   const double density = parameters.curvatureDensity;
   if (!beginning_)
   {
@@ -237,14 +237,15 @@ void TuningPatch::aim(const Mesh& mesh)
 std::vector<double> TuningPatch::squaredDistances(const Mesh& mesh) const
 {
   constexpr int Steps = 3;
-  // Triangles that are turned farther away count as if they were not.
+  // The cosine of a triangle that is turned farther away counts as this.
   constexpr float LeastCosine = 0.3f;
   const VertexGrid grid = gridOf(mesh, cloud_);
   std::vector<double> result;
   result.reserve(probes_.size());
   for (const Probe& probe : probes_)
   {
-    // Where the line through the point meets the triangle that is closest to where it met the last.
+    // Finds where the line through the point meets the mesh: each step intersects it with the
+    // triangle closest to the last place.
     Vector4 place = probe.foot;
     double squared = 0.;
     for (int step = 0; step < Steps; ++step)

@@ -16,52 +16,52 @@
 
 namespace neuralmesh
 {
-/// A mesh of a patch, and how it was finished.
+/// A finished mesh of a patch.
 struct PatchMesh
 {
   Mesh mesh;
   FinishReport report;
 };
 
-/// A ball of the cloud that holds so many of its points as some of the vertices have to themselves,
-/// so that points and noise are to a triangle what they are in a mesh of the whole cloud. A fifth of
-/// the points is held out.
+/// A ball of the cloud with as many points as belong to some of the vertices. So points and noise
+/// have the same size compared to triangles as in a mesh of the whole cloud. A fifth of the points
+/// is held out.
 ///
-/// How far these lie from a mesh is measured along a direction that is the same for all meshes: to
-/// the closest place they all come, and a rough surface has one close to any point.
+/// The distance of held-out points to a mesh is measured along a direction that is the same for all
+/// meshes. The closest place would favour rough surfaces: these have a close place for any point.
 class TuningPatch
 {
 public:
-  /// Of the mesh of a patch.
+  /// The number of vertices of the mesh of a patch.
   static constexpr std::uint64_t PatchVertices = 2000;
 
   TuningPatch(const PointCloud& cloud, Vector4 center, float radius, std::uint64_t vertices);
 
-  /// Patches of the cloud around random points, but for stray ones; all of the cloud, once, if not
-  /// much more than a patch is wanted of it. None where there are too few different points.
+  /// Patches around random points of the cloud, except stray ones. The whole cloud is the only
+  /// patch if it is not much larger than a patch. None if there are too few different points.
   static std::vector<TuningPatch> patchesOf(const PointCloud& cloud, const Parameters& parameters);
 
-  /// What is there to learn from.
+  /// The points from which the patch learns.
   const PointCloud& cloud() const { return cloud_; }
-  /// How many of the mesh it has to itself.
+  /// The number of vertices of the whole mesh that belong to the patch.
   std::uint64_t vertices() const { return vertices_; }
 
-  /// Learns a mesh of the patch, all but the last stages of a run. The first surface stays from one
-  /// call to the next.
+  /// Learns a mesh of the patch: all stages of a run except the last ones. The first surface is
+  /// kept for the next call.
   void learn(const Parameters& parameters, const Progress& progress);
-  /// Finishes what was learnt, which stays as it is for other parameters of the fit. Nothing if
-  /// there is nothing that was learnt, or if it was ended before.
+  /// Finishes a copy of the learnt mesh, which may be finished again with other parameters of the
+  /// fit. Returns nothing if nothing is learnt, or `progress` ended it.
   std::optional<PatchMesh> finish(const Parameters& parameters, const Progress& progress) const;
 
-  /// Lays down the directions, by the shape at large of a mesh of this patch.
+  /// Sets the directions by the large shape of a mesh of this patch.
   void aim(const Mesh& mesh);
   std::size_t probeCount() const { return probes_.size(); }
-  /// Squared distances of the held-out points from another mesh, or from that one; infinite where
-  /// that has its boundary.
+  /// The squared distances of the held-out points to that mesh or another one; infinite beyond its
+  /// boundary.
   std::vector<double> squaredDistances(const Mesh& mesh) const;
 
 private:
-  /// A held-out point, and where to look for meshes from there.
+  /// A held-out point, and the line along which its distance is measured.
   struct Probe
   {
     Vector4 point;
@@ -70,9 +70,9 @@ private:
     float farthest = 0.f; ///< no distance counts as more
   };
 
-  /// That without clusters of outliers, from where they were looked for.
+  /// The cloud without clusters of outliers, if it was searched for them.
   const PointCloud& learntCloud() const { return cleaned_ ? *cleaned_ : cloud_; }
-  /// `parameters` for a mesh of the patch.
+  /// The parameters for a mesh of the patch.
   Parameters own(Parameters parameters) const;
   void beginFor(const Parameters& parameters, const Progress& progress);
 
