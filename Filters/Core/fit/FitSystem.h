@@ -120,10 +120,10 @@ private:
   const Executor& executor_;
   float slip_;
   SymmetricBlocks diagonal_;
-  std::vector<std::uint32_t>
-    firstEntry_; ///< for each vertex, the block of its first higher neighbour
-  std::vector<std::uint8_t>
-    rank_; ///< for each edge at each vertex, its position among the entries of the lower one
+  /// For each vertex, the block of its first higher neighbour
+  std::vector<std::uint32_t> firstEntry_;
+  /// For each edge at each vertex, its position among the entries of the lower vertex
+  std::vector<std::uint8_t> rank_;
   std::optional<SymmetricBlocks> others_; ///< one for each edge
   PackedVectors rightSide_;
   std::span<const float> parts_;    ///< the part of lambda at each vertex; empty: all 1

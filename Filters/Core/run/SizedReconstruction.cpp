@@ -126,8 +126,8 @@ private:
   {
     LearntRun run;
     HeldOutError error;
-    bool isMadeAgain =
-      false; ///< made from a finished mesh, with the number that was expected to be enough
+    /// Whether it was made from a finished mesh, with the number that was expected to be enough
+    bool isMadeAgain = false;
 
     std::uint64_t vertices() const { return run.learnt.mesh.vertexCount(); }
   };
