@@ -213,16 +213,14 @@ void RequireResult(
 int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions& options)
 {
   vtkNew<ErrorCollector> errors;
+  errors->HideWarningsOfMesh(); // The trials are none of the user's.
   errors->Observe(filter);
-  const neuralmesh::RunEstimate estimate = EstimateRun(filter, points);
+  const std::string report = EstimateRun(filter, points);
   RequireResult(filter, *errors, options);
   std::printf("points     %lld\n", static_cast<long long>(points->GetNumberOfPoints()));
   std::printf("vertices   %lld\n",
     static_cast<long long>(options.Size.GetMostVertices(points->GetNumberOfPoints())));
-  std::printf("samples    about %.3g million\n", 1e-6 * estimate.samples);
-  std::printf("memory     about %.0f MB\n", 1e-6 * estimate.bytes);
-  std::printf(
-    "time       about %.2g s of learning, on this machine as it is now\n", estimate.seconds);
+  std::fputs(report.c_str(), stdout);
   return 0;
 }
 

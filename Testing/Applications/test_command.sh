@@ -575,11 +575,39 @@ test_dry_run()
   expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 100000 --dry-run
   local what
   for what in 'vertices +100000$' 'samples +about [0-9.]+ million$' 'memory +about [0-9]+ MB$' \
-    'time +about [0-9.]+ s '; do
+    'time +about [0-9.]+ s of processor time, [0-9.]+ (s|min) on this machine as it is now$'; do
     grep -Eq "^$what" out || fail "no line '$what'"
   done
   [ "$(sed -n 's/^memory *about \([0-9]*\) MB/\1/p' out)" -gt 50 ] || fail "too little memory"
   [ ! -e mesh.ply ] || fail "a mesh was written"
+}
+
+# Promise: of an open scan with noise and narrow gaps a dry run foretells the samples up to a factor of two and the
+# processor time up to five, and warns of nothing that only its trials have.
+test_dry_run_of_scan()
+{
+  /usr/bin/python3 - <<'PYTHON'
+import numpy as np
+random = np.random.default_rng(5)
+plane = random.uniform(-1, 1, (60000, 2))
+height = 0.1 * np.sin(5 * plane[:, 0]) + 0.03 * random.integers(0, 2, len(plane))
+points = np.column_stack((plane, height))
+np.savetxt("scan.xyz", points + random.normal(0, 0.005, points.shape), fmt="%.6f")
+PYTHON
+  expect 0 "$neuralmesh" reconstruct scan.xyz mesh.ply --dry-run
+  [ ! -s err ] || { cat err; fail "a dry run warns"; }
+  mv out foretold
+  expect 0 "$neuralmesh" reconstruct scan.xyz mesh.ply
+  /usr/bin/python3 - <<'PYTHON' || { cat foretold out; fail "a wrong estimate"; }
+import re, sys
+def number(pattern, name):
+    return float(re.search(pattern, open(name).read(), re.MULTILINE)[1])
+samples = 1e6 * number(r"^samples +about ([0-9.]+) million$", "foretold")
+seconds = number(r"^time +about ([0-9.]+) s of processor time", "foretold")
+within = lambda told, true, factor: true / factor < told < factor * true
+sys.exit(not (within(samples, number(r"^samples +([0-9]+),", "out"), 2)
+    and within(seconds, number(r"^phases +([0-9.]+) CPU s", "out"), 5)))
+PYTHON
 }
 
 make_cloud

@@ -17,6 +17,8 @@ _Result = TypeVar("_Result")
 
 version: str
 tried_vertices: int
+tried_additions: int
+most_tried_start: int
 
 def preset(preset: int, variant: int, order: int) -> dict[str, int | float]: ...
 def stream_error(parameters: _Dict) -> str: ...
@@ -79,15 +81,8 @@ def scan(
     progress: _Progress,
 ) -> _Array: ...
 def report(points: _Array, triangles: _Array) -> _Dict: ...
-def estimate(
-    vertices: float,
-    points: float,
-    bytes_of_points: float,
-    samples_for_features: float,
-    is_ensemble: bool,
-    growth: _Array,
-    seconds_of_trial: float,
-) -> _Three: ...
+def estimate(plan: _Dict, trial: _Dict, start: _Dict, wall_seconds: float) -> str: ...
+def learnt_vertices(plan: _Dict) -> float: ...
 @overload
 def tune(points: Sequence[_Array], parameters: _Dict, threads: int, progress: None) -> _Dict: ...
 @overload
