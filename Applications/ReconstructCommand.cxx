@@ -546,7 +546,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     "With --raw: bytes before the first point", "BYTES");
   AddNumber(command, "--threads", options->Threads, threads,
     "Largest number of threads, " + Described(threads) +
-      "; 0: as many as the machine runs at once; the mesh is the same with any number",
+      "; 0: as many as the process may run at once; the mesh is the same with any number",
     "N");
   command
     ->add_option("--statistics", options->Statistics, "Write the learning curve to this .csv file")

@@ -15,6 +15,7 @@
 #include "Values.h"
 
 #include "base/AtomicFile.h"
+#include "base/AvailableProcessors.h"
 #include "run/Ensemble.h"
 #include "run/RunEstimate.h"
 
@@ -258,6 +259,7 @@ void bindMeasures(nb::module_& module)
     [](const ArrayOf<double>& points, const ArrayOf<std::int64_t>& triangles)
     { return report(meshOf(points, triangles)); },
     "points"_a, "triangles"_a);
+  module.def("available_processors", &availableProcessors);
   module.attr("tried_vertices") = TriedVertices;
   module.attr("tried_additions") = TriedAdditions;
   module.attr("most_tried_start") = MostTriedStart;

@@ -295,8 +295,8 @@ def _add_run(result: Parser) -> None:
     )
     result.add_number(
         "--threads", "NumberOfThreads",
-        f"Largest number of threads, {described('NumberOfThreads')}; 0: as many as the machine runs at "
-        "once; the mesh is the same with any number", "N",
+        f"Largest number of threads, {described('NumberOfThreads')}; 0: as many as the process may run "
+        "at once; the mesh is the same with any number", "N",
     )  # fmt: skip
     result.add_text(
         "--statistics", "Write the learning curve to this .csv file", "FILE"
