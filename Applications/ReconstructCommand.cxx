@@ -38,15 +38,12 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <string_view>
 
 namespace
 {
-/// What shells give for a process that Ctrl-C has ended.
-constexpr int InterruptedStatus = 128 + SIGINT;
 /// With --strict, if there was a warning.
 constexpr int WarnedStatus = 3;
 
@@ -416,7 +413,7 @@ int Reconstruct(const ReconstructOptions& options)
   }
   if (isCancelled)
   {
-    return InterruptedStatus;
+    return interruption->GetExitStatus();
   }
   return options.Strict && isWarned ? WarnedStatus : 0;
 }
@@ -577,9 +574,10 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   command->add_flag("--quiet", options->Quiet, "Print only errors and warnings");
   command->footer("Parameters of learning, for --set:\n" + DescribeLearningParameters() +
     "\nFor example: neuralmesh reconstruct scan.ply mesh.vtp --vertices 20000\n"
-    "Ctrl-C ends the learning and writes the mesh learnt so far.\nEach warning ends with a tag in "
+    "Ctrl-C, SIGTERM or SIGHUP end the learning and write the mesh learnt so far.\nEach warning "
+    "ends with a tag in "
     "brackets: a heading of Documentation/Guide/Failures.md.\n"
     "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 3 done with a "
-    "warning\nand --strict, 130 after Ctrl-C.");
+    "warning\nand --strict, 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP.");
   return [options] { return Reconstruct(*options); };
 }

@@ -198,7 +198,7 @@ CASES
   "$neuralmesh" --help > help
   for mistyped in recontruct cloud.xyz; do
     expect 2 "$neuralmesh" $mistyped mesh.ply
-    [ "$(head -n 1 err)" = "A subcommand is required" ] || { cat err; fail "another message"; }
+    [[ "$(head -n 1 err)" = "no such subcommand: "* ]] || { cat err; fail "another message"; }
     tail -n "$(wc -l < help)" err | cmp - help || fail "there is no help for $mistyped"
     mv err "$mistyped.err"
   done
@@ -297,6 +297,42 @@ test_ctrl_c()
   grep -Eq "^points +$vertices " out || fail "the mesh is not whole"
   tail -n 1 curve.csv | grep -q ",$vertices," || fail "the statistics do not end with the mesh"
   [ "$(find . -name '.*.ply' | wc -l)" -eq 0 ] || fail "a temporary file was left"
+}
+
+# Promise: what ends jobs of a cluster does the same as Ctrl-C, and the status tells which signal it was; the checkpoint
+# is that of the end. Under nohup, a closed terminal ends nothing.
+test_signals()
+{
+  local signal
+  for signal in TERM HUP; do
+    expect $((128 + $(kill -l $signal))) interrupted 100 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
+      --vertices 100000000 --set FitRounds=0 --checkpoint state --checkpoint-interval 1000
+    grep -q 'ended by: cancelled' out || fail "the summary does not say why it ended"
+    grep -q '^checkpoint state: the same command' out || fail "there is no checkpoint"
+    expect 0 "$neuralmesh" info mesh.ply
+    rm mesh.ply state
+  done
+  signal=HUP
+  expect 0 interrupted 30 nohup "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 20000
+}
+
+# Promise: where the standard output or a file cannot grow, the status is 1, with words, and no half mesh stays.
+test_full_disk()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 300 --quiet
+  local arguments
+  for arguments in "info mesh.ply" "info --json mesh.ply" "compare mesh.ply mesh.ply" "--help" \
+    "reconstruct cloud.xyz again.ply --vertices 300" "explain cloud.xyz mesh.ply points.vtp" \
+    "tune cloud.xyz --vertices 300"; do
+    # shellcheck disable=SC2016,SC2086
+    expect 1 bash -c '"$@" > /dev/full' bash "$neuralmesh" $arguments
+    grep -q '^neuralmesh: the standard output cannot be written' err || { cat err; fail "no words"; }
+  done
+  # shellcheck disable=SC2016
+  expect 1 bash -c 'ulimit -f 8; "$@" 2> words' bash "$neuralmesh" reconstruct cloud.xyz large.ply \
+    --vertices 3000 --quiet
+  grep -q '^neuralmesh: large.ply: ' words || { cat words; fail "no words of the file"; }
+  [ "$(find . -name '*large*' | wc -l)" -eq 0 ] || fail "a half file stays"
 }
 
 # Promise: the statistics are a table with a line of names, and end with the result.
