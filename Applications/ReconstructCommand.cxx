@@ -529,7 +529,8 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     ".vtk");
   AddNumber(command, "--time-limit", options->TimeLimit, seconds,
     "Largest time of learning in seconds, " + Described(seconds) +
-      "; the mesh learnt so far is written; 0: no limit",
+      "; the mesh learnt so far is written, with a warning; 0: no limit. A run that goes on from a "
+      "checkpoint and has all its vertices is finished whatever the limit",
     "SECONDS");
   command->add_flag("--in-place", options->InPlace,
     "Draw points from INPUT, which may be larger than the memory, instead of reading it. INPUT is "

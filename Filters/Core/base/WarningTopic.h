@@ -27,6 +27,7 @@ enum class WarningTopic
   InsideOut,
   NarrowHandles,
   GrowthStopped,
+  MeshIsUnfinished,
   FinerThanData,
   FitTakenBack,
   SideIsUnknown,

@@ -275,8 +275,9 @@ def _add_run(result: Parser) -> None:
     )
     result.add_number(
         "--time-limit", "TimeLimit",
-        f"Largest time of learning in seconds, {described('TimeLimit')}; the mesh learnt so far is written; "
-        "0: no limit", "SECONDS",
+        f"Largest time of learning in seconds, {described('TimeLimit')}; the mesh learnt so far is written, "
+        "with a warning; 0: no limit. A run that goes on from a checkpoint and has all its vertices is "
+        "finished whatever the limit", "SECONDS",
     )  # fmt: skip
     result.add_flag(
         "--in-place",
