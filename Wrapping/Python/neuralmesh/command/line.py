@@ -90,7 +90,7 @@ def _run(command: Callable[[Sequence[str]], int | None], arguments: Sequence[str
 
 
 def _finished(status: int) -> int:
-    """What was done, and printed, which a full disk tells only now."""
+    """The status, once all is printed: a full disk tells only then."""
     try:
         sys.stdout.flush()
     except BrokenPipeError:
