@@ -29,7 +29,7 @@ def print_estimate(mesh: Any, points: Mesh, first: Mesh | None, names: str) -> N
 
 
 def plan_of(mesh: Any, points: Mesh) -> dict[str, Any]:
-    """All that can be told of a run beforehand."""
+    """The plan of a run, as far as it is known beforehand."""
     vertices = mesh.GetNumberOfVertices()
     arrays = [points.points, *(np.asarray(one) for one in points.point_data.values())]
     return {
