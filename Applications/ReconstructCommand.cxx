@@ -21,6 +21,7 @@
 #include "RunEstimate.h"
 #include "RunReport.h"
 #include "SizeOptions.h"
+#include "Stopwatch.h"
 #include "SurfaceInputs.h"
 #include "TableWriter.h"
 
@@ -37,9 +38,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <new>
 #include <string_view>
 
 namespace
@@ -89,22 +91,6 @@ struct ReconstructOptions
   double CheckpointInterval = 0.0;
   bool DryRun = false;
   bool Quiet = false;
-};
-
-class Stopwatch
-{
-public:
-  /** Seconds since the last call. */
-  double Lap()
-  {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - this->Last).count();
-    this->Last = now;
-    return seconds;
-  }
-
-private:
-  std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
 };
 
 const std::vector<PropertyWord> Jumps{ { "constant", vtkNeuralMesh::CONSTANT, "" },
@@ -212,8 +198,17 @@ int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructO
   vtkNew<ErrorCollector> errors;
   errors->HideWarningsOfMesh(); // The trials are none of the user's.
   errors->Observe(filter);
-  const std::string report = EstimateRun(filter, points);
-  RequireResult(filter, *errors, options);
+  std::string report = neuralmesh::estimateRun(PlanRun(filter, points), {}).report(1.0);
+  try
+  {
+    report = EstimateRun(filter, points);
+    RequireResult(filter, *errors, options);
+  }
+  catch (const std::bad_alloc&)
+  {
+    // The memory is told all the same.
+    report += "time       not known: there is not enough memory to try it\n";
+  }
   std::printf("points     %lld\n", static_cast<long long>(points->GetNumberOfPoints()));
   std::printf("vertices   %lld\n",
     static_cast<long long>(options.Size.GetMostVertices(points->GetNumberOfPoints())));
@@ -239,6 +234,22 @@ bool Learn(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions&
   bar->Clear();
   RequireResult(filter, *errors, options);
   return errors->HasWarning();
+}
+
+/** The same, and where there is not enough memory says how much it takes. */
+bool LearnInMemory(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions& options)
+{
+  const double bytes = neuralmesh::estimatedBytes(PlanRun(filter, points));
+  try
+  {
+    return Learn(filter, points, options);
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw std::runtime_error("there is not enough memory: the run takes about " +
+      std::to_string(std::llround(1e-6 * bytes)) +
+      " MB; fewer vertices take less, and --in-place reads no more of a file than it needs");
+  }
 }
 
 /** A sampler of the file in which it lies, if that is wanted. */
@@ -377,7 +388,7 @@ int Reconstruct(const ReconstructOptions& options)
   filter->KeepCheckpointOn(); // until the mesh is written
   vtkNew<Interruption> interruption;
   filter->AddObserver(vtkCommand::ProgressEvent, interruption);
-  const bool isWarned = Learn(filter, points, options);
+  const bool isWarned = LearnInMemory(filter, points, options);
   seconds.Learning = stopwatch.Lap();
 
   vtkPolyData* mesh = filter->GetOutput();

@@ -77,8 +77,8 @@ int main(int argc, char* argv[])
   }
   catch (const std::bad_alloc&)
   {
-    std::cerr << "neuralmesh: there is not enough memory; --dry-run tells how much it takes, "
-                 "and --in-place reads no more of a file than it needs"
+    std::cerr << "neuralmesh: there is not enough memory to read what is given; "
+                 "--in-place reads no more of a file than it needs"
               << std::endl;
     return Failed;
   }

@@ -335,6 +335,26 @@ test_full_disk()
   [ "$(find . -name '*large*' | wc -l)" -eq 0 ] || fail "a half file stays"
 }
 
+# Promise: where the memory is too small for a run, the message tells how much it takes, and so does a dry run.
+test_memory()
+{
+  make_cloud 100000
+  local limit
+  for limit in $(seq 90000 10000 900000); do
+    # shellcheck disable=SC2016
+    bash -c 'ulimit -v "$1"; shift; "$@"' bash "$limit" "$neuralmesh" reconstruct cloud.xyz mesh.ply --threads 1 \
+      --vertices 50000 --quiet > out 2> err && fail "no limit was too small for the run alone"
+    if grep -Eq 'not enough memory: the run takes about [0-9]+ MB' err; then
+      break
+    fi
+  done
+  [ ! -e mesh.ply ] || fail "a mesh was written"
+  # shellcheck disable=SC2016
+  expect 0 bash -c 'ulimit -v "$1"; shift; "$@"' bash "$limit" "$neuralmesh" reconstruct cloud.xyz mesh.ply \
+    --threads 1 --vertices 50000 --dry-run
+  grep -Eq '^memory +about [0-9]+ MB$' out || fail "the dry run does not tell"
+}
+
 # Promise: the statistics are a table with a line of names, and end with the result.
 test_statistics()
 {
