@@ -20,9 +20,13 @@ def print_estimate(mesh: Any, points: Mesh, first: Mesh | None, names: str) -> N
     points, and tell what the whole run will take."""
     plan = plan_of(mesh, points)
     start, processor_start = time.monotonic(), time.process_time()
-    trials = _trials(mesh, points, first, plan, names)
-    seconds, used = time.monotonic() - start, time.process_time() - processor_start
-    report = _engine.estimate(plan, *trials, seconds / max(used, 1e-3))
+    try:
+        trials = _trials(mesh, points, first, plan, names)
+        seconds, used = time.monotonic() - start, time.process_time() - processor_start
+        report = _engine.estimate(plan, *trials, seconds / max(used, 1e-3))
+    except MemoryError:
+        report = _engine.estimate(plan, {}, {}, 1.0)
+        report += "time       not known: there is not enough memory to try it\n"
     print(f"points     {len(points.points)}")
     print(f"vertices   {int(plan['vertices'])}")
     print(report, end="")

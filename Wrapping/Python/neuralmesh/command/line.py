@@ -75,7 +75,7 @@ def _run(command: Callable[[Sequence[str]], int | None], arguments: Sequence[str
         return _say(error, WRONG_USE)
     except MemoryError:
         return _say(
-            "there is not enough memory; --dry-run tells how much it takes, and --in-place reads no "
+            "there is not enough memory; --dry-run tells how much a run takes, and --in-place reads no "
             "more of a file than it needs",
             _FAILED,
         )
