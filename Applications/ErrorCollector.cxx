@@ -2,6 +2,7 @@
 #include "ErrorCollector.h"
 
 #include "base/OneLine.h"
+#include "base/WarningTopic.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkExecutive.h"
@@ -45,7 +46,12 @@ void ErrorCollector::Execute(vtkObject* caller, unsigned long event, void* callD
   const std::string text = PlainText(static_cast<const char*>(callData));
   if (event == vtkCommand::WarningEvent && !vtkOutputWindow::SafeDownCast(caller))
   {
+    if (this->IsHidden(text))
+    {
+      return;
+    }
     this->Warning = true;
+    this->Shown.push_back(text);
     if (this->Deferring)
     {
       this->DeferredWarnings.push_back(text);
@@ -64,6 +70,14 @@ void ErrorCollector::Execute(vtkObject* caller, unsigned long event, void* callD
       this->Message = text;
     }
   }
+}
+
+bool ErrorCollector::IsHidden(const std::string& warning) const
+{
+  const bool isOfMesh = warning.ends_with(']') &&
+    !warning.ends_with(neuralmesh::taggedWarning(neuralmesh::WarningTopic::FirstMesh, ""));
+  return this->HidingOfMesh &&
+    (isOfMesh || std::find(this->Shown.begin(), this->Shown.end(), warning) != this->Shown.end());
 }
 
 void ErrorCollector::ShowDeferredWarnings()

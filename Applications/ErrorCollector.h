@@ -34,12 +34,19 @@ public:
   void DeferWarnings() { this->Deferring = true; }
   void ShowDeferredWarnings();
 
+  /** From now on, of warnings shows those of the input alone, each once: not what has the tag of a mesh. */
+  void HideWarningsOfMesh() { this->HidingOfMesh = true; }
+
 private:
+  bool IsHidden(const std::string& warning) const;
+
   bool Error = false;
   bool Warning = false;
   std::string Message;
   bool Deferring = false;
   std::vector<std::string> DeferredWarnings;
+  bool HidingOfMesh = false;
+  std::vector<std::string> Shown;
 };
 
 #endif

@@ -7,23 +7,50 @@
 
 namespace
 {
-volatile std::sig_atomic_t Interrupted = 0;
+volatile std::sig_atomic_t InterruptingSignal = 0;
 
-extern "C" void Interrupt(int) { Interrupted = 1; }
+extern "C" void Interrupt(int signal) { InterruptingSignal = signal; }
+
+constexpr int Signals[] = { SIGINT, SIGTERM,
+#ifdef SIGHUP
+  SIGHUP
+#endif
+};
 }
 
 Interruption::Interruption()
 {
-  Interrupted = 0;
-  this->Before = std::signal(SIGINT, Interrupt);
+  InterruptingSignal = 0;
+  for (const int signal : Signals)
+  {
+    auto* const before = std::signal(signal, Interrupt);
+    this->Before.emplace_back(signal, before);
+    // What runs under nohup goes on when its terminal is closed.
+    if (signal != SIGINT && before == SIG_IGN)
+    {
+      std::signal(signal, SIG_IGN);
+    }
+  }
 }
 
-Interruption::~Interruption() { std::signal(SIGINT, this->Before); }
+Interruption::~Interruption()
+{
+  for (const auto& [signal, before] : this->Before)
+  {
+    std::signal(signal, before);
+  }
+}
+
+int Interruption::GetExitStatus() const
+{
+  constexpr int StatusOfSignals = 128;
+  return StatusOfSignals + (InterruptingSignal ? InterruptingSignal : SIGINT);
+}
 
 void Interruption::Execute(vtkObject* caller, unsigned long, void*)
 {
   auto* filter = vtkAlgorithm::SafeDownCast(caller);
-  if (Interrupted && filter)
+  if (InterruptingSignal && filter)
   {
     filter->SetAbortExecute(1);
   }

@@ -21,6 +21,7 @@
 #include "RunEstimate.h"
 #include "RunReport.h"
 #include "SizeOptions.h"
+#include "Stopwatch.h"
 #include "SurfaceInputs.h"
 #include "TableWriter.h"
 
@@ -37,16 +38,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include <chrono>
-#include <csignal>
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <new>
 #include <string_view>
 
 namespace
 {
-/// What shells give for a process that Ctrl-C has ended.
-constexpr int InterruptedStatus = 128 + SIGINT;
 /// With --strict, if there was a warning.
 constexpr int WarnedStatus = 3;
 
@@ -92,22 +91,6 @@ struct ReconstructOptions
   double CheckpointInterval = 0.0;
   bool DryRun = false;
   bool Quiet = false;
-};
-
-class Stopwatch
-{
-public:
-  /** Seconds since the last call. */
-  double Lap()
-  {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - this->Last).count();
-    this->Last = now;
-    return seconds;
-  }
-
-private:
-  std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
 };
 
 const std::vector<PropertyWord> Jumps{ { "constant", vtkNeuralMesh::CONSTANT, "" },
@@ -213,16 +196,23 @@ void RequireResult(
 int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions& options)
 {
   vtkNew<ErrorCollector> errors;
+  errors->HideWarningsOfMesh(); // The trials are none of the user's.
   errors->Observe(filter);
-  const neuralmesh::RunEstimate estimate = EstimateRun(filter, points);
-  RequireResult(filter, *errors, options);
+  std::string report = neuralmesh::estimateRun(PlanRun(filter, points), {}).report(1.0);
+  try
+  {
+    report = EstimateRun(filter, points);
+    RequireResult(filter, *errors, options);
+  }
+  catch (const std::bad_alloc&)
+  {
+    // The memory is told all the same.
+    report += "time       not known: there is not enough memory to try it\n";
+  }
   std::printf("points     %lld\n", static_cast<long long>(points->GetNumberOfPoints()));
   std::printf("vertices   %lld\n",
     static_cast<long long>(options.Size.GetMostVertices(points->GetNumberOfPoints())));
-  std::printf("samples    about %.3g million\n", 1e-6 * estimate.samples);
-  std::printf("memory     about %.0f MB\n", 1e-6 * estimate.bytes);
-  std::printf(
-    "time       about %.2g s of learning, on this machine as it is now\n", estimate.seconds);
+  std::fputs(report.c_str(), stdout);
   return 0;
 }
 
@@ -244,6 +234,22 @@ bool Learn(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions&
   bar->Clear();
   RequireResult(filter, *errors, options);
   return errors->HasWarning();
+}
+
+/** The same, and where there is not enough memory says how much it takes. */
+bool LearnInMemory(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions& options)
+{
+  const double bytes = neuralmesh::estimatedBytes(PlanRun(filter, points));
+  try
+  {
+    return Learn(filter, points, options);
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw std::runtime_error("there is not enough memory: the run takes about " +
+      std::to_string(std::llround(1e-6 * bytes)) +
+      " MB; fewer vertices take less, and --in-place reads no more of a file than it needs");
+  }
 }
 
 /** A sampler of the file in which it lies, if that is wanted. */
@@ -382,7 +388,7 @@ int Reconstruct(const ReconstructOptions& options)
   filter->KeepCheckpointOn(); // until the mesh is written
   vtkNew<Interruption> interruption;
   filter->AddObserver(vtkCommand::ProgressEvent, interruption);
-  const bool isWarned = Learn(filter, points, options);
+  const bool isWarned = LearnInMemory(filter, points, options);
   seconds.Learning = stopwatch.Lap();
 
   vtkPolyData* mesh = filter->GetOutput();
@@ -418,7 +424,7 @@ int Reconstruct(const ReconstructOptions& options)
   }
   if (isCancelled)
   {
-    return InterruptedStatus;
+    return interruption->GetExitStatus();
   }
   return options.Strict && isWarned ? WarnedStatus : 0;
 }
@@ -534,7 +540,8 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     ".vtk");
   AddNumber(command, "--time-limit", options->TimeLimit, seconds,
     "Largest time of learning in seconds, " + Described(seconds) +
-      "; the mesh learnt so far is written; 0: no limit",
+      "; the mesh learnt so far is written, with a warning; 0: no limit. A run that goes on from a "
+      "checkpoint and has all its vertices is finished whatever the limit",
     "SECONDS");
   command->add_flag("--in-place", options->InPlace,
     "Draw points from INPUT, which may be larger than the memory, instead of reading it. INPUT is "
@@ -548,7 +555,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     "With --raw: bytes before the first point", "BYTES");
   AddNumber(command, "--threads", options->Threads, threads,
     "Largest number of threads, " + Described(threads) +
-      "; 0: as many as the machine runs at once; the mesh is the same with any number",
+      "; 0: as many as the process may run at once; the mesh is the same with any number",
     "N");
   command
     ->add_option("--statistics", options->Statistics, "Write the learning curve to this .csv file")
@@ -579,9 +586,10 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   command->add_flag("--quiet", options->Quiet, "Print only errors and warnings");
   command->footer("Parameters of learning, for --set:\n" + DescribeLearningParameters() +
     "\nFor example: neuralmesh reconstruct scan.ply mesh.vtp --vertices 20000\n"
-    "Ctrl-C ends the learning and writes the mesh learnt so far.\nEach warning ends with a tag in "
+    "Ctrl-C, SIGTERM or SIGHUP end the learning and write the mesh learnt so far.\nEach warning "
+    "ends with a tag in "
     "brackets: a heading of Documentation/Guide/Failures.md.\n"
     "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 3 done with a "
-    "warning\nand --strict, 130 after Ctrl-C.");
+    "warning\nand --strict, 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP.");
   return [options] { return Reconstruct(*options); };
 }

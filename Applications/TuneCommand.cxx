@@ -147,7 +147,8 @@ std::function<int()> AddTuneCommand(CLI::App& application)
   command->add_flag(
     "--close", options->Close, "The mesh shall be watertight, although the scan has gaps");
   AddNumber(command, "--threads", options->Threads, threads,
-    "Largest number of threads, " + Described(threads) + "; 0: as many as the machine runs at once",
+    "Largest number of threads, " + Described(threads) +
+      "; 0: as many as the process may run at once",
     "N");
   command->add_flag("--json", options->JSON, "Print JSON");
   command->footer("Takes some seconds for a cloud of any size, and writes nothing.\n"

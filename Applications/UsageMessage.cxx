@@ -57,17 +57,11 @@ std::string HintsOfOptions(const CLI::App& application)
   return hints;
 }
 
-std::string HintOfSubcommand(const CLI::App& application)
+bool IsSubcommand(const CLI::App& application, const std::string& word)
 {
-  const Names words = application.remaining();
-  Names names;
-  for (const CLI::App* subcommand :
-    application.get_subcommands([](const CLI::App*) { return true; }))
-  {
-    names.push_back(subcommand->get_name());
-  }
-  const std::string question = words.empty() ? "" : DidYouMean(words.front(), names);
-  return question.empty() ? "" : words.front() + ": " + question + "\n";
+  const auto all = application.get_subcommands([](const CLI::App*) { return true; });
+  return std::any_of(all.begin(), all.end(),
+    [&](const CLI::App* subcommand) { return subcommand->get_name() == word; });
 }
 }
 
@@ -80,7 +74,29 @@ std::string UsageMessage(const CLI::App* application, const CLI::Error& error)
   }
   if (dynamic_cast<const CLI::RequiredError*>(&error) && application->get_subcommands().empty())
   {
-    return error.what() + ("\n" + HintOfSubcommand(*application)) + "\n" + application->help();
+    return error.what() + ("\n\n" + application->help());
   }
   return CLI::FailureMessage::simple(application, error);
+}
+
+std::string UnknownSubcommand(const CLI::App& application, const std::string& word)
+{
+  if (word.starts_with('-') || IsSubcommand(application, word))
+  {
+    return "";
+  }
+  if (word == "batch" || word == "paraview")
+  {
+    return word + ": the Python package has this subcommand: use python3 -m neuralmesh " + word +
+      " ...\n";
+  }
+  Names names;
+  for (const CLI::App* subcommand :
+    application.get_subcommands([](const CLI::App*) { return true; }))
+  {
+    names.push_back(subcommand->get_name());
+  }
+  const std::string question = DidYouMean(word, names);
+  return "no such subcommand: " + word + "\n" +
+    (question.empty() ? "" : word + ": " + question + "\n") + "\n" + application.help();
 }

@@ -2,14 +2,37 @@
 #include "base/FreedArrays.h"
 #include "CommandLine.h"
 #include "LearningParameters.h"
+#include "UsageMessage.h"
 
+#include <csignal>
+#include <cstdio>
 #include <iostream>
 #include <new>
+#include <string>
 
 namespace
 {
 constexpr int Failed = 1;
 constexpr int WrongUse = 2;
+
+/** Whether all that was printed has come through, which a full disk tells only now. */
+bool FlushOutput()
+{
+  std::cout.flush();
+  return std::cout.good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+}
+
+/** What was done, and printed: the exit status. */
+int Finish(int status)
+{
+  if (FlushOutput())
+  {
+    return status;
+  }
+  std::cerr << "neuralmesh: the standard output cannot be written: is the disk full?" << std::endl;
+  constexpr int FirstOfSignals = 128;
+  return status > FirstOfSignals || status == WrongUse ? status : Failed;
+}
 
 int Run(int argc, char* argv[])
 {
@@ -18,6 +41,11 @@ int Run(int argc, char* argv[])
   {
     std::cout << line.Application.help();
     return 0;
+  }
+  if (const std::string unknown = UnknownSubcommand(line.Application, argv[1]); !unknown.empty())
+  {
+    std::cerr << unknown << std::flush;
+    return WrongUse;
   }
   try
   {
@@ -34,9 +62,13 @@ int Run(int argc, char* argv[])
 int main(int argc, char* argv[])
 {
   neuralmesh::returnFreedArrays();
+#ifdef SIGXFSZ
+  // A file beyond the limit of sizes is to fail with words as any that cannot be written.
+  std::signal(SIGXFSZ, SIG_IGN);
+#endif
   try
   {
-    return Run(argc, argv);
+    return Finish(Run(argc, argv));
   }
   catch (const UsageError& error)
   {
@@ -45,8 +77,8 @@ int main(int argc, char* argv[])
   }
   catch (const std::bad_alloc&)
   {
-    std::cerr << "neuralmesh: there is not enough memory; --dry-run tells how much it takes, "
-                 "and --in-place reads no more of a file than it needs"
+    std::cerr << "neuralmesh: there is not enough memory to read what is given; "
+                 "--in-place reads no more of a file than it needs"
               << std::endl;
     return Failed;
   }

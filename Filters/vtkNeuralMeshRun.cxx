@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMeshRun.h"
 
+#include "base/AvailableProcessors.h"
+
 #include "vtkAlgorithm.h"
 
 #include <algorithm>
 #include <cstdlib>
-#include <thread>
 
 unsigned vtkNeuralMeshThreads(int wanted)
 {
@@ -13,7 +14,7 @@ unsigned vtkNeuralMeshThreads(int wanted)
   {
     return static_cast<unsigned>(wanted);
   }
-  const unsigned available = std::max(1u, std::thread::hardware_concurrency());
+  const unsigned available = neuralmesh::availableProcessors();
   const char* const text = std::getenv("VTK_SMP_MAX_THREADS");
   const int most = text ? std::atoi(text) : 0;
   return most > 0 ? std::min(available, static_cast<unsigned>(most)) : available;

@@ -26,8 +26,8 @@
 
 class vtkAlgorithm;
 
-/** How many threads a property NumberOfThreads stands for: with 0 as many as the machine runs at
- * once, VTK_SMP_MAX_THREADS at most. */
+/** How many threads a property NumberOfThreads stands for: with 0 as many as the process may run
+ * at once, VTK_SMP_MAX_THREADS at most. */
 unsigned vtkNeuralMeshThreads(int wanted);
 
 /// Reports the progress of a filter, not too often, and asks whether to go on.

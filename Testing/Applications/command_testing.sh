@@ -27,7 +27,7 @@ cpu_time_of()
   [ "${stat[0]}" = Z ] || echo $((stat[11] + stat[12]))
 }
 
-# interrupted CENTISECONDS COMMAND...: runs it, and sends SIGINT when it has had so much CPU time: a busy
+# interrupted CENTISECONDS COMMAND...: runs it, and sends SIGINT, or $signal, when it has had so much CPU time: a busy
 # machine gives that later. The exit status is that of the command.
 interrupted()
 {
@@ -39,7 +39,7 @@ interrupted()
   while time=$(cpu_time_of $process); [ -n "$time" ] && [ "$time" -lt "$after" ]; do
     sleep 0.01
   done
-  kill -INT $process 2> /dev/null || true
+  kill "-${signal:-INT}" $process 2> /dev/null || true
   wait $process
 }
 

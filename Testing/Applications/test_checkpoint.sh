@@ -57,6 +57,30 @@ test_ctrl_c()
   grep -q 'SamplesPerAddition (50 there, 1500 here)' err || fail "what differs is not said"
 }
 
+# Promise: a run that has all its vertices and no time left to finish them is warned of, with status 3 if --strict; the
+# same command, with the same limit, finishes the mesh.
+test_all_vertices()
+{
+  local limit status
+  local command=("$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 1000 --set FitRounds=60 --set FitSamples=200
+    --strict --checkpoint $checkpoint)
+  for limit in 0.05 0.08 0.12 0.18 0.27 0.4 0.6 0.9 1.4 2 3 4.5 7 10; do
+    rm -f $checkpoint
+    status=0
+    "${command[@]}" --time-limit $limit > out 2> err || status=$?
+    if grep -Eq '^vertices +1000$' out && grep -q 'ended by: time limit' out; then
+      break
+    fi
+  done
+  grep -Eq '^vertices +1000$' out && grep -q 'ended by: time limit' out || fail "no limit was in the finish"
+  [ "$status" -eq 3 ] || fail "status $status of an unfinished mesh"
+  grep -q '\[mesh-is-unfinished\]$' err || { cat err; fail "no warning"; }
+  "${command[@]}" --time-limit $limit > out 2> err || { [ $? -eq 3 ] || fail "it cannot go on"; }
+  grep -q 'ended by: vertices' out || { cat out err; fail "it was ended anew"; }
+  ! grep -q 'mesh-is-unfinished' err || fail "a finished mesh is warned of"
+  [ ! -e $checkpoint ] || fail "a checkpoint stays"
+}
+
 # Promise: a run that meets the time limit leaves its checkpoint, and goes on with a longer one.
 test_time_limit()
 {

@@ -198,7 +198,7 @@ CASES
   "$neuralmesh" --help > help
   for mistyped in recontruct cloud.xyz; do
     expect 2 "$neuralmesh" $mistyped mesh.ply
-    [ "$(head -n 1 err)" = "A subcommand is required" ] || { cat err; fail "another message"; }
+    [[ "$(head -n 1 err)" = "no such subcommand: "* ]] || { cat err; fail "another message"; }
     tail -n "$(wc -l < help)" err | cmp - help || fail "there is no help for $mistyped"
     mv err "$mistyped.err"
   done
@@ -297,6 +297,62 @@ test_ctrl_c()
   grep -Eq "^points +$vertices " out || fail "the mesh is not whole"
   tail -n 1 curve.csv | grep -q ",$vertices," || fail "the statistics do not end with the mesh"
   [ "$(find . -name '.*.ply' | wc -l)" -eq 0 ] || fail "a temporary file was left"
+}
+
+# Promise: what ends jobs of a cluster does the same as Ctrl-C, and the status tells which signal it was; the checkpoint
+# is that of the end. Under nohup, a closed terminal ends nothing.
+test_signals()
+{
+  local signal
+  for signal in TERM HUP; do
+    expect $((128 + $(kill -l $signal))) interrupted 100 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
+      --vertices 100000000 --set FitRounds=0 --checkpoint state --checkpoint-interval 1000
+    grep -q 'ended by: cancelled' out || fail "the summary does not say why it ended"
+    grep -q '^checkpoint state: the same command' out || fail "there is no checkpoint"
+    expect 0 "$neuralmesh" info mesh.ply
+    rm mesh.ply state
+  done
+  signal=HUP
+  expect 0 interrupted 30 nohup "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 20000
+}
+
+# Promise: where the standard output or a file cannot grow, the status is 1, with words, and no half mesh stays.
+test_full_disk()
+{
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 300 --quiet
+  local arguments
+  for arguments in "info mesh.ply" "info --json mesh.ply" "compare mesh.ply mesh.ply" "--help" \
+    "reconstruct cloud.xyz again.ply --vertices 300" "explain cloud.xyz mesh.ply points.vtp" \
+    "tune cloud.xyz --vertices 300"; do
+    # shellcheck disable=SC2016,SC2086
+    expect 1 bash -c '"$@" > /dev/full' bash "$neuralmesh" $arguments
+    grep -q '^neuralmesh: the standard output cannot be written' err || { cat err; fail "no words"; }
+  done
+  # shellcheck disable=SC2016
+  expect 1 bash -c 'ulimit -f 8; "$@" 2> words' bash "$neuralmesh" reconstruct cloud.xyz large.ply \
+    --vertices 3000 --quiet
+  grep -q '^neuralmesh: large.ply: ' words || { cat words; fail "no words of the file"; }
+  [ "$(find . -name '*large*' | wc -l)" -eq 0 ] || fail "a half file stays"
+}
+
+# Promise: where the memory is too small for a run, the message tells how much it takes, and so does a dry run.
+test_memory()
+{
+  make_cloud 100000
+  local limit
+  for limit in $(seq 90000 10000 900000); do
+    # shellcheck disable=SC2016
+    bash -c 'ulimit -v "$1"; shift; "$@"' bash "$limit" "$neuralmesh" reconstruct cloud.xyz mesh.ply --threads 1 \
+      --vertices 50000 --quiet > out 2> err && fail "no limit was too small for the run alone"
+    if grep -Eq 'not enough memory: the run takes about [0-9]+ MB' err; then
+      break
+    fi
+  done
+  [ ! -e mesh.ply ] || fail "a mesh was written"
+  # shellcheck disable=SC2016
+  expect 0 bash -c 'ulimit -v "$1"; shift; "$@"' bash "$limit" "$neuralmesh" reconstruct cloud.xyz mesh.ply \
+    --threads 1 --vertices 50000 --dry-run
+  grep -Eq '^memory +about [0-9]+ MB$' out || fail "the dry run does not tell"
 }
 
 # Promise: the statistics are a table with a line of names, and end with the result.
@@ -575,11 +631,39 @@ test_dry_run()
   expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 100000 --dry-run
   local what
   for what in 'vertices +100000$' 'samples +about [0-9.]+ million$' 'memory +about [0-9]+ MB$' \
-    'time +about [0-9.]+ s '; do
+    'time +about [0-9.]+ s of processor time, [0-9.]+ (s|min) on this machine as it is now$'; do
     grep -Eq "^$what" out || fail "no line '$what'"
   done
   [ "$(sed -n 's/^memory *about \([0-9]*\) MB/\1/p' out)" -gt 50 ] || fail "too little memory"
   [ ! -e mesh.ply ] || fail "a mesh was written"
+}
+
+# Promise: of an open scan with noise and narrow gaps a dry run foretells the samples up to a factor of two and the
+# processor time up to five, and warns of nothing that only its trials have.
+test_dry_run_of_scan()
+{
+  /usr/bin/python3 - <<'PYTHON'
+import numpy as np
+random = np.random.default_rng(5)
+plane = random.uniform(-1, 1, (60000, 2))
+height = 0.1 * np.sin(5 * plane[:, 0]) + 0.03 * random.integers(0, 2, len(plane))
+points = np.column_stack((plane, height))
+np.savetxt("scan.xyz", points + random.normal(0, 0.005, points.shape), fmt="%.6f")
+PYTHON
+  expect 0 "$neuralmesh" reconstruct scan.xyz mesh.ply --dry-run
+  [ ! -s err ] || { cat err; fail "a dry run warns"; }
+  mv out foretold
+  expect 0 "$neuralmesh" reconstruct scan.xyz mesh.ply
+  /usr/bin/python3 - <<'PYTHON' || { cat foretold out; fail "a wrong estimate"; }
+import re, sys
+def number(pattern, name):
+    return float(re.search(pattern, open(name).read(), re.MULTILINE)[1])
+samples = 1e6 * number(r"^samples +about ([0-9.]+) million$", "foretold")
+seconds = number(r"^time +about ([0-9.]+) s of processor time", "foretold")
+within = lambda told, true, factor: true / factor < told < factor * true
+sys.exit(not (within(samples, number(r"^samples +([0-9]+),", "out"), 2)
+    and within(seconds, number(r"^phases +([0-9.]+) CPU s", "out"), 5)))
+PYTHON
 }
 
 make_cloud

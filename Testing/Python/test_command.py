@@ -112,7 +112,7 @@ class Alone(CommandTest):
             (["reconstruct", "ball.xyz", "b.ply", "--weights", "Trust"], 1, "called Trust"),
             (["compare", "mesh.ply", "ball.xyz"], 1, "no mesh is read from this extension"),
             (["info", "none.ply"], 1, "there is no such file"),
-            (["nothing"], 2, "A subcommand is required\n\nTriangle meshes"),
+            (["nothing"], 2, "no such subcommand: nothing\n\nTriangle meshes"),
             (["ball.xyz", "b.ply"], 2, "  reconstruct  "),
             (["recontruct", "ball.xyz", "b.ply"], 2, "recontruct: did you mean reconstruct?"),
             (["batch", "none.json"], 2, "none.json"),
@@ -164,8 +164,25 @@ class Alone(CommandTest):
         self.assertEqual(len(neuralmesh.read(self.folder / "c.ply").points), 3000)
 
     # Promise: after Ctrl-C the mesh learnt so far is written, the status is 130, and a checkpoint is there
-    # from which the same command goes on.
+    # from which the same command goes on. SIGTERM does the same, and the status is 143.
     def test_interrupted(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                self.interrupt_by(number)
+
+    # Promise: what cannot be printed on a full disk fails with words.
+    @unittest.skipUnless(os.path.exists("/dev/full"), "there is no full disk")
+    def test_full_disk(self):
+        with open("/dev/full", "w", encoding="ascii") as full:
+            done = subprocess.run(
+                [*COMMAND, "info", "mesh.ply"], stdout=full, stderr=subprocess.PIPE, text=True,
+                cwd=self.folder, timeout=support.HANGING,
+            )  # fmt: skip
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "^neuralmesh: .*(output cannot be written|No space left)")
+        self.assertNotIn("Exception", done.stderr)
+
+    def interrupt_by(self, number):
         arguments = ["reconstruct", "ball.xyz", "d.ply", "--vertices", "2000000", "--checkpoint", "state"]
         process = subprocess.Popen(
             [*COMMAND, *arguments, "--checkpoint-interval", "0.1"],
@@ -175,9 +192,9 @@ class Alone(CommandTest):
         while not (self.folder / "state").exists():
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.05)
-        process.send_signal(signal.SIGINT)
+        process.send_signal(number)
         output, _ = process.communicate(timeout=support.HANGING)
-        self.assertEqual(process.returncode, 130)
+        self.assertEqual(process.returncode, 128 + number)
         self.assertIn("ended by: cancelled", output)
         self.assertIn("checkpoint state: the same command goes on from there", output)
         self.assertGreater(len(neuralmesh.read(self.folder / "d.ply").points), 100)

@@ -15,6 +15,7 @@
 #include "Values.h"
 
 #include "base/AtomicFile.h"
+#include "base/AvailableProcessors.h"
 #include "run/Ensemble.h"
 #include "run/RunEstimate.h"
 
@@ -258,9 +259,12 @@ void bindMeasures(nb::module_& module)
     [](const ArrayOf<double>& points, const ArrayOf<std::int64_t>& triangles)
     { return report(meshOf(points, triangles)); },
     "points"_a, "triangles"_a);
+  module.def("available_processors", &availableProcessors);
   module.attr("tried_vertices") = TriedVertices;
-  module.def("estimate", &estimate, "vertices"_a, "points"_a, "bytes_of_points"_a,
-    "samples_for_features"_a, "is_ensemble"_a, "growth"_a, "seconds_of_trial"_a);
+  module.attr("tried_additions") = TriedAdditions;
+  module.attr("most_tried_start") = MostTriedStart;
+  module.def("estimate", &estimate, "plan"_a, "trial"_a, "start"_a, "wall_seconds"_a);
+  module.def("learnt_vertices", &learntVertices, "plan"_a);
   module.def(
     "tune",
     [](const std::vector<AnyArray>& points, const nb::dict& parameters, unsigned threads,

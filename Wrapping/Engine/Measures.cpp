@@ -34,6 +34,39 @@ nb::dict figuresOf(const DistanceFigures& figures)
   return result;
 }
 
+PlannedRun plannedRunOf(const nb::dict& plan)
+{
+  const auto number = [&](const char* name) { return nb::cast<double>(plan[name]); };
+  return { .vertices = number("vertices"),
+    .points = number("points"),
+    .bytesOfPoints = number("bytes_of_points"),
+    .samplesForFeatures = number("samples_for_features"),
+    .samplesPerAddition = number("samples_per_addition"),
+    .isEnsemble = nb::cast<bool>(plan["is_ensemble"]) };
+}
+
+TrialRun trialOf(const nb::dict& trial)
+{
+  if (trial.size() == 0)
+  {
+    return {};
+  }
+  const auto number = [&](const char* name) { return nb::cast<double>(trial[name]); };
+  TrialRun result{ .vertices = number("vertices"),
+    .growth = {},
+    .cloudTime = number("cloud_time"),
+    .startTime = number("start_time"),
+    .learningTime = number("learning_time"),
+    .finishTime = number("finish_time") };
+  const auto growth = nb::cast<ArrayOf<double>>(trial["growth"]);
+  for (std::size_t i = 0; i + 2 < growth.size(); i += 3)
+  {
+    const double* row = growth.data() + i;
+    result.growth.push_back({ row[0], row[1], row[2] });
+  }
+  return result;
+}
+
 nb::dict figuresOf(const BothWaysFigures& figures)
 {
   nb::dict result;
@@ -155,17 +188,14 @@ nb::dict report(TriangleMesh mesh)
   return result;
 }
 
-std::tuple<double, double, double> estimate(double vertices, double points, double bytesOfPoints,
-  double samplesForFeatures, bool isEnsemble, const ArrayOf<double>& growth, double secondsOfTrial)
+std::string estimate(
+  const nb::dict& plan, const nb::dict& trial, const nb::dict& start, double wallSeconds)
 {
-  std::vector<GrowthRow> rows;
-  for (std::size_t i = 0; i + 2 < growth.size(); i += 3)
-  {
-    const double* row = growth.data() + i;
-    rows.push_back({ row[0], row[1], row[2] });
-  }
-  const RunEstimate found = estimateRun(
-    { vertices, points, bytesOfPoints, samplesForFeatures, isEnsemble }, rows, secondsOfTrial);
-  return { found.bytes, found.samples, found.seconds };
+  return estimateRun(plannedRunOf(plan), trialOf(trial), trialOf(start)).report(wallSeconds);
+}
+
+double learntVertices(const nb::dict& plan)
+{
+  return neuralmesh::learntVertices(plannedRunOf(plan));
 }
 }

@@ -23,7 +23,11 @@ nanobind::object explain(
 /// What can be said of a mesh by itself: a dict of numbers, by the names that `info --json` has.
 nanobind::dict report(TriangleMesh mesh);
 
-/// What a run will take: bytes, samples and seconds, from rows of iterations, vertices and seconds.
-std::tuple<double, double, double> estimate(double vertices, double points, double bytesOfPoints,
-  double samplesForFeatures, bool isEnsemble, const ArrayOf<double>& growth, double secondsOfTrial);
+/// What a run will take, as lines of a report. `plan` has the names of PlannedRun, and `trial` and `start`, which may be
+/// empty, are a dict each of vertices, growth (rows of iterations, vertices and seconds) and the times of TrialRun.
+std::string estimate(const nanobind::dict& plan, const nanobind::dict& trial,
+  const nanobind::dict& start, double wallSeconds);
+
+/// Vertices that such a run learns.
+double learntVertices(const nanobind::dict& plan);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/ThreadPool.h"
 
+#include "base/AvailableProcessors.h"
+
 #include <chrono>
 #include <csignal>
 #include <new>
@@ -94,7 +96,7 @@ const Executor& Executor::sequential()
 
 ThreadPool::ThreadPool(unsigned threadCount)
 {
-  const unsigned wanted = threadCount > 0 ? threadCount : std::thread::hardware_concurrency();
+  const unsigned wanted = threadCount > 0 ? threadCount : availableProcessors();
   const SignalsBlocked signalsBlocked;
   try
   {

@@ -18,8 +18,7 @@ namespace neuralmesh
 class ThreadPool final : public Executor
 {
 public:
-  /// 0 threads: as many as the machine runs at the same time. Where the system gives fewer, it does
-  /// with these.
+  /// 0 threads: availableProcessors(). Where the system gives fewer, it does with these.
   explicit ThreadPool(unsigned threadCount = 0);
   ~ThreadPool() override;
 

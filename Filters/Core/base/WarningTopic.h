@@ -28,6 +28,7 @@ enum class WarningTopic
   InsideOut,
   NarrowHandles,
   GrowthStopped,
+  MeshIsUnfinished,
   FinerThanData,
   FitTakenBack,
   SideIsUnknown,

@@ -97,12 +97,14 @@ LearntRun Run::learn(std::uint64_t vertices, Beginning beginning, ProgressPart p
   LearntMesh learnt = learner->learntMesh();
   result.times.leave();
   const bool isLearnt = request_.first || result.counts.iterations > 0;
-  return { std::move(result), std::move(learnt), rules, vertices, gaps, isLearnt };
+  const bool mayTakeLonger =
+    result.resumedIterations > 0 && result.stopReason == StopReason::Vertices;
+  return { std::move(result), std::move(learnt), rules, vertices, gaps, isLearnt, mayTakeLonger };
 }
 
 Progress Run::inTime(const LearntRun& run, const Progress& progress) const
 {
-  const double limit = request_.parameters.timeLimit;
+  const double limit = run.mayTakeLonger ? 0. : request_.parameters.timeLimit;
   return [limit, &rules = run.rules, progress](double fraction)
   { return progress(fraction) && !(limit > 0. && rules.seconds() >= limit); };
 }

@@ -42,6 +42,8 @@ struct LearntRun
   std::uint64_t vertices; ///< that it was to learn
   std::optional<GapPlan> gaps;
   bool isLearnt; ///< else it is not finished
+  /// Of a run that went on from a checkpoint and has all vertices: the time limit would end each such run anew.
+  bool mayTakeLonger = false;
 };
 
 /// A part of the progress of a run.

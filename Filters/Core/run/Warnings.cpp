@@ -262,6 +262,12 @@ void warnOfVertices(const Reconstruction& result, const PointCloud& cloud, Warni
         " vertices: the program removes as many vertices as it adds. Increase RemovalPatience or "
         "decrease SamplesPerAddition.");
   }
+  if (result.stopReason == StopReason::TimeLimit)
+  {
+    warnings.add(WarningTopic::MeshIsUnfinished,
+      "The time limit ended the run at " + std::to_string(vertices) +
+        " vertices, before the mesh was finished. Allow more time, or use fewer vertices.");
+  }
   const std::size_t enough = std::max(points / LeastPointsPerVertex, FewestVertices);
   if (vertices > enough && vertices <= cloud.points().size())
   {

@@ -4,6 +4,7 @@
 #include "MeshTools.h"
 #include "OpenShapes.h"
 #include "Shapes.h"
+#include "SphereRuns.h"
 
 #include <gtest/gtest.h>
 

@@ -32,14 +32,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
     if not words or words[0] in ("-h", "--help"):
         print(_help(), end="")
-        return 0
+        return _finished(0)
     if words[0] == "--version":
         print(__version__)
-        return 0
+        return _finished(0)
     if words[0] not in _SUBCOMMANDS:
         question = hint(words[0], _SUBCOMMANDS)
         meant = f"{words[0]}: {question}\n" if question else ""
-        print(f"A subcommand is required\n{meant}\n{_help()}", end="", file=sys.stderr)
+        is_option = words[0].startswith("-")
+        wrong = "A subcommand is required" if is_option else f"no such subcommand: {words[0]}"
+        print(f"{wrong}\n{meant}\n{_help()}", end="", file=sys.stderr)
         return WRONG_USE
     return _run(_command(words[0]), words[1:])
 
@@ -68,14 +70,12 @@ def _command(name: str) -> Callable[[Sequence[str]], int | None]:
 
 def _run(command: Callable[[Sequence[str]], int | None], arguments: Sequence[str]) -> int:
     try:
-        status = command(arguments) or 0
-        sys.stdout.flush()
-        return status
+        return _finished(command(arguments) or 0)
     except UsageError as error:
         return _say(error, WRONG_USE)
     except MemoryError:
         return _say(
-            "there is not enough memory; --dry-run tells how much it takes, and --in-place reads no "
+            "there is not enough memory; --dry-run tells how much a run takes, and --in-place reads no "
             "more of a file than it needs",
             _FAILED,
         )
@@ -89,7 +89,22 @@ def _run(command: Callable[[Sequence[str]], int | None], arguments: Sequence[str
         return _INTERRUPTED
 
 
-def _say(message: object, status: int) -> int:
-    sys.stdout.flush()
-    print(f"neuralmesh: {message}", file=sys.stderr)
+def _finished(status: int) -> int:
+    """The status, once all is printed: a full disk tells only then."""
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError:
+        # Python would say it once more at the end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        print(
+            "neuralmesh: the standard output cannot be written: is the disk full?", file=sys.stderr
+        )
+        return status if status > 128 or status == WRONG_USE else _FAILED
     return status
+
+
+def _say(message: object, status: int) -> int:
+    print(f"neuralmesh: {message}", file=sys.stderr)
+    return _finished(status)

@@ -32,7 +32,7 @@ from .reconstruct_options import parser
 from .run_report import Drawn, Seconds, print_lines, print_run
 
 _WARNED = 3  # the exit status with --strict, if there was a warning
-_INTERRUPTED = 128 + signal.SIGINT
+_OF_SIGNALS = 128  # and the number of the signal that has ended the learning
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -89,7 +89,7 @@ def run(arguments: Sequence[str]) -> int:
         if options.shift:
             _print_shift(stored, options.output)
     if reason == "cancelled":
-        return _INTERRUPTED
+        return _OF_SIGNALS + (is_interrupted() or signal.SIGINT)
     return _WARNED if options.strict and outcome.warnings else 0
 
 
@@ -337,21 +337,25 @@ def _names_in_errors(options: argparse.Namespace) -> str:
 
 @contextlib.contextmanager
 def _interruption() -> Iterator[Any]:
-    """Meanwhile Ctrl-C is only noted; what tells whether it was pressed."""
-    interrupted = False
+    """Meanwhile Ctrl-C is only noted, and so is what asks to end, as SIGTERM; tells the signal, or 0."""
+    noted = 0
 
-    def note(_number: int, _frame: Any) -> None:
-        nonlocal interrupted
-        interrupted = True
+    def note(number: int, _frame: Any) -> None:
+        nonlocal noted
+        noted = number
 
+    before: dict[int, Any] = {}
     # Of signals only the main thread hears.
-    is_main = threading.current_thread() is threading.main_thread()
-    before = signal.signal(signal.SIGINT, note) if is_main else None
+    if threading.current_thread() is threading.main_thread():
+        for number in (signal.SIGINT, signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)):
+            # What runs under nohup goes on when its terminal is closed.
+            if number == signal.SIGINT or signal.getsignal(number) != signal.SIG_IGN:
+                before.setdefault(number, signal.signal(number, note))
     try:
-        yield lambda: interrupted
+        yield lambda: noted
     finally:
-        if is_main:
-            signal.signal(signal.SIGINT, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _table_of(curve: dict[str, np.ndarray]) -> bytes:

@@ -41,10 +41,11 @@ _TOPOLOGIES = {
 }
 _FOOTER = (
     "For example: neuralmesh reconstruct scan.ply mesh.ply --vertices 20000\n"
-    "Ctrl-C ends the learning and writes the mesh learnt so far.\nEach warning ends with a tag in brackets: "
+    "Ctrl-C, SIGTERM or SIGHUP end the learning and write the mesh learnt so far.\n"
+    "Each warning ends with a tag in brackets: "
     "a heading of Documentation/Guide/Failures.md.\n"
     "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 3 done with a warning\n"
-    "and --strict, 130 after Ctrl-C."
+    "and --strict, 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP."
 )
 
 
@@ -274,8 +275,9 @@ def _add_run(result: Parser) -> None:
     )
     result.add_number(
         "--time-limit", "TimeLimit",
-        f"Largest time of learning in seconds, {described('TimeLimit')}; the mesh learnt so far is written; "
-        "0: no limit", "SECONDS",
+        f"Largest time of learning in seconds, {described('TimeLimit')}; the mesh learnt so far is written, "
+        "with a warning; 0: no limit. A run that goes on from a checkpoint and has all its vertices is "
+        "finished whatever the limit", "SECONDS",
     )  # fmt: skip
     result.add_flag(
         "--in-place",
@@ -295,8 +297,8 @@ def _add_run(result: Parser) -> None:
     )
     result.add_number(
         "--threads", "NumberOfThreads",
-        f"Largest number of threads, {described('NumberOfThreads')}; 0: as many as the machine runs at "
-        "once; the mesh is the same with any number", "N",
+        f"Largest number of threads, {described('NumberOfThreads')}; 0: as many as the process may run "
+        "at once; the mesh is the same with any number", "N",
     )  # fmt: skip
     result.add_text(
         "--statistics", "Write the learning curve to this .csv file", "FILE"

@@ -81,7 +81,7 @@ def _parser() -> Parser:
     result.add_flag("--close", "The mesh shall be watertight, although the scan has gaps")
     result.add_number(
         "--threads", "NumberOfThreads",
-        f"Largest number of threads, {described('NumberOfThreads')}; 0: as many as the machine runs at once", "N",
+        f"Largest number of threads, {described('NumberOfThreads')}; 0: as many as the process may run at once", "N",
     )  # fmt: skip
     result.add_flag("--json", "Print JSON")
     return result

@@ -415,6 +415,6 @@ def _threads(wanted: int) -> int:
     """How many, if 0 stands for as many as there are; VTK's limit counts for us, too."""
     if wanted > 0:
         return wanted
-    available = os.cpu_count() or 1
+    available: int = _engine.available_processors()
     most = os.environ.get("VTK_SMP_MAX_THREADS", "")
     return min(available, int(most)) if most.isdecimal() and int(most) > 0 else available
