@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 from typing import Any, Sequence
@@ -13,7 +14,7 @@ from .._command import add_processes_option, run_command
 from .gallery import write_gallery
 from .meshes import DEFAULT_FORMAT
 from .recipe import Job, Recipe, RecipeError, read_recipe
-from .report import has_warnings, is_done, require_distinct, summary_path, write_summary
+from .report import count_warnings, is_done, require_distinct, summary_path, write_summary
 from .running import run_jobs
 from .atomic_file import alone_in
 
@@ -105,15 +106,17 @@ def _batch(recipe_path: Path, output: Path | None, processes: int) -> int:
     folder.mkdir(parents=True, exist_ok=True)
     with alone_in(folder, "batch"):
         failed = _run(recipe, folder, processes)
+        warned = sum(count_warnings(folder, job) > 0 for job in recipe.jobs)
+        with_warnings = f", {warned} with warnings" if warned else ""
+        # First, as a full disk may take no summary and no gallery.
+        done = len(recipe.jobs) - failed
+        print(f"jobs       {done} done, {failed} failed{with_warnings}", flush=True)
         write_summary(folder, recipe)
-        print(f"summary    {summary_path(folder)}")
+        print(f"summary    {summary_path(folder)}", flush=True)
         if recipe.gallery:
             for problem in write_gallery(folder, recipe, recipe_path.stem):
                 print(f"neuralmesh: {problem}", file=sys.stderr)
             print(f"gallery    {folder / 'index.html'}")
-    warned = sum(has_warnings(folder, job) for job in recipe.jobs)
-    with_warnings = f", {warned} with warnings" if warned else ""
-    print(f"jobs       {len(recipe.jobs) - failed} done, {failed} failed{with_warnings}")
     if failed:
         return 1
     return 3 if recipe.is_strict and warned else 0
@@ -126,12 +129,30 @@ def _run(recipe: Recipe, folder: Path, processes: int) -> int:
     if ended:
         print(f"{ended} of {len(recipe.jobs)} jobs were done before", flush=True)
     failed = 0
+    # On a terminal, or in one file, nothing is to be read twice.
+    is_seen_once = _is_one_file()
 
     def on_end(job: Job, error: str) -> None:
         nonlocal ended, failed
         ended += 1
         failed += bool(error)
-        print(f"[{ended}/{len(recipe.jobs)}] {job.name}: {error or 'done'}", flush=True)
+        line = f"[{ended}/{len(recipe.jobs)}] {job.name}: {error or _done(folder, job)}"
+        print(line, flush=True)
+        if error and not is_seen_once:
+            print(f"neuralmesh: {job.name}: {error}", file=sys.stderr, flush=True)
 
     run_jobs(jobs, folder, recipe.format, processes, recipe.time_limit, on_end)
     return failed
+
+
+def _done(folder: Path, job: Job) -> str:
+    count = count_warnings(folder, job)
+    return "done" + (f", {count} warning{'s' * (count > 1)}" if count else "")
+
+
+def _is_one_file() -> bool:
+    """Whether the output and the errors go to the same place."""
+    try:
+        return os.path.sameopenfile(sys.stdout.fileno(), sys.stderr.fileno())
+    except (OSError, ValueError):  # no files at all, or closed
+        return False
