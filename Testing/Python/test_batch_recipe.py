@@ -165,13 +165,15 @@ class Recipes(BatchTest):
         write_scan(self.folder / "[1].xyz")
         self.assertEqual(self.names(scans=["[1].xyz"]), ["_1_"])
 
-    # Promise: the help shows a recipe that is sound.
+    # Promise: the help shows a recipe that is sound, fits a terminal, and names what a recipe cannot give.
     def test_help(self):
         output = io.StringIO()
         with contextlib.redirect_stdout(output), self.assertRaises(SystemExit) as ended:
             main(["batch", "--help"])
         self.assertEqual(ended.exception.code, 0)
         text = output.getvalue()
+        self.assertLessEqual(max(map(len, text.splitlines())), 100)
+        self.assertIn("points, views, normals, checkpoint, explain, feature_lines, progress.\n", text)
         content = json.loads(text[text.index("  {\n") : text.index("\n  }") + 4])
         write_scan(self.folder / "scans" / "c.ply")
         self.assertEqual(len(self.names(**content)), 8)

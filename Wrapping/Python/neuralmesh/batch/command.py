@@ -13,7 +13,7 @@ from .. import __version__
 from .._command import add_processes_option, run_command
 from .gallery import write_gallery
 from .meshes import DEFAULT_FORMAT
-from .recipe import Job, Recipe, RecipeError, read_recipe
+from .recipe import NOT_IN_RECIPES, Job, Recipe, RecipeError, read_recipe
 from .report import count_warnings, is_done, require_distinct, summary_path, write_summary
 from .running import run_jobs
 from .atomic_file import alone_in
@@ -32,12 +32,13 @@ A recipe is JSON. Only its key `scans` is required:
 
 scans    files of points, relative to the recipe, with wildcards or without:
          .ply .obj .stl .off .pcd .ptx .pwn .xyz .pts .txt .csv .asc, with VTK .vtp .vtk .vtu
-matrix   parameters of neuralmesh.reconstruct(), except progress. A list holds the values to try, and
-         all lists are crossed. first_mesh is a path, relative to the recipe. levels is a list of
-         numbers, or a list of such lists to try
+matrix   parameters of neuralmesh.reconstruct(), except
+         {", ".join(NOT_IN_RECIPES)}.
+         A list holds the values to try, and all lists are crossed. first_mesh is a path, relative to
+         the recipe. levels is a list of numbers, or a list of such lists to try
 format   of the meshes: vtp (default with VTK), ply (default without), obj, stl, glb, off or vtk
-shift    vector that is subtracted from their coordinates and stored in them: [X, Y, Z], or "auto" for
-         a round vector if they are too large for floats (default: none)
+shift    vector that is subtracted from their coordinates and stored in them: [X, Y, Z], or "auto"
+         for a round vector if they are too large for floats (default: none)
 time_limit
          seconds after which a job is ended and has failed (default: none). In the matrix it ends
          learning, and the mesh is kept
@@ -46,14 +47,15 @@ strict   whether the command ends with status 3 if a mesh has warnings (default:
          written in any case
 view     of the pictures: the axis that points upwards, and the direction of view in degrees
 
-The folder gets a mesh and a report (.json) for each job, and summary.csv and the gallery, index.html,
-for all. The mesh is the largest level; the others are beside it (JOB_1000.vtp). A job does not run again if its result exists and nothing has changed: its scan (size and time
-of modification), its parameters, the format, and the version of NeuralMesh. Results of jobs that are
-no longer in the recipe stay.
-Each warning ends with a tag in brackets: a heading of Documentation/Guide/Failures.md.
+The folder gets a mesh and a report (.json) for each job, and summary.csv and the gallery,
+index.html, for all. The mesh is the largest level; the others are beside it (JOB_1000.vtp). A job
+does not run again if its result exists and nothing has changed: its scan (size and time of
+modification), its parameters, the format, and the version of NeuralMesh. Results of jobs that are no
+longer in the recipe stay.
+Each warning has a tag, which is a heading of Documentation/Guide/Failures.md; summary.csv lists them.
 
 Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 3 all are done, some
-with warnings, and the recipe is strict, 130 after Ctrl-C. Finished results stay, and the same
+with warnings, and the recipe is strict, 130 after Ctrl-C, 143 after SIGTERM. Finished results stay, and the same
 command does the rest."""
 _SUMMARY = "reconstruct many scans by one recipe"
 _TEXTS: dict[str, Any] = {

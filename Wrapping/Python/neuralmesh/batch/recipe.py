@@ -16,7 +16,13 @@ from typing import Any
 
 from .._world import check_parameters
 from .._parameters import hint
-from .._reconstruct import ENSEMBLE_PARAMETERS, PARAMETERS, make_filter, require_one_start
+from .._reconstruct import (
+    ENSEMBLE_PARAMETERS,
+    PARAMETERS,
+    make_filter,
+    reconstruct,
+    require_one_start,
+)
 from .meshes import DEFAULT_FORMAT, FORMATS, problem_of_format
 
 KEYS = ("scans", "matrix", "format", "shift", "time_limit", "gallery", "view", "strict")
@@ -27,6 +33,14 @@ _NAMED = {parameter.name for parameter in _SIGNATURE if parameter.kind != parame
 # Those that the filter is not given as properties.
 _OF_INPUT = ("weights", "first_mesh")
 _KNOWN = {*_NAMED, *_OF_INPUT, *PARAMETERS, *ENSEMBLE_PARAMETERS}
+
+
+# Arguments of reconstruct() that a recipe cannot give, or that the batch gives itself.
+NOT_IN_RECIPES = tuple(
+    parameter.name
+    for parameter in inspect.signature(reconstruct).parameters.values()
+    if parameter.name not in _KNOWN and parameter.kind != parameter.VAR_KEYWORD
+)
 
 
 class RecipeError(ValueError):
