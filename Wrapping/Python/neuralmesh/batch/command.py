@@ -50,13 +50,13 @@ view     of the pictures: the axis that points upwards, and the direction of vie
 The folder gets a mesh and a report (.json) for each job, and summary.csv and the gallery,
 index.html, for all. The mesh is the largest level; the others are beside it (JOB_1000.vtp). A job
 does not run again if its result exists and nothing has changed: its scan (size and time of
-modification), its parameters, the format, and the version of NeuralMesh. Results of jobs that are no
-longer in the recipe stay.
-Each warning has a tag, which is a heading of Documentation/Guide/Failures.md; summary.csv lists them.
+modification), its parameters, the format, and the version of NeuralMesh. Results of jobs that are
+no longer in the recipe stay.
+Each warning has a tag, which is a heading of Documentation/Guide/Failures.md. summary.csv has them.
 
 Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 3 all are done, some
-with warnings, and the recipe is strict, 130 after Ctrl-C, 143 after SIGTERM. Finished results stay, and the same
-command does the rest."""
+with warnings, and the recipe is strict, 130 after Ctrl-C, 143 after SIGTERM. Finished results stay,
+and the same command does the rest."""
 _SUMMARY = "reconstruct many scans by one recipe"
 _TEXTS: dict[str, Any] = {
     "description": "Reconstruct many scans by one recipe: each with each set of parameters, each in "
