@@ -52,7 +52,7 @@ index.html, for all. The mesh is the largest level; the others are beside it (JO
 does not run again if its result exists and nothing has changed: its scan (size and time of
 modification), its parameters, the format, and the version of NeuralMesh. Results of jobs that are
 no longer in the recipe stay.
-Each warning has a tag, which is a heading of Documentation/Guide/Failures.md. summary.csv has them.
+Each warning has a tag: a heading of Documentation/Guide/Failures.md. summary.csv has the tags.
 
 Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 3 all are done, some
 with warnings, and the recipe is strict, 130 after Ctrl-C, 143 after SIGTERM. Finished results stay,

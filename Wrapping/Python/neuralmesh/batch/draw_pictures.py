@@ -37,7 +37,7 @@ def smooth(mesh):
 
 
 def front(mesh, has_colors):
-    """The mesh, of which only the outer side is to be seen."""
+    """The outer side of the mesh."""
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(mesh)
     mapper.SetScalarVisibility(has_colors)
@@ -54,7 +54,7 @@ def front(mesh, has_colors):
 
 
 def back(mesh):
-    """The mesh, of which only the inner side is to be seen, in its colour whatever the points have."""
+    """The inner side of the mesh, in a colour of its own, whatever colours the points have."""
     actor = front(mesh, False)
     looks = actor.GetProperty()
     looks.BackfaceCullingOff()
