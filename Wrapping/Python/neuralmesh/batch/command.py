@@ -34,8 +34,8 @@ scans    files of points, relative to the recipe, with wildcards or without:
          .ply .obj .stl .off .pcd .ptx .pwn .xyz .pts .txt .csv .asc, with VTK .vtp .vtk .vtu
 matrix   parameters of neuralmesh.reconstruct(), except
          {", ".join(NOT_IN_RECIPES)}.
-         A list holds the values to try, and all lists are crossed. first_mesh is a path, relative to
-         the recipe. levels is a list of numbers, or a list of such lists to try
+         A list holds the values to try, and all lists are crossed. first_mesh is a path, relative
+         to the recipe. levels is a list of numbers, or a list of such lists to try
 format   of the meshes: vtp (default with VTK), ply (default without), obj, stl, glb, off or vtk
 shift    vector that is subtracted from their coordinates and stored in them: [X, Y, Z], or "auto"
          for a round vector if they are too large for floats (default: none)
@@ -55,8 +55,8 @@ no longer in the recipe stay.
 Each warning has a tag: a heading of Documentation/Guide/Failures.md. summary.csv has the tags.
 
 Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 3 all are done, some
-with warnings, and the recipe is strict, 130 after Ctrl-C, 143 after SIGTERM. Finished results stay,
-and the same command does the rest."""
+with warnings, and the recipe is strict, 130 after Ctrl-C, 143 after SIGTERM. Finished results
+stay, and the same command does the rest."""
 _SUMMARY = "reconstruct many scans by one recipe"
 _TEXTS: dict[str, Any] = {
     "description": "Reconstruct many scans by one recipe: each with each set of parameters, each in "
