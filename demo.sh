@@ -25,7 +25,7 @@ show()
   echo
   echo "$name: $points"
   build/bin/neuralmesh reconstruct "$points" "demo/$name-mesh.ply" --vertices "$vertices"
-  xvfb-run -a /usr/bin/python3 Applications/Demo/show.py \
+  xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" /usr/bin/python3 Applications/Demo/show.py \
     "$points" "demo/$name-mesh.ply" "demo/$name.png" "$@"
 }
 

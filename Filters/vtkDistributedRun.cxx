@@ -160,6 +160,12 @@ int vtkDistributedRun::Execute(vtkInformationVector** inputVector,
   const WeightsFunction& collectWeights, const LearnFunction& learn)
 {
   // The same on all processes, so that none waits for another.
+  if (!this->Controller->GetCommunicator())
+  {
+    vtkErrorWithObjectMacro(this->Filter, << "The controller connects no processes yet: call its "
+                                             "Initialize() first.");
+    return 0;
+  }
   if (*this->Filter->GetPointFileName() && this->Controller->GetNumberOfProcesses() > 1)
   {
     vtkErrorWithObjectMacro(this->Filter, << "PointFileName is for one process: give each process "

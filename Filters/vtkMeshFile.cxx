@@ -47,7 +47,19 @@ template <typename WriterT>
 void WriteWith(WriterT* writer, vtkPolyData* mesh)
 {
   writer->SetInputData(mesh);
-  vtkInnerAlgorithm::Update(writer);
+  try
+  {
+    vtkInnerAlgorithm::Update(writer);
+  }
+  catch (const std::exception&)
+  {
+    // VTK's words name a temporary file.
+    if (writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError)
+    {
+      ThrowNotWhole();
+    }
+    throw;
+  }
   if (writer->GetErrorCode() != vtkErrorCode::NoError)
   {
     throw std::runtime_error(vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));

@@ -56,7 +56,8 @@ try_paraview()
   for way in pvpython pvbatch 'paraview --script'; do
     local command=($way "$script")
     [ "$way" != 'paraview --script' ] ||
-      command=(env "NEURALMESH_PICTURE=$picture" xvfb-run -a paraview "--script=$script")
+      command=(env "NEURALMESH_PICTURE=$picture" xvfb-run -a -s "-screen 0 1280x1024x24 -noreset"
+        paraview "--script=$script")
     if timeout 300 "${command[@]}" > "$venv/paraview.log" 2>&1 && grep -q '^well' "$venv/paraview.log"; then
       printf '%-8s %-14s well   %s\n' paraview "${way%% *}" "$(pvpython --version 2>&1 | tail -n 1)"
     else

@@ -47,7 +47,8 @@ wanted_of()
 wanted=$*
 for maker in draw.py draw_charts.py draw_house.py; do
   names=$(wanted_of "$maker")
-  [ -z "$names" ] || xvfb-run -a /usr/bin/python3 "$folder/$maker" "$folder" $names
+  [ -z "$names" ] || xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" \
+    /usr/bin/python3 "$folder/$maker" "$folder" $names
 done
 # In ParaView, which is told where the plugin is.
 for maker in draw_lines.py draw_bars.py draw_levels.py; do

@@ -7,7 +7,7 @@ The first word behind the fence of a block is its language; others say what beco
     ```sh                 run, in the order of the page
     ```sh norun=REASON    not run, for one of REASONS
     ```python file=NAME   saved under this name, for the blocks that follow
-    ```python needs=NAME  run where there is this package of Python, one of PACKAGES
+    ```sh needs=NAME      run where there is this package of Python, one of PACKAGES
     ```text output        what the block of shell before it prints; ... stands for anything
 
 Run as a script with the root of the repository: prints the pages that have blocks to run, and whether
@@ -33,7 +33,10 @@ REASONS = {
 RUN = {"sh", "python"}
 LANGUAGES = {*RUN, "cpp", "cmake", "json", "diff", "text"}
 # Packages that not every Python has, and the test that runs the blocks that need them.
-PACKAGES = {"pyvista": "Testing/Python/test_pyvista.py"}
+PACKAGES = {
+    "pyvista": "Testing/Python/test_pyvista.py",
+    "mpi4py": "Testing/Documentation/run_blocks.py",
+}
 # Run by a test that knows what stands on the page.
 ELSEWHERE = {
     "Documentation/Guide/ParaView.md": "ParaView.tutorial",

@@ -137,6 +137,23 @@ int TestBadPoints(vtkPolyData* cloud)
   CHECK(messages->AllText.find("There is no numeric point array") != std::string::npos);
   return EXIT_SUCCESS;
 }
+
+/// A controller that nobody has initialized is an error in words.
+int TestNoCommunicator(vtkPolyData* cloud)
+{
+  vtkNew<vtkDummyController> controller;
+  controller->SetCommunicator(nullptr);
+  vtkNew<vtkPNeuralMesh> filter;
+  filter->SetController(controller);
+  filter->SetInputData(cloud);
+  vtkNew<FilterTesting::MessageCounter> messages;
+  messages->Observe(filter);
+  messages->Observe(filter->GetExecutive());
+  filter->Update();
+  CHECK(messages->AllText.find("connects no processes") != std::string::npos);
+  CHECK(filter->GetOutput()->GetNumberOfPoints() == 0);
+  return EXIT_SUCCESS;
+}
 }
 
 int TestPNeuralMesh(int, char*[])
@@ -146,5 +163,6 @@ int TestPNeuralMesh(int, char*[])
   CHECK(TestAllPoints(cloud) == EXIT_SUCCESS);
   CHECK(TestSelection(cloud, reversed) == EXIT_SUCCESS);
   CHECK(TestBadPoints(cloud) == EXIT_SUCCESS);
+  CHECK(TestNoCommunicator(cloud) == EXIT_SUCCESS);
   return EXIT_SUCCESS;
 }

@@ -34,8 +34,8 @@ def write_scan(path, count=2000, size=1):
     np.savetxt(path, support.sphere(count) * (1, 1, size), fmt="%.9f")
 
 
-def start(arguments, folder, **environment):
-    """Start the command, in a folder."""
+def start(arguments, folder, before=None, **environment):
+    """Start the command, in a folder; before is called in its process, before it begins."""
     return subprocess.Popen(
         [sys.executable, "-m", "neuralmesh", "batch", *map(str, arguments)],
         stdout=subprocess.PIPE,
@@ -43,12 +43,13 @@ def start(arguments, folder, **environment):
         text=True,
         cwd=folder,
         env={**os.environ, **environment},
+        preexec_fn=before,
     )
 
 
-def run(arguments, folder, **environment):
+def run(arguments, folder, before=None, **environment):
     """Run it; its output, its errors and its exit status."""
-    process = start(arguments, folder, **environment)
+    process = start(arguments, folder, before, **environment)
     output, errors = process.communicate(timeout=support.HANGING)
     return output, errors, process.returncode
 
@@ -80,8 +81,8 @@ class BatchTest(unittest.TestCase):
         cls.recipe.write_text(json.dumps({"gallery": False, **content}), encoding="utf-8")
 
     @classmethod
-    def run_batch(cls, *arguments, **environment):
-        return run(["jobs.json", *arguments], cls.folder, **environment)
+    def run_batch(cls, *arguments, before=None, **environment):
+        return run(["jobs.json", *arguments], cls.folder, before, **environment)
 
     def clear(self):
         """Leave nothing in the folder."""
@@ -90,6 +91,16 @@ class BatchTest(unittest.TestCase):
 
     def report(self, name):
         return json.loads((self.results / f"{name}.json").read_text(encoding="utf-8"))
+
+    def assert_told(self, errors, jobs):
+        """The errors are those of the reports on these jobs, a line each, and no others."""
+        lines = {f"neuralmesh: {name}: {self.report(name)['error']}" for name in jobs}
+        self.assertEqual(set(errors.splitlines()), lines)
+
+    def failed(self):
+        """The names of the jobs whose reports say that they failed."""
+        names = [path.stem for path in self.results.glob("[!.]*.json")]
+        return [name for name in names if self.report(name)["status"] == "failed"]
 
     def times(self):
         """When each mesh was written, by its name."""

@@ -23,9 +23,11 @@ class Example(BatchTest):
         cls.output, cls.errors, cls.status = cls.run_batch("--processes", 2)
 
     # Promise: each scan is reconstructed with each set of parameters, with the bytes of
-    # reconstruct(); a scan that is broken fails alone, and the exit status tells.
+    # reconstruct(); a scan that is broken fails alone; the message on stderr and the exit status tell.
     def test_results(self):
-        self.assertEqual((self.errors, self.status), ("", 1))
+        self.assertEqual(self.status, 1)
+        self.assertEqual(len(self.failed()), 4)
+        self.assert_told(self.errors, self.failed())
         self.assertIn("jobs       8 done, 4 failed", self.output)
         self.assertEqual(len(self.times()), 8)
         for scan in ("ball", "egg"):
@@ -61,6 +63,7 @@ class Example(BatchTest):
         self.assertEqual(report["quality"]["residual"], residual)
         for name in QUALITY:
             self.assertIn(name, report["quality"])
+        self.assertEqual(report["warnings"], [])
 
         failed = self.report("broken_vertices-200_seed-1")
         self.assertEqual(failed["status"], "failed")
@@ -87,7 +90,7 @@ class Example(BatchTest):
 
 class Strict(BatchTest):
     # Promise: warnings stand in the report; a strict recipe ends with status 3 if there are any, also when
-    # the jobs were done before, and the meshes are there.
+    # the jobs were done before, and the meshes are there. Progress counts them, the summary has their tags.
     def test_warnings(self):
         write_scan(self.folder / "scans" / "few.xyz", 300)
         for strict, status in ((False, 0), (True, 3)):
@@ -95,6 +98,10 @@ class Strict(BatchTest):
             output, errors, found = self.run_batch()
             self.assertEqual((errors, found), ("", status))
             self.assertIn("jobs       1 done, 0 failed, 1 with warnings", output)
+            self.assertIn("[1/1] few: done, 1 warning\n" if not strict else "were done before", output)
+            with open(self.results / "summary.csv", encoding="utf-8", newline="") as file:
+                (row,) = csv.DictReader(file)
+            self.assertEqual(row["warnings"], "finer-than-data")
         (warning,) = self.report("few")["warnings"]
         self.assertIn("finer than its data", warning)
         self.assertNotIn("warnings", self.report("few")["quality"])

@@ -128,7 +128,8 @@ class Files(BatchTest):
         names = [*files, "folder.ply", "pipe.ply", "none.ply", "half.stl"]
         self.write_recipe(scans=names, matrix={"vertices": 50})
         output, errors, status = self.run_batch()
-        self.assertEqual((errors, status), ("", 1))
+        self.assertEqual(status, 1)
+        self.assert_told(errors, self.failed())
         self.assertIn(f"jobs       0 done, {len(names)} failed", output)
         wanted = {
             "empty": "there are no points",
@@ -188,7 +189,8 @@ class Files(BatchTest):
         matrix = {"vertices": 300, "first_mesh": [None, *(f"meshes/{name}" for name in names)]}
         self.write_recipe(scans=["ball.xyz"], matrix=matrix)
         output, errors, status = self.run_batch()
-        self.assertEqual((errors, status), ("", 1))
+        self.assertEqual(status, 1)
+        self.assert_told(errors, self.failed())
         self.assertIn("jobs       3 done, 2 failed", output)
         wanted = neuralmesh.reconstruct(
             np.loadtxt(self.folder / "ball.xyz"), 300, first_mesh=coarse
@@ -212,7 +214,8 @@ class Files(BatchTest):
         matrix = {"vertices": [3000000, 100, 200]}
         self.write_recipe(scans=["ball.xyz"], matrix=matrix, time_limit=10.5)
         output, errors, status = self.run_batch("--processes", 2)
-        self.assertEqual((errors, status), ("", 1))
+        self.assertEqual(status, 1)
+        self.assert_told(errors, ["ball_vertices-3000000"])
         self.assertIn("jobs       2 done, 1 failed", output)
         self.assertEqual(set(self.times()), {"ball_vertices-100", "ball_vertices-200"})
         report = self.report("ball_vertices-3000000")

@@ -155,23 +155,38 @@ class Recipes(BatchTest):
         self.assertEqual(len(self.names(scans=["a.xyz"], matrix=matrix)), 1)
 
     # Promise: a scan that two patterns match is there once, and scans of the same name in different
-    # folders, or with different extensions, are told apart.
+    # folders, or with different extensions, are told apart in few words. So are lists of levels.
     def test_names(self):
         self.assertEqual(self.names(scans=["*.xyz", "a.xyz", "./a.xyz"]), ["a"])
         write_scan(self.folder / "b" / "a.xyz")
-        self.assertEqual(self.names(scans=["a.xyz", "b/a.xyz"])[1], "b-a.xyz")
-        self.assertEqual(self.names(scans=["a.xyz", "a.ply"]), ["a.xyz", "a.ply"])
-        self.assertEqual(self.names(scans=["**/a.xyz"])[1], "b-a.xyz")
+        self.assertEqual(self.names(scans=["a.xyz", "b/a.xyz"]), ["a", "b-a"])
+        self.assertEqual(self.names(scans=["a.xyz", "a.ply"]), ["a-xyz", "a-ply"])
+        self.assertEqual(self.names(scans=["**/a.xyz"])[1], "b-a")
+        for scans, names in (
+            (["b/a.ply", "c/a.obj", "d.ply"], ["b-a", "c-a", "d"]),
+            (["b/in/a.ply", "c/in/a.ply"], ["b-a", "c-a"]),
+            (["b/in/a.ply", "b/in/a.obj", "c/a.ply"], ["b-a-ply", "b-a-obj", "c-a"]),
+            (["b/c/a.ply", "b/d/a.ply", "e/c/a.ply"], ["b-c-a", "b-d-a", "e-c-a"]),
+            (["b/a.ply", "c/a.ply", "b-a.ply"], ["b_a.ply", "c_a.ply", "b-a.ply"]),
+        ):
+            self.assertEqual(self.names(scans=scans), names)
+        matrix = {"levels": [[50, 100], [200, 400], None]}
+        self.assertEqual(
+            self.names(scans=["a.xyz"], matrix=matrix),
+            ["a_levels-50-100", "a_levels-200-400", "a_levels-null"],
+        )
         write_scan(self.folder / "[1].xyz")
         self.assertEqual(self.names(scans=["[1].xyz"]), ["_1_"])
 
-    # Promise: the help shows a recipe that is sound.
+    # Promise: the help shows a recipe that is sound, fits a terminal, and names what a recipe cannot give.
     def test_help(self):
         output = io.StringIO()
         with contextlib.redirect_stdout(output), self.assertRaises(SystemExit) as ended:
             main(["batch", "--help"])
         self.assertEqual(ended.exception.code, 0)
         text = output.getvalue()
+        self.assertLessEqual(max(map(len, text.splitlines())), 100)
+        self.assertIn("points, views, normals, checkpoint, explain, feature_lines, progress.\n", text)
         content = json.loads(text[text.index("  {\n") : text.index("\n  }") + 4])
         write_scan(self.folder / "scans" / "c.ply")
         self.assertEqual(len(self.names(**content)), 8)

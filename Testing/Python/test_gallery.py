@@ -6,6 +6,7 @@ import unittest
 import urllib.parse
 
 import numpy as np
+import support
 from batch_testing import HAS_VTK, BatchTest, write_scan
 from neuralmesh.batch.meshes import DEFAULT_FORMAT
 
@@ -91,6 +92,58 @@ class Gallery(BatchTest):
 
     def picture_times(self):
         return {path.stem: path.stat().st_mtime_ns for path in self.parts.glob("*.png")}
+
+
+class Views(BatchTest):
+    """Scans that are tall, open or too small for their meshes."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        write_scan(cls.folder / "tall.xyz", size=8)
+        ball = support.sphere(4000)
+        np.savetxt(cls.folder / "bowl.xyz", ball[ball[:, 2] < 0])
+        write_scan(cls.folder / "few.xyz", 300)
+        cls.write_recipe(
+            scans=["*.xyz"], matrix={"vertices": 200}, gallery=True, view={"up": "z", "elevation": 30}
+        )
+        cls.output, cls.errors, cls.status = cls.run_batch(DISPLAY="")
+
+    def pixels(self, name):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkIOImage import vtkPNGReader
+
+        reader = vtkPNGReader()
+        reader.SetFileName(str(self.results / "gallery" / f"{name}.png"))
+        reader.Update()
+        pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
+        return pixels.reshape(480, 640, -1).astype(int)
+
+    # Promise: a mesh fills its picture, and no part of it is cut off, whatever its shape.
+    @unittest.skipUnless(HAS_VTK, "there is no VTK to draw them")
+    def test_whole(self):
+        for name in ("tall", "bowl", "few"):
+            with self.subTest(name):
+                rows, columns = np.nonzero((self.pixels(name) < 250).any(axis=2))
+                self.assertGreater(min(rows.min(), columns.min()), 0)
+                self.assertLess(rows.max(), 479)
+                self.assertLess(columns.max(), 639)
+                shares = (np.ptp(rows) / 480, np.ptp(columns) / 640)
+                self.assertGreater(max(shares), 0.85)
+
+    # Promise: the inner side of a mesh has a colour of its own.
+    @unittest.skipUnless(HAS_VTK, "there is no VTK to draw them")
+    def test_inner_side(self):
+        for name, is_open in (("bowl", True), ("few", False)):
+            red, _, blue = np.moveaxis(self.pixels(name)[:, :, :3], 2, 0)
+            self.assertEqual(bool((red > blue + 60).mean() > 0.05), is_open, name)
+
+    # Promise: the page counts the jobs with warnings, and has each warning behind its heading.
+    def test_warnings(self):
+        page = Page(self.results / "index.html")
+        self.assertIn("3 jobs: 3 done, 0 failed, 1 with warnings", page.text)
+        self.assertIn("Finer than data: ", page.text)
+        self.assertNotIn("[finer-than-data]", page.text)
 
 
 class NoScreen(BatchTest):

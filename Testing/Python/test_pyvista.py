@@ -386,7 +386,7 @@ class Page(unittest.TestCase):
             return []
         if shutil.which("xvfb-run") is None:
             self.skipTest("there is no screen, and no xvfb-run")
-        return ["xvfb-run", "-a"]
+        return ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset"]
 
 
 if __name__ == "__main__":

@@ -24,9 +24,17 @@ def run_command(command: Callable[[], int], bad_input: type[Exception]) -> int:
     except bad_input as error:
         return _say(error, 2)
     except OSError as error:
-        return _say(error, 1)
+        return _say(words_of(error), 1)
     except KeyboardInterrupt:
         return _say("interrupted; the same command does the rest", _INTERRUPTED)
+
+
+def words_of(error: Exception) -> str:
+    """What went wrong; what the system says stands without its number."""
+    if not isinstance(error, OSError) or not error.strerror:
+        return str(error) or type(error).__name__
+    why = error.strerror[0].lower() + error.strerror[1:]
+    return f"{error.filename}: {why}" if error.filename else why
 
 
 def _say(message: object, status: int) -> int:

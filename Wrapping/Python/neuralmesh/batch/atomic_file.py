@@ -10,18 +10,32 @@ import os
 from pathlib import Path
 from typing import Any, Iterator
 
+from .._command import words_of
+
 _MARK = ".part"
+
+
+class WriteError(OSError):
+    """A file could not be written; the message names it, and says why."""
 
 
 @contextlib.contextmanager
 def atomic_file(path: Path) -> Iterator[Path]:
-    """A name to write to, with the extension of the path, to which it is renamed at the end."""
+    """A name to write to, with the extension of the path, to which it is renamed at the end.
+
+    What goes wrong meanwhile is a WriteError, which names the path.
+    """
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{_MARK}{path.suffix}")
     try:
         yield temporary
         os.replace(temporary, path)
+    except (OSError, RuntimeError, ValueError) as error:
+        # Writers name the file that they know, and so does the system.
+        why = words_of(error).replace(f"{temporary}: ", "").removeprefix("cannot be written: ")
+        raise WriteError(f"{path}: cannot be written: {why}") from None
     finally:
-        temporary.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            temporary.unlink(missing_ok=True)
 
 
 def write_text(path: Path, text: str) -> None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 from typing import Any, Sequence
@@ -12,8 +13,8 @@ from .. import __version__
 from .._command import add_processes_option, run_command
 from .gallery import write_gallery
 from .meshes import DEFAULT_FORMAT
-from .recipe import Job, Recipe, RecipeError, read_recipe
-from .report import has_warnings, is_done, require_distinct, summary_path, write_summary
+from .recipe import NOT_IN_RECIPES, Job, Recipe, RecipeError, read_recipe
+from .report import count_warnings, is_done, require_distinct, summary_path, write_summary
 from .running import run_jobs
 from .atomic_file import alone_in
 
@@ -31,12 +32,13 @@ A recipe is JSON. Only its key `scans` is required:
 
 scans    files of points, relative to the recipe, with wildcards or without:
          .ply .obj .stl .off .pcd .ptx .pwn .xyz .pts .txt .csv .asc, with VTK .vtp .vtk .vtu
-matrix   parameters of neuralmesh.reconstruct(), except progress. A list holds the values to try, and
-         all lists are crossed. first_mesh is a path, relative to the recipe. levels is a list of
-         numbers, or a list of such lists to try
+matrix   parameters of neuralmesh.reconstruct(), except
+         {", ".join(NOT_IN_RECIPES)}.
+         A list holds the values to try, and all lists are crossed. first_mesh is a path, relative
+         to the recipe. levels is a list of numbers, or a list of such lists to try
 format   of the meshes: vtp (default with VTK), ply (default without), obj, stl, glb, off or vtk
-shift    vector that is subtracted from their coordinates and stored in them: [X, Y, Z], or "auto" for
-         a round vector if they are too large for floats (default: none)
+shift    vector that is subtracted from their coordinates and stored in them: [X, Y, Z], or "auto"
+         for a round vector if they are too large for floats (default: none)
 time_limit
          seconds after which a job is ended and has failed (default: none). In the matrix it ends
          learning, and the mesh is kept
@@ -45,15 +47,16 @@ strict   whether the command ends with status 3 if a mesh has warnings (default:
          written in any case
 view     of the pictures: the axis that points upwards, and the direction of view in degrees
 
-The folder gets a mesh and a report (.json) for each job, and summary.csv and the gallery, index.html,
-for all. The mesh is the largest level; the others are beside it (JOB_1000.vtp). A job does not run again if its result exists and nothing has changed: its scan (size and time
-of modification), its parameters, the format, and the version of NeuralMesh. Results of jobs that are
+The folder gets a mesh and a report (.json) for each job, and summary.csv and the gallery,
+index.html, for all. The mesh is the largest level; the others are beside it (JOB_1000.vtp). A job
+does not run again if its result exists and nothing has changed: its scan (size and time of
+modification), its parameters, the format, and the version of NeuralMesh. Results of jobs that are
 no longer in the recipe stay.
-Each warning ends with a tag in brackets: a heading of Documentation/Guide/Failures.md.
+Each warning has a tag: a heading of Documentation/Guide/Failures.md. summary.csv has the tags.
 
 Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 3 all are done, some
-with warnings, and the recipe is strict, 130 after Ctrl-C. Finished results stay, and the same
-command does the rest."""
+with warnings, and the recipe is strict, 130 after Ctrl-C, 143 after SIGTERM. Finished results
+stay, and the same command does the rest."""
 _SUMMARY = "reconstruct many scans by one recipe"
 _TEXTS: dict[str, Any] = {
     "description": "Reconstruct many scans by one recipe: each with each set of parameters, each in "
@@ -105,15 +108,17 @@ def _batch(recipe_path: Path, output: Path | None, processes: int) -> int:
     folder.mkdir(parents=True, exist_ok=True)
     with alone_in(folder, "batch"):
         failed = _run(recipe, folder, processes)
+        warned = sum(count_warnings(folder, job) > 0 for job in recipe.jobs)
+        with_warnings = f", {warned} with warnings" if warned else ""
+        # First, as a full disk may take no summary and no gallery.
+        done = len(recipe.jobs) - failed
+        print(f"jobs       {done} done, {failed} failed{with_warnings}", flush=True)
         write_summary(folder, recipe)
-        print(f"summary    {summary_path(folder)}")
+        print(f"summary    {summary_path(folder)}", flush=True)
         if recipe.gallery:
             for problem in write_gallery(folder, recipe, recipe_path.stem):
                 print(f"neuralmesh: {problem}", file=sys.stderr)
             print(f"gallery    {folder / 'index.html'}")
-    warned = sum(has_warnings(folder, job) for job in recipe.jobs)
-    with_warnings = f", {warned} with warnings" if warned else ""
-    print(f"jobs       {len(recipe.jobs) - failed} done, {failed} failed{with_warnings}")
     if failed:
         return 1
     return 3 if recipe.is_strict and warned else 0
@@ -126,12 +131,30 @@ def _run(recipe: Recipe, folder: Path, processes: int) -> int:
     if ended:
         print(f"{ended} of {len(recipe.jobs)} jobs were done before", flush=True)
     failed = 0
+    # On a terminal, or in one file, nothing is to be read twice.
+    is_seen_once = _is_one_file()
 
     def on_end(job: Job, error: str) -> None:
         nonlocal ended, failed
         ended += 1
         failed += bool(error)
-        print(f"[{ended}/{len(recipe.jobs)}] {job.name}: {error or 'done'}", flush=True)
+        line = f"[{ended}/{len(recipe.jobs)}] {job.name}: {error or _done(folder, job)}"
+        print(line, flush=True)
+        if error and not is_seen_once:
+            print(f"neuralmesh: {job.name}: {error}", file=sys.stderr, flush=True)
 
     run_jobs(jobs, folder, recipe.format, processes, recipe.time_limit, on_end)
     return failed
+
+
+def _done(folder: Path, job: Job) -> str:
+    count = count_warnings(folder, job)
+    return "done" + (f", {count} warning{'s' * (count > 1)}" if count else "")
+
+
+def _is_one_file() -> bool:
+    """Whether the output and the errors go to the same place."""
+    try:
+        return os.path.sameopenfile(sys.stdout.fileno(), sys.stderr.fileno())
+    except (OSError, ValueError):  # no files at all, or closed
+        return False

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 import string
 from html import escape
 from pathlib import Path
@@ -16,10 +15,15 @@ from .page_mesh import page_mesh
 from .pictures import draw_pictures
 from .recipe import Job, Recipe
 from .report import read_report, result_path
-from .atomic_file import write_text
+from .atomic_file import atomic_file, write_text
+from .words import heading_of, tag_of, without_tag
 
 _PAGE = Path(__file__).with_name("page")
 _VIEWER = ("vtk.js", "vtk.js.LICENSE")
+_CURES = (
+    "<p>Warnings stand behind their headings in <em>Failures and cures</em> of the guide "
+    "(Documentation/Guide/Failures.md).</p>\n"
+)
 # What is said of a mesh at once, and what to those who ask, by the names in its report.
 _FIGURES = {
     "residual": "residual",
@@ -45,7 +49,8 @@ def write_gallery(folder: Path, recipe: Recipe, title: str) -> list[str]:
     parts.mkdir(exist_ok=True)
     has_viewer = (_PAGE / "vtk.js").is_file()
     for name in ("gallery.css", "viewer.js", *(_VIEWER if has_viewer else ())):
-        shutil.copyfile(_PAGE / name, parts / name)
+        with atomic_file(parts / name) as temporary:
+            temporary.write_bytes((_PAGE / name).read_bytes())
     reports = {job: read_report(folder, job.name) for job in recipe.jobs}
     done = [job for job in recipe.jobs if reports[job].get("status") == "done"]
     problems = [] if has_viewer else ["no 3D views: this package was built without vtk.js"]
@@ -65,10 +70,14 @@ def write_gallery(folder: Path, recipe: Recipe, title: str) -> list[str]:
     if problem:
         problems.append(problem)
 
+    failed = len(recipe.jobs) - len(done)
+    warned = sum(bool(reports[job].get("warnings")) for job in done)
+    with_warnings = f", {warned} with warnings" if warned else ""
     template = string.Template((_PAGE / "index.html").read_text(encoding="utf-8"))
     page = template.substitute(
         title=escape(title),
-        jobs=f"{len(recipe.jobs)} jobs: {len(done)} done, {len(recipe.jobs) - len(done)} failed",
+        jobs=f"{len(recipe.jobs)} jobs: {len(done)} done, {failed} failed{with_warnings}",
+        cures=_CURES if warned else "",
         problems="".join(f'<p class="problem">{escape(problem)}</p>\n' for problem in problems),
         sections="".join(_sections(reports, parts, recipe, has_viewer)),
         scripts='<script src="gallery/viewer.js"></script>' if has_viewer else "",
@@ -120,18 +129,19 @@ def _cards(
         text = f"<h3>{title}</h3>\n<pre>{error}</pre>\n<p>{report_link}</p>"
         yield f'<article class="failed">\n{text}\n</article>\n'
         return
-    shown = [(job.name, title, report, [*_figures(report)])]
+    shown = [(job.name, title, report, [*_figures(report)], _warnings(report["warnings"]))]
     for level, told in zip(job.smaller_levels, report.get("levels", [])):
         figures = [*_figures_of_mesh(told), ("made with", job.name)]
-        shown.append((job.level_name(level), f"level of {level}", told, figures))
-    for name, heading, told, figures in shown:
+        shown.append((job.level_name(level), f"level of {level}", told, figures, ""))
+    for name, heading, told, figures, warnings in shown:
         picture = _picture(name, parts, has_viewer)
         result = escape(quote(told["result"]["file"]))
         links = f'<a href="{result}">{recipe.format}</a> {report_link}'
         yield (
             f'<article id="card-{escape(name)}" data-name="{escape(name)}">\n{picture}\n'
-            f"<h3>{heading}</h3>\n{_table(figures)}<details><summary>more</summary>\n"
-            f'{_table(_chosen(told["quality"], _MORE_FIGURES))}</details>\n<p>{links}</p>\n</article>\n'
+            f"<h3>{heading}</h3>\n{_table(figures)}{warnings}<details><summary>more</summary>\n"
+            f'{_table(_chosen(told["quality"], _MORE_FIGURES))}</details>\n'
+            f"<p>{links}</p>\n</article>\n"
         )
 
 
@@ -152,8 +162,6 @@ def _figures(report: dict[str, Any]) -> Iterator[tuple[str, str]]:
     yield "points", f"{report['result']['points']:,}"
     yield from _figures_of_mesh(report)
     yield "time", f"{sum(report['seconds'].values()):.2f} s"
-    for warning in report["warnings"]:
-        yield "warning", warning
 
 
 def _figures_of_mesh(told: dict[str, Any]) -> Iterator[tuple[str, str]]:
@@ -169,6 +177,15 @@ def _chosen(quality: dict[str, Any], labels: dict[str, str]) -> Iterator[tuple[s
 def _table(rows: Iterable[tuple[str, str]]) -> str:
     lines = (f"<tr><th>{escape(label)}</th><td>{escape(text)}</td></tr>\n" for label, text in rows)
     return f"<table>\n{''.join(lines)}</table>\n"
+
+
+def _warnings(texts: list[str]) -> str:
+    """The warnings, each behind the heading under which its causes and cures are."""
+    lines = (
+        f"<li><strong>{escape(heading_of(tag_of(text)))}</strong>: {escape(without_tag(text))}</li>\n"
+        for text in texts
+    )
+    return f'<ul class="warnings">\n{"".join(lines)}</ul>\n' if texts else ""
 
 
 def _plain(value: Any) -> str:

@@ -7,15 +7,17 @@ What goes wrong is said in one message on the standard error, and the exit statu
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import sys
 import time
 import warnings
 from pathlib import Path
-from typing import Any
+from typing import Any, Iterator
 
 from .. import _world
+from .._command import words_of
 from .._reconstruct import make_filter, require_points, take_input
 from .meshes import counts_of, read_mesh, read_points, require_digits, write_mesh
 from .report import (
@@ -28,7 +30,7 @@ from .report import (
     result_path,
 )
 from .recipe import Job
-from .atomic_file import write_json
+from .atomic_file import WriteError, write_json
 
 
 def main() -> None:
@@ -38,8 +40,10 @@ def main() -> None:
     job = Job(content["name"], scan, parameters, first_mesh, content["shift"])
     try:
         run(job, Path(content["folder"]), content["format"])
+    except WriteError as error:  # which names the file
+        sys.exit(str(error))
     except Exception as error:  # whatever it is: it goes into the report
-        text = str(error) or type(error).__name__
+        text = words_of(error)
         # Some readers name the file, with the line where it is wrong.
         sys.exit(text if text.startswith(str(job.scan)) else f"{job.scan}: {text}")
 
@@ -86,34 +90,45 @@ def run(job: Job, folder: Path, mesh_format: str) -> None:
         )
         require_points(mesh)
     times.append(time.perf_counter())
-    shift = write_mesh(mesh, path, job.shift)
-    paths = [result_path(folder, job.level_name(level), mesh_format) for level in job.smaller_levels]
-    for level, level_path in zip(smaller, paths):
-        write_mesh(level, level_path, job.shift)
-    times.append(time.perf_counter())
-    seconds = (round(after - before, 4) for before, after in zip(times, times[1:]))
-    levels_told = [
-        {"result": _file_of(level, level_path), "quality": quality_of(level)}
-        for level, level_path in zip(smaller, paths)
-    ]
-    report: dict[str, Any] = {
-        "job": job.name,
-        "status": "done",
-        **identity,
-        "result": {
-            **_file_of(mesh, path),
-            "points": counts_of(points)[0],
-            **({} if job.shift is None else {"shift": shift}),
-        },
-        **({"levels": levels_told} if levels_told else {}),
-        "seconds": dict(zip(SECONDS, seconds)),
-        "phases": {
-            name: round(getattr(mesh_filter, f"Get{name.title()}Time")(), 4) for name in PHASES
-        },
-        "quality": quality_of(mesh),
-        "warnings": [str(warning.message) for warning in warned],
-    }
-    write_json(report_path(folder, job.name), report)
+    with _checkpoint_until_written(mesh_filter):
+        shift = write_mesh(mesh, path, job.shift)
+        paths = [result_path(folder, job.level_name(level), mesh_format) for level in job.smaller_levels]
+        for level, level_path in zip(smaller, paths):
+            write_mesh(level, level_path, job.shift)
+        times.append(time.perf_counter())
+        seconds = (round(after - before, 4) for before, after in zip(times, times[1:]))
+        levels_told = [
+            {"result": _file_of(level, level_path), "quality": quality_of(level)}
+            for level, level_path in zip(smaller, paths)
+        ]
+        report: dict[str, Any] = {
+            "job": job.name,
+            "status": "done",
+            **identity,
+            "result": {
+                **_file_of(mesh, path),
+                "points": counts_of(points)[0],
+                **({} if job.shift is None else {"shift": shift}),
+            },
+            **({"levels": levels_told} if levels_told else {}),
+            "seconds": dict(zip(SECONDS, seconds)),
+            "phases": {
+                name: round(getattr(mesh_filter, f"Get{name.title()}Time")(), 4) for name in PHASES
+            },
+            "quality": quality_of(mesh),
+            "warnings": [str(warning.message) for warning in warned],
+        }
+        write_json(report_path(folder, job.name), report)
+
+
+@contextlib.contextmanager
+def _checkpoint_until_written(mesh_filter: Any) -> Iterator[None]:
+    """Remove the checkpoint when all is written, and when it cannot be: others need the room then."""
+    try:
+        yield
+    except WriteError:
+        mesh_filter.RemoveCheckpoint()
+        raise
     mesh_filter.RemoveCheckpoint()
 
 

@@ -30,7 +30,8 @@ def draw_pictures(pictures: list[tuple[Path, Path]], view: dict[str, Any]) -> st
         screen = shutil.which("xvfb-run")
         if screen is None:
             return "no pictures: there is neither a screen nor xvfb-run (Debian: xvfb xauth)"
-        command = [screen, "-a", *command]
+        # Without -noreset the server may end between two windows.
+        command = [screen, "-a", "-s", "-screen 0 1280x1024x24 -noreset", *command]
     order = {"view": view, "pictures": [[str(mesh), str(path)] for mesh, path in pictures]}
     return _run(command, json.dumps(order))
 

@@ -12,11 +12,17 @@ import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Iterator
 
 from .._world import check_parameters
 from .._parameters import hint
-from .._reconstruct import ENSEMBLE_PARAMETERS, PARAMETERS, make_filter, require_one_start
+from .._reconstruct import (
+    ENSEMBLE_PARAMETERS,
+    PARAMETERS,
+    make_filter,
+    reconstruct,
+    require_one_start,
+)
 from .meshes import DEFAULT_FORMAT, FORMATS, problem_of_format
 
 KEYS = ("scans", "matrix", "format", "shift", "time_limit", "gallery", "view", "strict")
@@ -27,6 +33,14 @@ _NAMED = {parameter.name for parameter in _SIGNATURE if parameter.kind != parame
 # Those that the filter is not given as properties.
 _OF_INPUT = ("weights", "first_mesh")
 _KNOWN = {*_NAMED, *_OF_INPUT, *PARAMETERS, *ENSEMBLE_PARAMETERS}
+
+
+# Arguments of reconstruct() that a recipe cannot give, or that the batch gives itself.
+NOT_IN_RECIPES = tuple(
+    parameter.name
+    for parameter in inspect.signature(reconstruct).parameters.values()
+    if parameter.name not in _KNOWN and parameter.kind != parameter.VAR_KEYWORD
+)
 
 
 class RecipeError(ValueError):
@@ -226,19 +240,43 @@ def _check_combination(parameters: dict[str, Any]) -> None:
 
 
 def _names(scans: list[Path]) -> list[str]:
-    """The name of each without the extension, with enough folders to make all different."""
-    depth = max(len(scan.parts) for scan in scans)
-    candidates = [[scan.stem for scan in scans]]
-    candidates += [["-".join(scan.parts[-count:]) for scan in scans] for count in range(1, depth)]
-    for names in candidates:
-        names = [_in_name(name) for name in names]
+    """The name of each without the extension. Those of one name get what tells them apart."""
+    alike: dict[str, list[Path]] = {}
+    for scan in scans:
+        alike.setdefault(_in_name(scan.stem), []).append(scan)
+    short = {scan: name for group in alike.values() for scan, name in _names_of_alike(group)}
+    common = os.path.commonpath([scan.parent for scan in scans])
+    whole = {scan: "_".join(scan.relative_to(common).parts) for scan in scans}
+    for chosen in (short, whole):
+        names = [_in_name(chosen[scan]) for scan in scans]
         if len(set(names)) == len(names):
             return names
     raise RecipeError("scans: their names are equal")
 
 
+def _names_of_alike(scans: list[Path]) -> Iterator[tuple[Path, str]]:
+    """Names for scans whose files have one name: with the folder in which they differ, before it, and
+    with the extension, behind it, where there are several in one folder.
+    """
+    parents = [scan.parent for scan in scans]
+    common = os.path.commonpath(parents)
+    paths = [parent.relative_to(common).parts for parent in parents]
+    different = len(set(parents))
+    folders = ["-".join(path) for path in paths]
+    for level in range(max(map(len, paths))):
+        single = ["".join(path[level : level + 1]) for path in paths]
+        if len(set(single)) == different:
+            folders = single
+            break
+    for scan, folder in zip(scans, folders):
+        name = f"{folder}-{scan.stem}" if folder else scan.stem
+        yield scan, name if parents.count(scan.parent) == 1 else f"{name}-{scan.suffix[1:]}"
+
+
 def _in_name(value: Any) -> str:
     """A value or a file's name as a part of names of files; no word begins with a dot."""
+    if isinstance(value, list):
+        return "-".join(map(_in_name, value))
     text = value if isinstance(value, str) else json.dumps(value)
     return re.sub(r"[^\w.+-]|^\.", "_", text)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import json
 import os
-import signal
 import subprocess
 import sys
 import tempfile
@@ -15,10 +14,10 @@ from typing import IO, Callable
 
 from .recipe import Job
 from .report import identity_of, report_path, result_path
-from .atomic_file import write_json
+from .atomic_file import WriteError, write_json
+from .words import words_of_process
 
 _PAUSE = 0.02  # seconds between looks at the processes
-_LONGEST_MESSAGE = 4000  # characters of what a process says in the end
 
 
 def run_jobs(
@@ -46,7 +45,7 @@ def run_jobs(
                 running.remove(process)
                 error = process.error()
                 if error:
-                    _write_failure(process.job, folder, mesh_format, error)
+                    error = _write_failure(process.job, folder, mesh_format, error)
                 on_end(process.job, error)
     finally:
         for process in running:
@@ -111,16 +110,21 @@ class _Process:
             limit = f"{self._time_limit:g} s, the time_limit of the recipe"
             return f"{self.job.scan}: ended after {limit}"
         self._messages.seek(0)
-        said = self._messages.read().decode(errors="replace").strip()[-_LONGEST_MESSAGE:]
-        if status > 0:
-            return said or f"the process ended with status {status}"
-        name = signal.Signals(-status).name
-        return f"the process was ended by {name}. {said}".strip()
+        said = self._messages.read().decode(errors="replace")
+        return words_of_process(status, said, str(self.job.scan))
 
 
-def _write_failure(job: Job, folder: Path, mesh_format: str, error: str) -> None:
+def _write_failure(job: Job, folder: Path, mesh_format: str, error: str) -> str:
+    """Write a report of what went wrong; the error, with that of the report if it cannot be written."""
     # What an earlier recipe left under this name is no result of this one.
     for name in (job.name, *map(job.level_name, job.smaller_levels)):
         result_path(folder, name, mesh_format).unlink(missing_ok=True)
     report = {"job": job.name, "status": "failed", **identity_of(job, mesh_format), "error": error}
-    write_json(report_path(folder, job.name), report)
+    path = report_path(folder, job.name)
+    try:
+        write_json(path, report)
+    except WriteError as unwritten:
+        # That of an earlier run would be read as that of this one.
+        path.unlink(missing_ok=True)
+        return f"{error}; {unwritten}"
+    return error

@@ -39,13 +39,19 @@ async function numbers(text, ArrayType) {
 function makeStage() {
   const window3d = vtk.Rendering.Misc.vtkGenericRenderWindow.newInstance({ background: [1, 1, 1] });
   window3d.setContainer(element("scene"));
-  const mapper = vtk.Rendering.Core.vtkMapper.newInstance();
-  const actor = vtk.Rendering.Core.vtkActor.newInstance();
-  actor.setMapper(mapper);
-  actor.getProperty().set({ edgeColor: [0.1, 0.15, 0.3], ambient: 0.1, diffuse: 0.8, specular: 0.15,
-    specularPower: 20 });
+  // The outer side of the mesh, and the inner one, which has a colour of its own.
+  const [actor, back] = [0, 1].map(() => {
+    const side = vtk.Rendering.Core.vtkActor.newInstance();
+    side.setMapper(vtk.Rendering.Core.vtkMapper.newInstance());
+    side.getProperty().set({ edgeColor: [0.1, 0.15, 0.3], ambient: 0.1, diffuse: 0.8, specular: 0.15,
+      specularPower: 20 });
+    return side;
+  });
+  back.getProperty().setColor(0.95, 0.55, 0.3);
+  back.getProperty().setFrontfaceCulling(true);
+  back.getMapper().setScalarVisibility(false);
   new ResizeObserver(() => window3d.resize()).observe(element("scene"));
-  return { window3d, mapper, actor };
+  return { window3d, actor, back, points: [] };
 }
 
 /** A normal at each vertex: those of its triangles, weighted by area. */
@@ -88,6 +94,36 @@ function polyDataOf(points, triangles, colors) {
   return mesh;
 }
 
+/** Moves the camera, along the direction of view, so that the points just fill the window. */
+function fit(camera, points) {
+  const backwards = camera.getDirectionOfProjection().map((number) => -number);
+  const up = camera.getViewUp();
+  const right = [0, 1, 2].map(
+    (i) => up[(i + 1) % 3] * backwards[(i + 2) % 3] - up[(i + 2) % 3] * backwards[(i + 1) % 3]);
+  const axes = [right, up, backwards];
+  const seen = (p, axis) => points[p] * axis[0] + points[p + 1] * axis[1] + points[p + 2] * axis[2];
+  const low = [Infinity, Infinity, Infinity];
+  const high = low.map((number) => -number);
+  for (let p = 0; p < points.length; p += 3) {
+    axes.forEach((axis, i) => {
+      low[i] = Math.min(low[i], seen(p, axis));
+      high[i] = Math.max(high[i], seen(p, axis));
+    });
+  }
+  const middle = low.map((number, i) => (number + high[i]) / 2);
+  const { clientWidth: width, clientHeight: height } = element("scene");
+  const slope = 0.8 * Math.tan((camera.getViewAngle() * Math.PI) / 360);
+  const slopes = [(slope * width) / Math.max(height, 1), slope];
+  let distance = Number.MIN_VALUE;
+  for (let p = 0; p < points.length; p += 3) {
+    const [x, y, z] = axes.map((axis, i) => seen(p, axis) - middle[i]);
+    distance = Math.max(distance, z + Math.abs(x) / slopes[0], z + Math.abs(y) / slopes[1]);
+  }
+  const focus = [0, 1, 2].map((i) => axes.reduce((sum, axis, a) => sum + axis[i] * middle[a], 0));
+  camera.setFocalPoint(...focus);
+  camera.setPosition(...focus.map((number, i) => number + distance * backwards[i]));
+}
+
 function resetCamera() {
   const renderer = stage.window3d.getRenderer();
   const camera = renderer.getActiveCamera();
@@ -97,8 +133,8 @@ function resetCamera() {
   camera.azimuth(view.azimuth);
   camera.elevation(view.elevation);
   camera.orthogonalizeViewUp();
-  renderer.resetCamera();
-  camera.zoom(1.3);
+  fit(camera, stage.points);
+  renderer.resetCameraClippingRange();
   stage.window3d.getRenderWindow().render();
 }
 
@@ -110,6 +146,10 @@ function setStyle(name) {
   if (stage) {
     const looks = stage.actor.getProperty();
     const isWireframe = name === "wireframe";
+    // A wireframe shows the lines of both sides.
+    looks.setBackfaceCulling(!isWireframe);
+    stage.back.setVisibility(!isWireframe);
+    stage.back.getProperty().setEdgeVisibility(name === "edges");
     looks.setRepresentation(isWireframe ? 1 : 2);
     looks.setLighting(!isWireframe);
     looks.setColor(...(isWireframe ? [0.1, 0.15, 0.3] : [0.75, 0.8, 0.9]));
@@ -129,10 +169,14 @@ async function showMesh(content) {
   if (content.name !== shown) {
     return;
   }
-  stage.mapper.setInputData(polyDataOf(points, triangles, colors));
-  stage.mapper.setScalarVisibility(Boolean(colors));
-  stage.window3d.getRenderer().removeActor(stage.actor);
-  stage.window3d.getRenderer().addActor(stage.actor);
+  const mesh = polyDataOf(points, triangles, colors);
+  stage.points = points;
+  stage.actor.getMapper().setScalarVisibility(Boolean(colors));
+  for (const side of [stage.actor, stage.back]) {
+    side.getMapper().setInputData(mesh);
+    stage.window3d.getRenderer().removeActor(side);
+    stage.window3d.getRenderer().addActor(side);
+  }
   setStyle(style);
   resetCamera();
   const [vertexCount, triangleCount] = [points.length / 3, triangles.length / 3];
