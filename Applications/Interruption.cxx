@@ -23,12 +23,12 @@ Interruption::Interruption()
   InterruptingSignal = 0;
   for (const int signal : Signals)
   {
-    auto* const before = std::signal(signal, Interrupt);
+    // What runs under nohup goes on when its terminal is closed, also at this moment.
+    auto* const before = std::signal(signal, signal == SIGINT ? Interrupt : SIG_IGN);
     this->Before.emplace_back(signal, before);
-    // What runs under nohup goes on when its terminal is closed.
-    if (signal != SIGINT && before == SIG_IGN)
+    if (signal != SIGINT && before != SIG_IGN)
     {
-      std::signal(signal, SIG_IGN);
+      std::signal(signal, Interrupt);
     }
   }
 }

@@ -30,7 +30,7 @@ constexpr int LooksAtOnce = 64;
 template <typename IsThere>
 void lookFor(unsigned threads, const IsThere& isThere)
 {
-  static const unsigned AtOnce = std::thread::hardware_concurrency();
+  static const unsigned AtOnce = availableProcessors();
   if (threads > AtOnce)
   {
     return;

@@ -6,6 +6,6 @@
 namespace neuralmesh
 {
 /// Whether all points of a cloud lie on a straight line, as they do where a column of a table was read for another
-/// one: no farther from it than a ten-thousandth of its length. Ends at the first few points that do not.
+/// one: no farther from it than a ten-thousandth of its length.
 bool areOnLine(const PointCloud& cloud);
 }

@@ -47,22 +47,24 @@ EmptyCaps::EmptyCaps(
         {
           Cap& cap = caps_[v];
           cap.count += 1.f;
-          cap.squares += place.squaredDistance;
+          cap.weight += samples.weight(i);
+          cap.squares += samples.weight(i) * place.squaredDistance;
           cap.most = std::max(cap.most, place.weights()[corner]);
           offer(v, cap, std::uint32_t(i));
         }
       }
     });
-  double squares = 0., count = 0.;
+  double squares = 0., weights = 0.;
   for (std::size_t i = 0; i < samples.points.size(); ++i)
   {
     if (samples.isUsed[i] != 0)
     {
-      squares += double(samples.places[i].squaredDistance);
-      count += 1.;
+      const double weight = double(samples.weight(i));
+      squares += weight * double(samples.places[i].squaredDistance);
+      weights += weight;
     }
   }
-  scale_ = std::max(scale_, squares / std::max(1., count));
+  scale_ = weights > 0. ? std::max(scale_, squares / weights) : scale_;
   lookAround();
   expect();
 }
@@ -139,8 +141,9 @@ std::optional<EmptyCaps::End> EmptyCaps::endAt(VertexIndex v) const
   double part = 1.;
   if (cap.count >= LeastSamplesOfCap)
   {
-    const double samples = cap.count, squares = cap.squares;
-    const double most = scale_ * (samples + DeviationsOfSquares * std::sqrt(2. * samples));
+    const double samples = cap.count, squares = cap.squares, meanWeight = cap.weight / cap.count;
+    const double most =
+      scale_ * meanWeight * (samples + DeviationsOfSquares * std::sqrt(2. * samples));
     part = squares > most ? 1. - most / squares : 0.;
   }
   if (!(part > 0.))
@@ -150,6 +153,7 @@ std::optional<EmptyCaps::End> EmptyCaps::endAt(VertexIndex v) const
   const Vector4 origin = mesh_.position(v);
   const float across = dot(samples_.points[cap.nearest] - origin, normal) / squared;
   const auto step = float(part * (1. - usual / empty));
-  return End{ origin + step * across * normal, float(count) };
+  const float meanWeight = cap.count > 0.f ? cap.weight / cap.count : samples_.weight(cap.nearest);
+  return End{ origin + step * across * normal, float(count) * meanWeight };
 }
 }

@@ -23,7 +23,7 @@ public:
   EmptyCaps(
     const Mesh& mesh, const PlacedSamples& samples, double variance, const Executor& executor);
 
-  /// Where the samples end, and how many tell it.
+  /// Where the samples end, and what those that tell it weigh.
   struct End
   {
     Vector4 position;
@@ -39,7 +39,8 @@ private:
   struct Cap
   {
     float count = 0.f;            ///< of the samples on the triangles of the vertex ...
-    float squares = 0.f;          ///< ... and the sum of their squared distances
+    float weight = 0.f;           ///< ... what they weigh together ...
+    float squares = 0.f;          ///< ... and the sum of their squared distances, weighted
     float most = 0.f;             ///< of their barycentric coordinates at the vertex
     float expected = 0.f;         ///< how many samples there are on as much area near by
     std::uint32_t nearest = None; ///< of the samples around

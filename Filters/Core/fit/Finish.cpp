@@ -243,7 +243,7 @@ void Finish::dropOddPieces()
 {
   const StoredMesh before(mesh_, executor_);
   const std::size_t shrunk = dropPieces(mesh_, ShrunkPart, AnyVertices, executor_);
-  const std::size_t scraps = plan_.surface ? 0 : dropScraps(mesh_);
+  const std::size_t scraps = plan_.surface ? 0 : dropScraps(mesh_, executor_);
   if (shrunk + scraps > 0)
   {
     refine(

@@ -17,8 +17,8 @@ namespace
 constexpr std::size_t MostPoints = 20000;
 }
 
-MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles,
-  const Executor& executor, DistanceTo to, const Progress& progress)
+std::optional<MeshQuality> measureQuality(const PointCloud& cloud, const Mesh& mesh,
+  const TriangleMesh& triangles, const Executor& executor, DistanceTo to, const Progress& progress)
 {
   const std::vector<std::size_t> points = heldOutPoints(cloud, MostPoints);
   const std::vector<float> squared = squaredDistances(cloud, points, mesh, executor, to);
@@ -44,15 +44,16 @@ MeshQuality measureQuality(const PointCloud& cloud, const Mesh& mesh, const Tria
   quality.outlierShare = double(outliers) / double(points.size());
   if (!progress(0.4))
   {
-    return quality;
+    return {};
   }
   quality.surface = reportSurface(triangles, executor);
   // A closed mesh has one inside, so no part of it is turned.
   quality.turnedShare = quality.surface.boundaryLoops > 0 ? turnedShare(triangles) : 0.;
-  if (progress(0.7))
+  if (!progress(0.7))
   {
-    quality.narrowHandles = findNarrowHandles(mesh, executor);
+    return {};
   }
+  quality.narrowHandles = findNarrowHandles(mesh, executor);
   return quality;
 }
 }

@@ -9,6 +9,8 @@
 #include "mesh/NarrowHandles.h"
 #include "mesh/SurfaceReport.h"
 
+#include <optional>
+
 namespace neuralmesh
 {
 /// The figures of a mesh: its distance to the cloud, and properties of its surface.
@@ -26,8 +28,8 @@ struct MeshQuality
 };
 
 /// `triangles` are those of the mesh. Of very many points only some are measured; to the nearest triangle, of a surface,
-/// none is an outlier. Where `progress` ends it, the rest is as if nothing were found.
-MeshQuality measureQuality(
+/// none is an outlier. Nothing if `progress` ends it.
+std::optional<MeshQuality> measureQuality(
   const PointCloud& cloud, const Mesh& mesh, const TriangleMesh& triangles,
   const Executor& executor = Executor::sequential(), DistanceTo to = DistanceTo::SurfaceAgain,
   const Progress& progress = [](double) { return true; });

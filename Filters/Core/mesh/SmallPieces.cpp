@@ -4,6 +4,9 @@
 #include "mesh/Pieces.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 
 namespace neuralmesh
 {
@@ -19,6 +22,59 @@ constexpr double MostOfVertices = 0.5;
 constexpr std::size_t MostVerticesOfScrap = 5;
 /// From the vertices of what it lies on.
 constexpr double EdgesToScrap = 1.5;
+
+struct Scrap
+{
+  const Piece* piece;
+  Vector4 place;
+  bool isNearOther = false;
+};
+
+/// Finds the scraps within some reach of a place, by cubes as wide as that: O(log n) for n scraps.
+class ScrapSearch
+{
+public:
+  ScrapSearch(std::vector<Scrap>& scraps, float reach)
+    : scraps_(scraps)
+    , reach_(reach)
+  {
+    for (std::size_t i = 0; i < scraps.size(); ++i)
+    {
+      const Cube cube = cubeOf(scraps[i].place);
+      for (int around = 0; around < 27; ++around)
+      {
+        byCube_.emplace(Cube{ cube[0] + double(around % 3 - 1),
+                          cube[1] + double(around / 3 % 3 - 1), cube[2] + double(around / 9 - 1) },
+          i);
+      }
+    }
+  }
+
+  /// What lies near the place does so near another piece.
+  void markAround(Vector4 place)
+  {
+    const auto [begin, end] = byCube_.equal_range(cubeOf(place));
+    for (auto at = begin; at != end; ++at)
+    {
+      Scrap& scrap = scraps_[at->second];
+      scrap.isNearOther = scrap.isNearOther || squaredNorm(scrap.place - place) <= reach_ * reach_;
+    }
+  }
+
+private:
+  using Cube = std::array<double, 3>;
+
+  Cube cubeOf(Vector4 place) const
+  {
+    return { std::floor(double(place[0]) / double(reach_)),
+      std::floor(double(place[1]) / double(reach_)),
+      std::floor(double(place[2]) / double(reach_)) };
+  }
+
+  std::vector<Scrap>& scraps_;
+  float reach_;
+  std::multimap<Cube, std::size_t> byCube_;
+};
 
 /// Those of whole pieces, with their triangles.
 void removeVertices(Mesh& mesh, const std::vector<std::uint8_t>& isRemoved)
@@ -147,36 +203,44 @@ std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices, const
   return dropped;
 }
 
-std::size_t dropScraps(Mesh& mesh)
+std::size_t dropScraps(Mesh& mesh, const Executor& executor)
 {
-  if (pieceCount(mesh) < 2)
+  if (pieceCount(mesh, executor) < 2)
   {
     return 0;
   }
-  const std::vector<Piece> pieces = findPieces(mesh);
-  const double reach = EdgesToScrap * mesh.meanEdge();
-  std::vector<std::uint8_t> isScrap(mesh.indexEnd(), 0);
+  const std::vector<Piece> pieces = findPieces(mesh, executor);
   const auto isSmall = [](const Piece& piece)
   { return !piece.isClosed && piece.vertices.size() <= MostVerticesOfScrap; };
-  const auto isNearOther = [&](const Piece& scrap)
-  {
-    const Vector4 place = mesh.position(scrap.vertices.front());
-    return std::any_of(pieces.begin(), pieces.end(),
-      [&](const Piece& other)
-      {
-        return !isSmall(other) &&
-          std::any_of(other.vertices.begin(), other.vertices.end(),
-            [&](VertexIndex v)
-            { return double(squaredNorm(mesh.position(v) - place)) <= reach * reach; });
-      });
-  };
-  std::size_t dropped = 0;
+  std::vector<Scrap> scraps;
   for (const Piece& piece : pieces)
   {
-    if (isSmall(piece) && isNearOther(piece))
+    if (isSmall(piece))
+    {
+      scraps.push_back({ &piece, mesh.position(piece.vertices.front()) });
+    }
+  }
+  const auto reach = float(EdgesToScrap * mesh.meanEdge(executor));
+  if (scraps.empty() || !(reach > 0.f))
+  {
+    return 0;
+  }
+  ScrapSearch search(scraps, reach);
+  for (const Piece& piece : pieces)
+  {
+    for (std::size_t i = 0; i < piece.vertices.size() && !isSmall(piece); ++i)
+    {
+      search.markAround(mesh.position(piece.vertices[i]));
+    }
+  }
+  std::vector<std::uint8_t> isScrap(mesh.indexEnd(), 0);
+  std::size_t dropped = 0;
+  for (const Scrap& scrap : scraps)
+  {
+    if (scrap.isNearOther)
     {
       ++dropped;
-      for (const VertexIndex v : piece.vertices)
+      for (const VertexIndex v : scrap.piece->vertices)
       {
         isScrap[v] = 1;
       }

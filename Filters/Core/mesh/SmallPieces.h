@@ -27,5 +27,5 @@ std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices,
 
 /// Drops scraps: open pieces of at most three triangles that lie so close to another piece that this is where their
 /// points belong. No vertex may be erased, and none is in the end. Returns how many were dropped.
-std::size_t dropScraps(Mesh& mesh);
+std::size_t dropScraps(Mesh& mesh, const Executor& executor = Executor::sequential());
 }

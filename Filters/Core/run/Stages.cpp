@@ -293,10 +293,10 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
   const OrientationHints& hints, Reconstruction& result, const Progress& progress,
   const Executor& executor)
 {
-  // Whoever ends the run here gets what there is.
-  progress(0.);
+  // A run that is ended here has a mesh without a report.
+  bool goesOn = progress(0.);
   result.orientation = orientMesh(learnt.mesh, cloud, hints, executor);
-  const bool goesOn = progress(0.);
+  goesOn = goesOn && progress(0.);
   result.mesh = trianglesOf(learnt.mesh, cloud);
   result.normals = pointNormals(result.mesh);
   const auto activities = learnt.mesh.values(learnt.activity);

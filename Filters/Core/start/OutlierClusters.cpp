@@ -46,9 +46,6 @@ constexpr double ExtraLayers = 2.;
 constexpr double Fringe = 1.6;
 /// So near its end, in voxels, there are few points of a cluster.
 constexpr double RimOfBall = 2.;
-/// If more than this part of all points are in clusters, these are what was scanned.
-constexpr double MostPartOfClusters = 0.3;
-
 /// A cluster touches an open scan if so much of its rim is occupied.
 constexpr double RimWidth = 1.5;
 constexpr double LeastPartOfRim = 0.03;
@@ -297,6 +294,12 @@ Voxels clusterVoxels(
   return isHidden;
 }
 
+/// Else the clusters are what was scanned.
+bool isMostOf(const PointCloud& cloud, const PointCloud& rest)
+{
+  return double(rest.points().size()) >= (1. - MostPartOfClusters) * double(cloud.points().size());
+}
+
 /// Without clusters that may touch the surface; nothing if there are none.
 std::optional<PointCloud> withoutThickParts(const PointCloud& cloud)
 {
@@ -320,8 +323,7 @@ std::optional<PointCloud> withoutThickParts(const PointCloud& cloud)
       const std::size_t voxel = voxels.grid.voxelAt(point.toDouble());
       return voxel < isLeftOut.size() && isLeftOut[voxel] != 0;
     });
-  const auto left = double(rest.points().size()), all = double(cloud.points().size());
-  return left >= (1. - MostPartOfClusters) * all ? std::move(rest) : std::optional<PointCloud>();
+  return isMostOf(cloud, rest) ? std::move(rest) : std::optional<PointCloud>();
 }
 }
 
@@ -336,14 +338,13 @@ std::optional<PointCloud> withoutClusters(const PointCloud& cloud)
   std::optional<PointCloud> rest;
   if (!separate.areNone())
   {
-    rest = cloud.without([&](Vector4 point) { return separate.hold(point); });
+    PointCloud without = cloud.without([&](Vector4 point) { return separate.hold(point); });
+    if (isMostOf(cloud, without))
+    {
+      rest = std::move(without);
+    }
   }
-  if (auto more = withoutThickParts(rest ? *rest : cloud))
-  {
-    rest = std::move(more);
-  }
-  const auto all = double(cloud.points().size());
-  return rest && double(rest->points().size()) >= (1. - MostPartOfClusters) * all ? std::move(rest)
-                                                                                  : std::nullopt;
+  std::optional<PointCloud> more = withoutThickParts(rest ? *rest : cloud);
+  return more && isMostOf(cloud, *more) ? std::move(more) : std::move(rest);
 }
 }

@@ -25,6 +25,8 @@ constexpr std::uint32_t FewestTogether = 4;
 constexpr std::size_t FewestInGroup = 64;
 /// What has more than this part of all points is a part of the scan, whatever it is.
 constexpr double MostPartOfGroup = 0.05;
+/// A scan of more groups consists of them.
+constexpr std::size_t MostGroups = 1000;
 
 /// More would tell the same.
 constexpr std::size_t MostPointsAsked = 1024;
@@ -163,6 +165,7 @@ public:
   {
     std::vector<std::uint8_t> result;
     std::optional<double> least;
+    std::size_t leftOut = 0;
     for (const std::vector<Vector4>& points : pointsOfGroups())
     {
       const std::vector<Vector4> some = somePoints(points);
@@ -179,6 +182,11 @@ public:
       {
         result.resize(grid_.size(), 0);
         leaveOut(points, moments.mean, result);
+        leftOut += points.size();
+        if (double(leftOut) > MostPartOfClusters * double(cloud_.points().size()))
+        {
+          return {};
+        }
       }
     }
     return result;
@@ -221,6 +229,10 @@ private:
   /// Of the small ones.
   std::vector<std::vector<Vector4>> pointsOfGroups() const
   {
+    if (groups_ > MostGroups)
+    {
+      return {};
+    }
     std::vector<std::vector<Vector4>> result(groups_);
     if (groups_ > 0)
     {
@@ -247,15 +259,36 @@ private:
     }
     const std::uint32_t group = groupOf_[voxelOf(points.front())];
     const double fringe = RadiiOfFringe * radius + grid_.width;
-    forEachVoxel(grid_,
-      [&](std::size_t voxel, std::size_t x, std::size_t y, std::size_t z)
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(fringe);
+    const std::array<std::size_t, 3> low = placeOf(middle - reach), high = placeOf(middle + reach);
+    for (std::size_t z = low[2]; z <= high[2]; ++z)
+    {
+      for (std::size_t y = low[1]; y <= high[1]; ++y)
       {
-        if (counts_[voxel] > 0 && (grid_.center(x, y, z) - middle).norm() <= fringe &&
-          !isOfOther(voxel, group))
+        for (std::size_t x = low[0]; x <= high[0]; ++x)
         {
-          result[voxel] = 1;
+          const std::size_t voxel = x + grid_.counts[0] * (y + grid_.counts[1] * z);
+          if (counts_[voxel] > 0 && (grid_.center(x, y, z) - middle).norm() <= fringe &&
+            !isOfOther(voxel, group))
+          {
+            result[voxel] = 1;
+          }
         }
-      });
+      }
+    }
+  }
+
+  /// Of the voxel of the grid that is closest to a point.
+  std::array<std::size_t, 3> placeOf(const Eigen::Vector3d& point) const
+  {
+    std::array<std::size_t, 3> place;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto a = Eigen::Index(axis);
+      place[axis] = std::size_t(std::clamp(
+        std::round((point[a] - grid_.first[a]) / grid_.width), 0., double(grid_.counts[axis] - 1)));
+    }
+    return place;
   }
 
   bool isOfOther(std::size_t voxel, std::uint32_t group) const

@@ -24,7 +24,7 @@ TEST(MeshQuality, Residual)
     point *= 100.;
   }
   const Mesh mesh = buildMesh(triangles, cloud);
-  const MeshQuality quality = measureQuality(cloud, mesh, triangles);
+  const MeshQuality quality = *measureQuality(cloud, mesh, triangles);
   EXPECT_NEAR(quality.residual, 1., 0.05);
   EXPECT_EQ(quality.outlierShare, 0.);
   EXPECT_EQ(quality.surface.components, 1u);
@@ -41,7 +41,7 @@ TEST(MeshQuality, Outliers)
   }
   const PointCloud cloud(points);
   const TriangleMesh triangles = makeSphere(32);
-  const MeshQuality quality = measureQuality(cloud, buildMesh(triangles, cloud), triangles);
+  const MeshQuality quality = *measureQuality(cloud, buildMesh(triangles, cloud), triangles);
   EXPECT_NEAR(quality.outlierShare, 0.1, 0.03);
   EXPECT_LT(quality.residual, 0.01);
 }
@@ -67,6 +67,6 @@ TEST(MeshQuality, FewPoints)
   const std::vector<Eigen::Vector3d> points(makeCube().points);
   const PointCloud cloud(points);
   const TriangleMesh triangles = makeCube();
-  EXPECT_NEAR(measureQuality(cloud, buildMesh(triangles, cloud), triangles).residual, 0., 1e-6);
+  EXPECT_NEAR(measureQuality(cloud, buildMesh(triangles, cloud), triangles)->residual, 0., 1e-6);
 }
 }

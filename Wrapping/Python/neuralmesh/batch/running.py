@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import subprocess
@@ -118,13 +119,15 @@ def _write_failure(job: Job, folder: Path, mesh_format: str, error: str) -> str:
     """Write a report of what went wrong; the error, with that of the report if it cannot be written."""
     # What an earlier recipe left under this name is no result of this one.
     for name in (job.name, *map(job.level_name, job.smaller_levels)):
-        result_path(folder, name, mesh_format).unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            result_path(folder, name, mesh_format).unlink(missing_ok=True)
     report = {"job": job.name, "status": "failed", **identity_of(job, mesh_format), "error": error}
     path = report_path(folder, job.name)
     try:
         write_json(path, report)
     except WriteError as unwritten:
         # That of an earlier run would be read as that of this one.
-        path.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            path.unlink(missing_ok=True)
         return f"{error}; {unwritten}"
     return error
