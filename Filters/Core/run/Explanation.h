@@ -68,6 +68,9 @@ struct Explanation
   /// form a surface. The largest first.
   std::vector<MissedPiece> smallParts;
   TornParts torn; ///< of what is explained
+  /// Points that were left out together before a run, as they have no surface: how many, and one of them.
+  std::size_t leftOutPoints = 0;
+  Eigen::Vector3d leftOutPlace = Eigen::Vector3d::Zero();
   /// Points that belong together and are explained, though the mesh passes them by: where it has nearly as many vertices
   /// as the cloud has points, or as most points of a piece of the mesh. The largest first.
   std::vector<MissedPiece> passedBy;

@@ -21,6 +21,8 @@ constexpr double MostAtRims = 0.00035;
 /// Of those asked: fewer are cut off by chance.
 constexpr std::size_t FewestAtRims = 4;
 constexpr std::size_t FewestBeyondEnds = 6;
+/// Single points lie about a cluster, too.
+constexpr std::size_t FewestLeftOut = 32;
 constexpr std::string_view HowToSee = "ExplainPoints (--explain) marks these points.";
 
 /// What has become of a piece of the cloud.
@@ -157,6 +159,20 @@ void warnOfSmallParts(
   }
 }
 
+void warnOfLeftOut(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
+{
+  if (explanation.leftOutPoints >= FewestLeftOut)
+  {
+    warnings.add(WarningTopic::PartIsMissing,
+      counted(explanation.leftOutPoints, "point", "points") +
+        " that lie together were left out, as around " +
+        placeText(explanation.leftOutPlace, cloud) +
+        ": they fill a space and form no surface. If they are a part of the scan, keep them "
+        "(--keep-pieces 0). " +
+        std::string(HowToSee));
+  }
+}
+
 void warnOfTornParts(const TornParts& torn, const PointCloud& cloud, WarningList& warnings)
 {
   if (torn.any())
@@ -194,6 +210,7 @@ void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, Warni
     warnOfPieces(fate, explanation, cloud, warnings);
   }
   warnOfSmallParts(explanation, cloud, warnings);
+  warnOfLeftOut(explanation, cloud, warnings);
   warnOfCutOff(explanation, cloud, warnings);
   warnOfTornParts(explanation.torn, cloud, warnings);
 }

@@ -70,7 +70,7 @@ Beginning Run::begin(std::uint64_t vertices, ProgressPart part)
     return { request_.first, {}, {} };
   }
   const Parameters parameters = parametersFor(vertices, request_);
-  if (parameters.start == Start::OccupiedSpace)
+  if (parameters.start == Start::OccupiedSpace && parameters.keepPieces > 0.)
   {
     cleaned_ = withoutClusters(request_.cloud);
   }

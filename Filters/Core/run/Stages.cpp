@@ -60,6 +60,25 @@ std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& l
   return result;
 }
 
+/// Of points along a curve through space, the one in the middle most likely has others around it.
+void findLeftOut(
+  const PointCloud& cloud, const std::vector<std::uint8_t>& isLeftOut, Explanation& explanation)
+{
+  std::vector<std::size_t> leftOut;
+  for (std::size_t i = 0; i < isLeftOut.size(); ++i)
+  {
+    if (isLeftOut[i] != 0)
+    {
+      leftOut.push_back(i);
+    }
+  }
+  explanation.leftOutPoints = leftOut.size();
+  if (!leftOut.empty())
+  {
+    explanation.leftOutPlace = cloud.toInput(cloud.points()[leftOut[leftOut.size() / 2]]);
+  }
+}
+
 /// An even density is enough where later rounds of the fidelity move vertices to where they are
 /// needed. These rounds keep boundaries as they are.
 double densityExponent(const Parameters& parameters, const Mesh& first)
@@ -340,6 +359,7 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
     return false;
   }
   result.explanation = explain(cloud, *std::move(distances), rules, executor);
+  findLeftOut(cloud, rules.isLeftOut, *result.explanation);
   result.explanation->scatteredShare = scatteredShare(cloud, executor);
   std::optional<VertexSupport> support = supportOf(result.surface, cloud,
     mostOf(PointsPerVertexOfSupport * result.surface.vertexCount()), partOf(progress, 0.7, 1.),

@@ -193,7 +193,7 @@ bool StreamingReconstruction::takeInPoints(const Progress& progress)
     return hasMesh();
   }
   std::optional<PointCloud> withClusters;
-  if (auto cleaned = withoutClusters(*cloud))
+  if (auto cleaned = parameters_.keepPieces > 0. ? withoutClusters(*cloud) : std::nullopt)
   {
     withClusters = std::exchange(*cloud, std::move(*cleaned));
   }

@@ -148,7 +148,9 @@ void TuningPatch::beginFor(const Parameters& parameters, const Progress& progres
   const double density = parameters.curvatureDensity;
   if (!beginning_)
   {
-    cleaned_ = parameters.start == Start::OccupiedSpace ? withoutClusters(cloud_) : std::nullopt;
+    cleaned_ = parameters.start == Start::OccupiedSpace && parameters.keepPieces > 0.
+      ? withoutClusters(cloud_)
+      : std::nullopt;
   }
   if (!beginning_ || (density != 0. && density != densityOfBeginning_))
   {
