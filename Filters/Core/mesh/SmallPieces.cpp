@@ -41,11 +41,15 @@ public:
     for (std::size_t i = 0; i < scraps.size(); ++i)
     {
       const Cube cube = cubeOf(scraps[i].place);
-      for (int around = 0; around < 27; ++around)
+      for (const double x : { -1., 0., 1. })
       {
-        byCube_.emplace(Cube{ cube[0] + double(around % 3 - 1),
-                          cube[1] + double(around / 3 % 3 - 1), cube[2] + double(around / 9 - 1) },
-          i);
+        for (const double y : { -1., 0., 1. })
+        {
+          for (const double z : { -1., 0., 1. })
+          {
+            byCube_.emplace(Cube{ cube[0] + x, cube[1] + y, cube[2] + z }, i);
+          }
+        }
       }
     }
   }
