@@ -15,7 +15,7 @@ constexpr double BytesPerPoint = 42.;
 constexpr double BytesPerVertex = 400.;
 
 /// Up to about so many vertices the mesh is in the cache. Each doubling beyond adds this part of
-/// the time of a sample, averaged over the run; see the table of growth in the README.
+/// the time of a sample, averaged over the run.
 constexpr double CachedVertices = 32768.;
 constexpr double SlowdownPerDoubling = 0.35;
 
