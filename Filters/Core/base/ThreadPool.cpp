@@ -3,6 +3,7 @@
 
 #include "base/AvailableProcessors.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <new>
@@ -100,10 +101,11 @@ ThreadPool::ThreadPool(unsigned threadCount)
   const SignalsBlocked signalsBlocked;
   try
   {
+    shares_ = std::vector<Share>(wanted);
     workers_.reserve(wanted);
     for (unsigned i = 1; i < wanted; ++i)
     {
-      workers_.emplace_back([this, wanted] { work(wanted); });
+      workers_.emplace_back([this, i, wanted] { work(i, wanted); });
     }
   }
   catch (const std::system_error&)
@@ -139,8 +141,12 @@ void ThreadPool::run(std::size_t count, Part part, const void* context) const
   const bool mustWake = [&]
   {
     const std::lock_guard lock(mutex_);
-    job_ = { part, context, count, nullptr };
-    next_ = 0;
+    job_ = { part, context, nullptr };
+    for (std::size_t thread = 0; thread < threadCount(); ++thread)
+    {
+      shares_[thread].end = (thread + 1) * count / threadCount();
+      shares_[thread].next = thread * count / threadCount();
+    }
     running_ = 1;
     ++begunJobs_;
     return sleeping_ > 0;
@@ -149,7 +155,7 @@ void ThreadPool::run(std::size_t count, Part part, const void* context) const
   {
     begun_.notify_all();
   }
-  takeParts(job_);
+  takeParts(job_, 0);
   --running_;
   lookFor(threadCount(), [this] { return running_ == 0; });
   std::unique_lock lock(mutex_);
@@ -164,7 +170,7 @@ void ThreadPool::run(std::size_t count, Part part, const void* context) const
 }
 
 /// On one of so many threads.
-void ThreadPool::work(unsigned threads)
+void ThreadPool::work(unsigned thread, unsigned threads)
 {
   std::size_t seenJobs = 0;
   for (;;)
@@ -179,14 +185,14 @@ void ThreadPool::work(unsigned threads)
       return;
     }
     seenJobs = begunJobs_;
-    if (!(next_ < job_.count))
+    if (std::ranges::all_of(shares_, [](const Share& share) { return share.next >= share.end; }))
     {
       // It came too late.
       continue;
     }
     ++running_;
     lock.unlock();
-    takeParts(job_);
+    takeParts(job_, thread);
     lock.lock();
     if (--running_ == 0)
     {
@@ -196,23 +202,36 @@ void ThreadPool::work(unsigned threads)
   }
 }
 
-/// Runs parts as long as there are any that no thread has taken.
-void ThreadPool::takeParts(const Job& job) const
+/// Runs parts as long as there are any that no thread has taken: those of the thread's own share first.
+void ThreadPool::takeParts(const Job& job, std::size_t thread) const
 {
-  for (std::size_t taken = next_++; taken < job.count; taken = next_++)
+  const std::size_t threads = threadCount();
+  for (std::size_t i = 0; i < threads; ++i)
   {
-    try
+    Share& share = shares_[(thread + i) % threads];
+    while (share.next < share.end)
     {
-      job.part(job.context, taken);
-    }
-    catch (...)
-    {
-      const std::lock_guard lock(mutex_);
-      if (!job_.error)
+      const std::size_t taken = share.next++;
+      if (taken >= share.end)
       {
-        job_.error = std::current_exception();
+        break;
       }
-      next_ = job.count;
+      try
+      {
+        job.part(job.context, taken);
+      }
+      catch (...)
+      {
+        const std::lock_guard lock(mutex_);
+        if (!job_.error)
+        {
+          job_.error = std::current_exception();
+        }
+        for (Share& left : shares_)
+        {
+          left.next = left.end;
+        }
+      }
     }
   }
 }

@@ -33,15 +33,23 @@ private:
   {
     Part part = nullptr;
     const void* context = nullptr;
-    std::size_t count = 0;
     std::exception_ptr error;
   };
 
-  void work(unsigned threads);
-  void takeParts(const Job& job) const;
+  /// Parts that one thread takes first, and the others once they have none of their own: neighbours of neighbours, and
+  /// the same ones whenever work is cut in the same way. So a thread finds most of what it reads where it wrote it. From
+  /// the cache of another core it would come as slowly as from memory.
+  struct alignas(128) Share
+  {
+    std::atomic<std::size_t> next{ 0 }; ///< that no thread has taken
+    std::size_t end = 0;
+  };
+
+  void work(unsigned thread, unsigned threads);
+  void takeParts(const Job& job, std::size_t thread) const;
 
   mutable std::atomic_flag isAtWork_;
-  mutable std::atomic<std::size_t> next_{ 0 };    ///< part that no thread has taken
+  mutable std::vector<Share> shares_;             ///< of the threads
   mutable std::atomic<std::size_t> running_{ 0 }; ///< threads at the job
   mutable std::atomic<std::size_t> begunJobs_{ 0 };
   mutable std::mutex mutex_; ///< of all below
