@@ -107,15 +107,14 @@ struct Row
 class Phases
 {
 public:
-  Phases(const MeasuredExecutor& executor, double begin)
+  explicit Phases(const MeasuredExecutor& executor)
     : executor_(executor)
-    , begin_(begin)
-    , now_(begin)
+    , now_(cpuSeconds())
   {
   }
 
   /// All since the last call counts for this phase.
-  void take(Row& row)
+  void take(Row& row, double fraction)
   {
     const double now = cpuSeconds();
     const double seconds = now - now_;
@@ -128,7 +127,7 @@ public:
     row.longestOnOne = std::max(row.longestOnOne, seconds);
     if (std::getenv("NEURALMESH_SILENCES") && path > 0.1)
     {
-      std::fprintf(stderr, "%s: %.3f s at %.3f\n", row.name, path, now - begin_);
+      std::fprintf(stderr, "%s: %.3f s until %.4f of the run\n", row.name, path, fraction);
     }
     now_ = cpuSeconds();
     parts_ = executor_.partSeconds();
@@ -137,7 +136,7 @@ public:
 
 private:
   const MeasuredExecutor& executor_;
-  double begin_, now_;
+  double now_;
   double parts_ = 0., saved_ = 0.;
 };
 
@@ -160,9 +159,9 @@ int main(int argc, char* argv[])
   const MeasuredExecutor executor(threads);
   std::array<Row, 6> rows{ { { "cloud" }, { "start" }, { "learning" }, { "finish" },
     { "repair and report" }, { "whole run" } } };
-  Phases phases(executor, cpuSeconds());
+  Phases phases(executor);
   const PointCloud cloud(points, {}, false, executor);
-  phases.take(rows[0]);
+  phases.take(rows[0], 0.);
   const auto rowAt = [&](double fraction) -> Row&
   {
     return rows[fraction <= StartOfLearning ? 1
@@ -175,12 +174,12 @@ int main(int argc, char* argv[])
     cloud, parameters,
     [&](double fraction)
     {
-      phases.take(rowAt(before == fraction ? fraction : (before + fraction) / 2.));
+      phases.take(rowAt(before == fraction ? fraction : (before + fraction) / 2.), fraction);
       before = fraction;
       return true;
     },
     {}, {}, {}, executor);
-  phases.take(rows[4]);
+  phases.take(rows[4], 1.);
   for (std::size_t i = 0; i + 1 < rows.size(); ++i)
   {
     rows.back().seconds += rows[i].seconds;

@@ -110,7 +110,13 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   {
     return false;
   }
-  fit_.follow(flipToSamples(mesh_, fit_.placedSamples(), fit_.variance(), executor_));
+  const ChangedVertices flipped =
+    flipToSamples(mesh_, fit_.placedSamples(), fit_.variance(), executor_);
+  if (!progress(0.55))
+  {
+    return false;
+  }
+  fit_.follow(flipped);
   if (!progress(0.6))
   {
     return false;
@@ -130,7 +136,7 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   const AfterBrokenMoves after =
     takeBackBrokenMoves(mesh_, before, partOf(progress, 1., 1.), executor_);
   mayBeBroken_ = after != AfterBrokenMoves::Sound;
-  return after != AfterBrokenMoves::Cancelled;
+  return after != AfterBrokenMoves::Cancelled && progress(1.);
 }
 
 bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress)

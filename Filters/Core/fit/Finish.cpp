@@ -71,7 +71,7 @@ bool Finish::run(const Progress& progress)
 {
   const StoredMesh before(mesh_, executor_);
   FitGuard guard(cloud_, mesh_, executor_, plan_.residualTo);
-  if (!runRounds(plan_.rounds, guard, progress))
+  if (!progress(0.) || !runRounds(plan_.rounds, guard, progress))
   {
     return false;
   }
@@ -209,8 +209,16 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
       {
         beginAnew();
       }
+      if (!part(1.))
+      {
+        return false;
+      }
       // A fitted surface is smoother than the learnt one, and lets more edges be flipped.
       flipEdges(mesh_, EdgesToFlip::All, executor_);
+    }
+    if (!part(1.))
+    {
+      return false;
     }
   }
   if (hasMore && !improve(*surfaceFit, partOf(report, endOfFirst, 1.)))
@@ -223,6 +231,10 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   }
   surfaceFit.reset();
   dropOddPieces();
+  if (!report(1.))
+  {
+    return false;
+  }
   const StoredMesh withSlivers(mesh_, executor_);
   repairSlivers(mesh_, guard, executor_);
   if (plan_.surface)
@@ -233,7 +245,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
       mesh_ = std::move(before);
     }
   }
-  return true;
+  return report(1.);
 }
 
 /// Where no sample has its place on a piece, nothing keeps the fit and the repair from shrinking that to a
@@ -260,10 +272,18 @@ void Finish::dropOddPieces()
 /// before that was known.
 bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress)
 {
+  if (!progress(1.))
+  {
+    return false;
+  }
   const StoredMesh before(mesh_, executor_);
   const IntersectionRepair repair = repairIntersections(mesh_, progress, executor_);
   report_.repaired = repair.before;
   report_.left = repair.after;
+  if (!progress(1.))
+  {
+    return false;
+  }
   if (plan_.surface)
   {
     // One that cuts itself may have to stay so.

@@ -386,6 +386,11 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
   {
     spacing_.emplace(mesh_, places_, executor_).forgetEdges();
   }
+  if (!progress(0.))
+  {
+    system_.reset();
+    return false;
+  }
   smoothness_ = lambda;
   const double choice = lambda > 0. ? 0. : PartOfChoice;
   if (lambda <= 0. && !chooseSmoothness(partOf(progress, 0., choice)))
@@ -395,14 +400,15 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
   const std::span<Vector4> positions = mesh_.movablePositions();
   PackedVectors before(positions.size());
   forEachVertex([&](VertexIndex v) { before.set(v, positions[v]); });
-  const bool isDone = laidAside(before,
+  const bool isSolved = laidAside(before,
     [&]
     {
       return system_->solveLast(
         smoothness_, Tolerance, scale_, positions, partOf(progress, choice, 1.));
     });
   system_.reset();
-  if (!isDone)
+  noise_ = isSolved ? std::sqrt(residualVariance(positions, smoothness_)) : noise_;
+  if (!isSolved || !progress(1.))
   {
     for (std::size_t v = 0; v < positions.size(); ++v)
     {
@@ -410,7 +416,6 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
     }
     return false;
   }
-  noise_ = std::sqrt(residualVariance(positions, smoothness_));
   for (VertexIndex v = 0; v < positions.size() && smoothnessOfVertices_; ++v)
   {
     const float part = smoothnessParts_.empty() ? 1.f : smoothnessParts_[v];

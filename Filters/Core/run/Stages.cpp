@@ -214,7 +214,7 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const PointNormals normalOf = normalsOf(fitted, hints);
   const PointViews viewOf = viewsOf(fitted, hints);
   Finish finish(fitted, learnt.mesh, plan, executor, normalOf, viewOf);
-  if (!finish.run(partOf(progress, 0., endOfFirst)))
+  if (!progress(0.) || !finish.run(partOf(progress, 0., endOfFirst)))
   {
     return {};
   }

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -83,6 +84,40 @@ TEST(ThreadPool, PartsRunAtTheSameTime)
       }
     });
   EXPECT_EQ(arrived, 2);
+}
+
+// Promise: a thread gets the same parts, side by side, each time, so that it finds in its cache what it wrote; what
+// it has no time for is done by others.
+TEST(ThreadPool, ThreadsKeepTheirParts)
+{
+  constexpr std::size_t Half = 8;
+  const ThreadPool pool(2);
+  std::array<std::thread::id, 2 * Half> doer;
+  for (const bool isHeld : { false, true })
+  {
+    std::atomic<std::size_t> begun = 0, left = 2 * Half;
+    pool.forEachPart(2 * Half,
+      [&](std::size_t part)
+      {
+        doer[part] = std::this_thread::get_id();
+        --left;
+        // The first part of each half waits for that of the other, and if it is held, for all other parts.
+        if (part % Half == 0)
+        {
+          ++begun;
+          while (begun < 2 || (isHeld && part > 0 && left > 0))
+          {
+            std::this_thread::yield();
+          }
+        }
+      });
+    EXPECT_EQ(doer[0], std::this_thread::get_id());
+    EXPECT_NE(doer[Half], doer[0]);
+    if (isHeld)
+    {
+      EXPECT_EQ(std::count(doer.begin(), doer.end(), doer[Half]), 1);
+    }
+  }
 }
 
 // Promise: a sum has the same bits on any number of threads, where another order would have others.
