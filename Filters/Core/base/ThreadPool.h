@@ -36,9 +36,9 @@ private:
     std::exception_ptr error;
   };
 
-  /// Parts that one thread takes first, and the others once they have none of their own: neighbours of neighbours, and
-  /// the same ones whenever work is cut in the same way. So a thread finds most of what it reads where it wrote it. From
-  /// the cache of another core it would come as slowly as from memory.
+  /// Parts that one thread takes first, and the others once they have none of their own: neighbours of
+  /// neighbours, and the same ones whenever work is cut in the same way. So a thread finds most of what
+  /// it reads where it wrote it. From the cache of another core it would come as slowly as from memory.
   struct alignas(128) Share
   {
     std::atomic<std::size_t> next{ 0 }; ///< that no thread has taken
