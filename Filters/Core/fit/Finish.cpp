@@ -4,6 +4,7 @@
 #include "fit/FidelityRounds.h"
 #include "fit/SliverRepair.h"
 #include "mesh/BoundaryFilling.h"
+#include "mesh/BrokenMoves.h"
 #include "mesh/CrossingRemoval.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/Refinement.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace neuralmesh
 {
@@ -345,9 +347,14 @@ void Finish::collapseDefects()
   }
 }
 
+/// Where triangles intersect or fold after it, vertices stay where they were. Otherwise one such place, as where points
+/// are closer together than their noise, makes the repair lose points there, and then all rounds are taken back.
 bool Finish::move(SurfaceFit& surfaceFit, double smoothness, const Progress& progress)
 {
-  if (!surfaceFit.moveVertices(smoothness, progress))
+  const std::vector<Vector4> before(mesh_.positions().begin(), mesh_.positions().end());
+  if (!surfaceFit.moveVertices(smoothness, progress) ||
+    takeBackBrokenMoves(mesh_, before, partOf(progress, 1., 1.), executor_) ==
+      AfterBrokenMoves::Cancelled)
   {
     return false;
   }
