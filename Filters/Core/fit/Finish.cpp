@@ -4,6 +4,7 @@
 #include "fit/FidelityRounds.h"
 #include "fit/SliverRepair.h"
 #include "mesh/BoundaryFilling.h"
+#include "mesh/BrokenMoves.h"
 #include "mesh/CrossingRemoval.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/Refinement.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace neuralmesh
 {
@@ -27,6 +29,8 @@ constexpr double PartOfFirstRounds = 0.4;
 constexpr double PartOfPlaces = 0.5;
 /// For them.
 constexpr double LeastSamplesPerVertex = 1.5;
+/// Folds after a round, at most, against the triangles.
+constexpr double MostPartFolded = 0.0025;
 /// Of the residual of a surface: what it may cost to mend intersections, and slivers.
 constexpr double MostGrownByRepair = 0.1;
 /// A piece with less than this part of the area has shrunk to a point.
@@ -116,6 +120,7 @@ bool Finish::isWorseThan(const StoredMesh& before, FitGuard& guard) const
 /// So many rounds of the fit, and what goes with them.
 bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
 {
+  staysUnbroken_ = false;
   const auto samples = std::size_t(plan_.samplesPerVertex * double(plan_.vertexCount));
   // With fewer samples, more rounds would follow single ones.
   const bool areEnough = double(std::min(samples, cloud_.points().size())) >
@@ -365,9 +370,26 @@ void Finish::collapseDefects()
   }
 }
 
+/// More than a repair in the end can mend without a loss, as where points are closer together than their noise.
+bool Finish::isMuchFolded() const
+{
+  const std::size_t folds = foldedEdges(mesh_, executor_).size();
+  return double(folds) > MostPartFolded * double(mesh_.triangleCount());
+}
+
+/// Where a round folds much, vertices stay where they would break the mesh. Otherwise the repair loses points, and all
+/// rounds are taken back because of one place.
 bool Finish::move(SurfaceFit& surfaceFit, double smoothness, const Progress& progress)
 {
+  const std::vector<Vector4> before(mesh_.positions().begin(), mesh_.positions().end());
   if (!surfaceFit.moveVertices(smoothness, progress))
+  {
+    return false;
+  }
+  staysUnbroken_ = staysUnbroken_ || isMuchFolded();
+  if (staysUnbroken_ &&
+    takeBackBrokenMoves(mesh_, before, partOf(progress, 1., 1.), executor_) ==
+      AfterBrokenMoves::Cancelled)
   {
     return false;
   }

@@ -84,6 +84,7 @@ public:
 private:
   bool runRounds(int rounds, FitGuard& guard, const Progress& progress);
   bool isWorseThan(const StoredMesh& before, FitGuard& guard) const;
+  bool isMuchFolded() const;
   bool move(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   void tell(const NoiseParts& parts);
   bool openGaps(const SurfaceFit& surfaceFit, bool mustBeFar);
@@ -103,5 +104,6 @@ private:
   PointNormals normalOf_;
   PointViews viewOf_;
   FinishReport report_;
+  bool staysUnbroken_ = false; ///< no round may break triangles
 };
 }
