@@ -103,8 +103,8 @@ bool fillTheMiddle(std::span<const Vector4> points, const GroupMoments& moments)
   }
   const double mean = sum / double(points.size());
   const double part = std::pow(RadiusOfHollow / RadiusAroundHollow, 3);
-  const bool isHollow = inHollow <
-    part * inBoth - DeviationsOfHollow * std::sqrt(part * (1. - part) * inBoth);
+  const bool isHollow =
+    inHollow < part * inBoth - DeviationsOfHollow * std::sqrt(part * (1. - part) * inBoth);
   return !isHollow &&
     squares / double(points.size()) - mean * mean >= LeastSpread * LeastSpread * mean * mean;
 }
@@ -172,8 +172,7 @@ public:
 
   const VoxelGrid& grid() const { return grid_; }
 
-  std::vector<std::uint8_t> leftOut(
-    const std::function<double()>& noise, const Progress& progress)
+  std::vector<std::uint8_t> leftOut(const std::function<double()>& noise, const Progress& progress)
   {
     std::vector<std::uint8_t> result;
     std::optional<double> least;

@@ -29,7 +29,8 @@ class SeparateClusters
 public:
   /// `noise` gives the standard deviation of points across the surface; it is asked for where there may be a cluster.
   /// There are none if `progress` ended it.
-  SeparateClusters(const PointCloud& cloud, const std::function<double()>& noise,
+  SeparateClusters(
+    const PointCloud& cloud, const std::function<double()>& noise,
     const Progress& progress = [](double) { return true; });
 
   bool areNone() const { return isLeftOut_.empty(); }
