@@ -36,8 +36,10 @@ constexpr float MostSpacingAtRims = 1.75f;
 constexpr float EdgesCutOff = 0.5f;
 constexpr double DiagonalCutOff = 0.01;
 /// If the mesh misses most points, their median distance is not noise. It is then more than so many
-/// usual spacings, and the noise is measured in the layers of so many points.
+/// usual spacings, or edges: where a mesh cuts off bends, it is a twentieth of one. The noise is then measured in the
+/// layers of so many points.
 constexpr float SpacingsOfNoise = 3.f;
+constexpr double EdgesOfNoise = 0.15;
 constexpr std::size_t LayersOfNoise = 200;
 /// The spacing of an outlier is so many times that of its neighbours.
 constexpr float LoneSpacings = 3.f;
@@ -147,7 +149,8 @@ private:
     }
     usualSpacing_ = medianOf(std::move(spacings));
     float median = medianOf(distances);
-    if (median > SpacingsOfNoise * usualSpacing_)
+    if (median > SpacingsOfNoise * usualSpacing_ ||
+      double(median) > EdgesOfNoise * result_.asked.meanEdge)
     {
       std::vector<float> moves;
       const std::size_t layers = std::min(all, LayersOfNoise);
