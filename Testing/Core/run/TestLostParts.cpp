@@ -126,6 +126,28 @@ TEST(TornParts, WhatTouchesIsNotTorn)
   }
 }
 
+// One box around a stack of plates lies away from most points, by less than the distances between edges but more than
+// noise: it does not explain them. One that follows noisy points does.
+TEST(LostParts, AStackOfPlatesInOneBox)
+{
+  TriangleMesh plates;
+  for (int i = 0; i < 6; ++i)
+  {
+    append(plates, scaled(makeCube(8), { 1., 1., 0.02 }), { 0., 0., 0.08 * i });
+  }
+  TriangleMesh box;
+  append(box, scaled(makeCube(10), { 1., 1., 0.42 }), { 0., 0., 0.2 });
+  const PointCloud cloud(pointsOn(plates, 30000));
+  EXPECT_GT(explainedBy(box, cloud).unexplainedShare(), 0.03);
+  EXPECT_TRUE(hasTag(warningsBy(box, cloud), "part-is-missing"));
+
+  CloudOptions options;
+  options.count = 30000;
+  options.noise = 0.01;
+  const PointCloud noisy(generateCloud(makeSphere(), options));
+  EXPECT_EQ(warningsBy(makeSphere(40), noisy), std::vector<std::string>());
+}
+
 // Of coarse layers that are close, the closest vertex may be one of another layer: that tears none. It is told of the
 // closest vertices alone.
 TEST(TornParts, CloseLayersAreNotTorn)
