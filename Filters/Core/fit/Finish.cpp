@@ -3,6 +3,7 @@
 
 #include "fit/FidelityRounds.h"
 #include "fit/SliverRepair.h"
+#include "fit/TornLoops.h"
 #include "mesh/BoundaryFilling.h"
 #include "mesh/BrokenMoves.h"
 #include "mesh/CrossingRemoval.h"
@@ -180,6 +181,15 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     if (!surfaceFit->findPlaces(partOf(part, 0., PartOfPlaces)))
     {
       return false;
+    }
+    if (isLast && !plan_.surface && fillTornLoops(mesh_, surfaceFit->places()) > 0)
+    {
+      flipEdges(mesh_, EdgesToFlip::All, executor_);
+      beginAnew();
+      if (!surfaceFit->findPlaces(partOf(part, PartOfPlaces, PartOfPlaces)))
+      {
+        return false;
+      }
     }
     if (isLast && round > 0)
     {

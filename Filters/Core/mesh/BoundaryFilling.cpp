@@ -119,6 +119,19 @@ std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longe
   return filled;
 }
 
+bool fillBoundary(
+  Mesh& mesh, BoundaryManager& boundaries, BoundaryManager::LoopIndex loop, float leastCosine)
+{
+  const std::vector<VertexIndex> vertices = boundaries.vertices(mesh, loop);
+  const bool isFilled = !vertices.empty() && cosineAround(mesh, vertices) >= leastCosine &&
+    fillLoop(mesh, vertices, std::numeric_limits<float>::max(), nullptr);
+  if (isFilled)
+  {
+    boundaries.retrace(mesh, vertices);
+  }
+  return isFilled;
+}
+
 std::size_t fillSmallGaps(Mesh& mesh)
 {
   BoundaryManager boundaries(mesh);

@@ -24,7 +24,11 @@ std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longe
   const std::function<bool(const Triangle&)>& isAllowed = nullptr,
   std::size_t mostEdges = std::numeric_limits<std::size_t>::max(), float leastCosine = -1.f);
 
-/// The same for loops of at most a dozen edges, whatever their length, that are not the outlines of sheets,
+/// Fills this loop, unless the normals around are farther from that of what would fill it. Returns whether it did.
+bool fillBoundary(
+  Mesh& mesh, BoundaryManager& boundaries, BoundaryManager::LoopIndex loop, float leastCosine);
+
+/// As fillBoundaries() for loops of at most a dozen edges, whatever their length, that are not the outlines of sheets,
 /// which have more than six. Longer ones are openings.
 std::size_t fillSmallGaps(Mesh& mesh);
 

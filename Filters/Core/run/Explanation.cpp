@@ -4,9 +4,8 @@
 #include "base/DisjointSets.h"
 #include "base/Median.h"
 #include "cloud/NearestPoints.h"
+#include "run/LocalVariation.h"
 #include "start/LayerSearch.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -36,16 +35,20 @@ constexpr float MostSpacingAtRims = 1.75f;
 constexpr float EdgesCutOff = 0.5f;
 constexpr double DiagonalCutOff = 0.01;
 /// If the mesh misses most points, their median distance is not noise. It is then more than so many
-/// usual spacings, and the noise is measured in the layers of so many points.
+/// usual spacings, or edges: where a mesh cuts off bends, it is a twentieth of one. The noise is then measured in the
+/// layers of so many points. Noise spreads points that are three medians apart as far as one across their layer: that is
+/// a fifth of the variance.
 constexpr float SpacingsOfNoise = 3.f;
+constexpr double EdgesOfNoise = 0.15;
+constexpr float MediansOfBall = 3.f;
+constexpr double LeastVariationOfNoise = 0.1;
 constexpr std::size_t LayersOfNoise = 200;
 /// The spacing of an outlier is so many times that of its neighbours.
 constexpr float LoneSpacings = 3.f;
 /// Sparse points that are away from the mesh form a surface if the variance across it is less than
-/// this part of the whole, on average over neighbourhoods of so many points. For random points in
+/// this part of the whole, on average over neighbourhoods of a few points. For random points in
 /// space it is about an eighth.
 constexpr double MostVariation = 0.07;
-constexpr std::size_t NeighborsInVariation = 9;
 /// A point is no outlier if its distance to the mesh is less than this part of its spacing.
 constexpr float LonePartOfSpacing = 0.5f;
 /// Points belong to one piece if they are closer than so many of their spacings ...
@@ -71,26 +74,6 @@ constexpr std::size_t FewestPassedBy = 8;
 
 constexpr std::size_t SpacingsAsked = 500;
 constexpr std::size_t ExplainedPerRange = 256;
-
-/// Of the variance of places, the part across the plane that fits them best.
-double variationOf(std::span<const NearPoint> near, std::span<const Vector4> places)
-{
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const NearPoint& point : near)
-  {
-    mean += places[point.index].toDouble() / double(near.size());
-  }
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const NearPoint& point : near)
-  {
-    const Eigen::Vector3d offset = places[point.index].toDouble() - mean;
-    covariance += offset * offset.transpose();
-  }
-  const double all = covariance.trace();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  // Few points are flat by chance.
-  return near.size() < NeighborsInVariation ? 1. : all > 0. ? solver.eigenvalues()[0] / all : 0.;
-}
 
 class Explainer
 {
@@ -147,7 +130,7 @@ private:
     }
     usualSpacing_ = medianOf(std::move(spacings));
     float median = medianOf(distances);
-    if (median > SpacingsOfNoise * usualSpacing_)
+    if (median > SpacingsOfNoise * usualSpacing_ || isNoNoise(median))
     {
       std::vector<float> moves;
       const std::size_t layers = std::min(all, LayersOfNoise);
@@ -162,6 +145,23 @@ private:
       median = moves.empty() ? median : std::min(median, medianOf(std::move(moves)));
     }
     noise_ = MediansAway * median;
+  }
+
+  bool isNoNoise(float median) const
+  {
+    const std::size_t all = result_.asked.points.size(), asked = std::min(all, LayersOfNoise);
+    double sum = 0.;
+    std::vector<NearPoint> near;
+    for (std::size_t i = 0; i<asked&& double(median)> EdgesOfNoise * result_.asked.meanEdge; ++i)
+    {
+      near.clear();
+      nearest_.forEachWithin(placeOf(i * all / asked), MediansOfBall * median,
+        [&](std::uint32_t index, float squared) {
+          near.push_back({ squared, index });
+        });
+      sum += variationOf(near, cloud_.points());
+    }
+    return sum > 0. && sum < LeastVariationOfNoise * double(asked);
   }
 
   bool isSparse(std::size_t i) const { return spacings_[i] > LoneSpacings * usualSpacing_; }

@@ -264,6 +264,13 @@ std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cl
   return result;
 }
 
+PointDistances exactly(
+  PointDistances distances, const Mesh& mesh, const PointCloud& cloud, const Executor& executor)
+{
+  findExactly(mesh, cloud, -1.f, piecesOf(mesh), executor, distances);
+  return distances;
+}
+
 VertexSupport supportOf(
   const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
 {

@@ -49,6 +49,11 @@ PointDistances distancesTo(const Mesh& mesh, const PointCloud& cloud, std::size_
 std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cloud,
   std::size_t most, const Progress& progress, const Executor& executor = Executor::sequential());
 
+/// The same points with what is closest of all triangles. distancesTo() looks that up only where a point is far from the
+/// mesh: where layers are closer than edges are long, the closest vertex may be one of another piece.
+PointDistances exactly(PointDistances distances, const Mesh& mesh, const PointCloud& cloud,
+  const Executor& executor = Executor::sequential());
+
 /// The support of the vertices of such a mesh, by at most so many points.
 VertexSupport supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
   const Executor& executor = Executor::sequential());

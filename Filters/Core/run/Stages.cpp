@@ -60,6 +60,18 @@ std::vector<std::uint8_t> leftOutOf(const PointCloud& cloud, const PointCloud& l
   return result;
 }
 
+/// Points that were counted to the wrong one of two close layers seem to go on where it ends.
+void confirmTears(
+  const Mesh& mesh, const PointCloud& cloud, Explanation& explanation, const Executor& executor)
+{
+  if (explanation.torn.any())
+  {
+    explanation.torn = findTornParts(
+      cloud, exactly(explanation.asked, mesh, cloud, executor),
+      [&](std::size_t i) { return explanation.reasons[i] == Reason::Explained; }, executor);
+  }
+}
+
 /// Of points along a curve through space, the one in the middle most likely has others around it.
 void findLeftOut(
   const PointCloud& cloud, const std::vector<std::uint8_t>& isLeftOut, Explanation& explanation)
@@ -359,6 +371,7 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
     return false;
   }
   result.explanation = explain(cloud, *std::move(distances), rules, executor);
+  confirmTears(result.surface, cloud, *result.explanation, executor);
   findLeftOut(cloud, rules.isLeftOut, *result.explanation);
   result.explanation->scatteredShare = scatteredShare(cloud, executor);
   std::optional<VertexSupport> support = supportOf(result.surface, cloud,

@@ -193,9 +193,15 @@ bool StreamingReconstruction::takeInPoints(const Progress& progress)
     return hasMesh();
   }
   std::optional<PointCloud> withClusters;
-  if (auto cleaned = parameters_.keepPieces > 0. ? withoutClusters(*cloud) : std::nullopt)
+  bool goesOn = true;
+  const Progress ask = [&](double fraction) { return goesOn = goesOn && progress(fraction); };
+  if (auto cleaned = parameters_.keepPieces > 0. ? withoutClusters(*cloud, ask) : std::nullopt)
   {
     withClusters = std::exchange(*cloud, std::move(*cleaned));
+  }
+  if (!goesOn)
+  {
+    return hasMesh();
   }
   Parameters parameters = learnable(parameters_, *cloud);
   parameters.seed += clouds_++;

@@ -132,8 +132,8 @@ private:
   {
     struct Tear
     {
-      std::size_t near = 0, points = 0;
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      std::size_t near = 0;
+      std::vector<Vector4> points; ///< at the ends of both
     };
     std::map<std::pair<std::uint32_t, std::uint32_t>, Tear> tears;
     for (std::size_t i = 0; i < looks.size(); ++i)
@@ -144,8 +144,7 @@ private:
         ++tear.near;
         if (looks[i].isAtEnd)
         {
-          ++tear.points;
-          tear.sum += places_[i].toDouble();
+          tear.points.push_back(places_[i]);
         }
       }
     }
@@ -153,18 +152,31 @@ private:
     std::size_t most = 0;
     for (const auto& [pieces, tear] : tears)
     {
-      if (tear.points < FewestAtTear || double(tear.points) < LeastPartAtTear * double(tear.near))
+      const std::size_t points = tear.points.size();
+      if (points < FewestAtTear || double(points) < LeastPartAtTear * double(tear.near))
       {
         continue;
       }
       ++result.tears;
-      if (tear.points > most)
+      if (points > most)
       {
-        most = tear.points;
-        result.place = cloud_.toInput(Vector4(Eigen::Vector3d(tear.sum / double(tear.points))));
+        most = points;
+        result.place = cloud_.toInput(inTheMiddle(tear.points));
       }
     }
     return result;
+  }
+
+  /// The point closest to the mean: of a long tear that may lie far from all.
+  static Vector4 inTheMiddle(const std::vector<Vector4>& points)
+  {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Vector4 point : points)
+    {
+      mean += point.toDouble() / double(points.size());
+    }
+    return *std::ranges::min_element(
+      points, {}, [&](Vector4 point) { return (point.toDouble() - mean).squaredNorm(); });
   }
 
   const PointCloud& cloud_;

@@ -18,7 +18,7 @@ struct TornParts
 {
   std::size_t tears = 0; ///< pairs of pieces, of which one goes on where the other ends
   Eigen::Vector3d place =
-    Eigen::Vector3d::Zero(); ///< of the tear with the most points, in the coordinates of the input
+    Eigen::Vector3d::Zero(); ///< a point of the tear with the most, in the coordinates of the input
 
   bool any() const { return tears > 0; }
 };

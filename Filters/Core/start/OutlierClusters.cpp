@@ -129,13 +129,13 @@ bool holds(const Ball& ball, const Ball& other)
 }
 
 /// Standard deviation of the points across the surface, as far as balls of this radius show it.
-double noiseOf(const PointCloud& cloud, float radius)
+double noiseOf(const PointCloud& cloud, float radius, const Progress& progress)
 {
   const NearestPoints nearest(cloud.points());
   const std::size_t all = cloud.points().size(), asked = std::min(all, PointsOfNoise);
   std::vector<float> scatters;
   std::vector<NearPoint> around, some;
-  for (std::size_t i = 0; i < asked; ++i)
+  for (std::size_t i = 0; i < asked && progress(0.); ++i)
   {
     const Vector4 place = cloud.points()[i * all / asked];
     around.clear();
@@ -301,18 +301,18 @@ bool isMostOf(const PointCloud& cloud, const PointCloud& rest)
 }
 
 /// Without clusters that may touch the surface; nothing if there are none.
-std::optional<PointCloud> withoutThickParts(const PointCloud& cloud)
+std::optional<PointCloud> withoutThickParts(const PointCloud& cloud, const Progress& progress)
 {
   const OccupiedVoxels voxels = occupiedVoxels(cloud, Resolution);
-  std::vector<Ball> clusters = findClusters(voxels);
+  std::vector<Ball> clusters = progress(0.) ? findClusters(voxels) : std::vector<Ball>();
   if (!clusters.empty())
   {
     // What may be a limb that is full of noise is none.
     const int layersOfLimb = int(DeviationsInLimb *
-      noiseOf(cloud, float(VoxelsOfNoise * voxels.grid.width)) / voxels.grid.width);
+      noiseOf(cloud, float(VoxelsOfNoise * voxels.grid.width), progress) / voxels.grid.width);
     clusters = layersOfLimb > 0 ? findClusters(voxels, layersOfLimb + 1) : clusters;
   }
-  if (clusters.empty())
+  if (clusters.empty() || !progress(0.))
   {
     return {};
   }
@@ -327,14 +327,16 @@ std::optional<PointCloud> withoutThickParts(const PointCloud& cloud)
 }
 }
 
-std::optional<PointCloud> withoutClusters(const PointCloud& cloud)
+std::optional<PointCloud> withoutClusters(const PointCloud& cloud, const Progress& progress)
 {
   if (!cloud.hasExtent())
   {
     return {};
   }
+  bool goesOn = true;
+  const Progress ask = [&](double fraction) { return goesOn = goesOn && progress(fraction); };
   const SeparateClusters separate(
-    cloud, [&] { return noiseOf(cloud, float(DiagonalOfNoise * cloud.diagonal())); });
+    cloud, [&] { return noiseOf(cloud, float(DiagonalOfNoise * cloud.diagonal()), ask); }, ask);
   std::optional<PointCloud> rest;
   if (!separate.areNone())
   {
@@ -344,7 +346,12 @@ std::optional<PointCloud> withoutClusters(const PointCloud& cloud)
       rest = std::move(without);
     }
   }
-  std::optional<PointCloud> more = withoutThickParts(rest ? *rest : cloud);
+  std::optional<PointCloud> more =
+    ask(0.) ? withoutThickParts(rest ? *rest : cloud, ask) : std::nullopt;
+  if (!goesOn)
+  {
+    return {};
+  }
   return more && isMostOf(cloud, *more) ? std::move(more) : std::move(rest);
 }
 }

@@ -40,6 +40,11 @@ constexpr double LeastVariationOfAll = 0.18;
 /// Standard deviation over mean of distances from the middle, in deviations of the points: 0.42 of a normal distribution,
 /// 0.26 of an even one in a ball, 0.14 on a cube, 0 on a ball.
 constexpr double LeastSpread = 0.23;
+/// The noise of a small body spreads them more, but leaves a hollow: in deviations of the points from the middle, they are
+/// less dense within the first radius than between both, by so many deviations of chance. The larger one lies within
+/// an even cube, too.
+constexpr double RadiusOfHollow = 1., RadiusAroundHollow = 1.7;
+constexpr double DeviationsOfHollow = 3.;
 /// The same body under noise lies on no surface up to a radius of five deviations of the noise: then this is the
 /// standard deviation of its points, in those of the noise.
 constexpr double DeviationsInBody = 3.05;
@@ -83,19 +88,25 @@ GroupMoments momentsOf(std::span<const Vector4> points)
   return momentsOf(points.size(), [&](std::size_t i) { return points[i]; });
 }
 
-/// Whether there are about as many points in the middle as farther out.
+/// Whether there are as many points in the middle as farther out, but for chance.
 bool fillTheMiddle(std::span<const Vector4> points, const GroupMoments& moments)
 {
-  double sum = 0., squares = 0.;
+  double sum = 0., squares = 0., inHollow = 0., inBoth = 0.;
   for (const Vector4 point : points)
   {
     const Eigen::Vector3d offset = moments.axes.transpose() * (point.toDouble() - moments.mean);
     const double squared = offset.cwiseAbs2().cwiseQuotient(moments.variances).sum();
     sum += std::sqrt(squared);
     squares += squared;
+    inHollow += squared < RadiusOfHollow * RadiusOfHollow ? 1. : 0.;
+    inBoth += squared < RadiusAroundHollow * RadiusAroundHollow ? 1. : 0.;
   }
   const double mean = sum / double(points.size());
-  return squares / double(points.size()) - mean * mean >= LeastSpread * LeastSpread * mean * mean;
+  const double part = std::pow(RadiusOfHollow / RadiusAroundHollow, 3);
+  const bool isHollow =
+    inHollow < part * inBoth - DeviationsOfHollow * std::sqrt(part * (1. - part) * inBoth);
+  return !isHollow &&
+    squares / double(points.size()) - mean * mean >= LeastSpread * LeastSpread * mean * mean;
 }
 
 /// Mean variation around some of the points.
@@ -161,13 +172,17 @@ public:
 
   const VoxelGrid& grid() const { return grid_; }
 
-  std::vector<std::uint8_t> leftOut(const std::function<double()>& noise)
+  std::vector<std::uint8_t> leftOut(const std::function<double()>& noise, const Progress& progress)
   {
     std::vector<std::uint8_t> result;
     std::optional<double> least;
     std::size_t leftOut = 0;
     for (const std::vector<Vector4>& points : pointsOfGroups())
     {
+      if (!progress(0.))
+      {
+        return {};
+      }
       const std::vector<Vector4> some = somePoints(points);
       if (!areScattered(some))
       {
@@ -330,10 +345,11 @@ bool areScattered(std::span<const Vector4> points)
   return true;
 }
 
-SeparateClusters::SeparateClusters(const PointCloud& cloud, const std::function<double()>& noise)
+SeparateClusters::SeparateClusters(
+  const PointCloud& cloud, const std::function<double()>& noise, const Progress& progress)
 {
   GroupSearch search(cloud);
-  isLeftOut_ = search.leftOut(noise);
+  isLeftOut_ = search.leftOut(noise, progress);
   grid_ = search.grid();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Progress.h"
 #include "cloud/PointCloud.h"
 #include "start/VoxelGrid.h"
 
@@ -27,7 +28,10 @@ class SeparateClusters
 {
 public:
   /// `noise` gives the standard deviation of points across the surface; it is asked for where there may be a cluster.
-  SeparateClusters(const PointCloud& cloud, const std::function<double()>& noise);
+  /// There are none if `progress` ended it.
+  SeparateClusters(
+    const PointCloud& cloud, const std::function<double()>& noise,
+    const Progress& progress = [](double) { return true; });
 
   bool areNone() const { return isLeftOut_.empty(); }
   /// Whether a point belongs to one of them, or to what is strewn around it.

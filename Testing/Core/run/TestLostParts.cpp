@@ -9,6 +9,7 @@
 #include "OpenShapes.h"
 #include "run/Explanation.h"
 #include "run/Reconstruction.h"
+#include "run/Stages.h"
 #include "run/Warnings.h"
 #include "Shapes.h"
 
@@ -22,7 +23,7 @@ namespace neuralmesh::testing
 {
 namespace
 {
-constexpr std::size_t All = std::size_t(-1);
+constexpr std::size_t AllOfCloud = std::size_t(-1);
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -58,7 +59,7 @@ TriangleMesh twoBars(double gap)
 Explanation explainedBy(const TriangleMesh& shape, const PointCloud& cloud)
 {
   const Mesh mesh = buildMesh(shape, cloud);
-  return explain(cloud, distancesTo(mesh, cloud, All), {});
+  return explain(cloud, distancesTo(mesh, cloud, AllOfCloud), {});
 }
 
 std::vector<std::string> warningsBy(const TriangleMesh& shape, const PointCloud& cloud)
@@ -95,7 +96,9 @@ TEST(TornParts, ABarInTwoPieces)
     const PointCloud cloud(pointsOn(bar(1.), count));
     const Explanation explanation = explainedBy(twoBars(0.005), cloud);
     EXPECT_EQ(explanation.torn.tears, 1u);
-    EXPECT_LT(explanation.torn.place.norm(), 0.03);
+    EXPECT_LT(explanation.torn.place.norm(), 0.06);
+    EXPECT_TRUE(std::any_of(cloud.points().begin(), cloud.points().end(),
+      [&](Vector4 point) { return cloud.toInput(point) == explanation.torn.place; }));
     EXPECT_TRUE(hasTag(warningsBy(twoBars(0.005), cloud), "falls-into-pieces"));
     EXPECT_FALSE(explainedBy(bar(1.), cloud).torn.any());
   }
@@ -121,6 +124,55 @@ TEST(TornParts, WhatTouchesIsNotTorn)
   {
     EXPECT_FALSE(explainedBy(shape, PointCloud(pointsOn(shape, 20000))).torn.any());
   }
+}
+
+// One box around a stack of plates lies away from most points, by less than the distances between edges but more than
+// noise: it does not explain them. One that follows noisy points does.
+TEST(LostParts, AStackOfPlatesInOneBox)
+{
+  TriangleMesh plates;
+  for (int i = 0; i < 6; ++i)
+  {
+    append(plates, scaled(makeCube(8), { 1., 1., 0.02 }), { 0., 0., 0.08 * i });
+  }
+  TriangleMesh box;
+  append(box, scaled(makeCube(10), { 1., 1., 0.42 }), { 0., 0., 0.2 });
+  const PointCloud cloud(pointsOn(plates, 30000));
+  EXPECT_GT(explainedBy(box, cloud).unexplainedShare(), 0.03);
+  EXPECT_TRUE(hasTag(warningsBy(box, cloud), "part-is-missing"));
+
+  CloudOptions options;
+  options.count = 30000;
+  options.noise = 0.01;
+  const PointCloud noisy(generateCloud(makeSphere(), options));
+  EXPECT_EQ(warningsBy(makeSphere(40), noisy), std::vector<std::string>());
+}
+
+// Of coarse layers that are close, the closest vertex may be one of another layer: that tears none. It is told of the
+// closest vertices alone.
+TEST(TornParts, CloseLayersAreNotTorn)
+{
+  TriangleMesh shells, coarse;
+  for (const double radius : { 1., 0.9, 0.8, 0.7 })
+  {
+    const Eigen::Vector3d scale(radius, radius, radius);
+    append(shells, scaled(makeSphere(), scale), { 0., 0., 0. });
+    TriangleMesh shell = scaled(makeSphere(5), scale);
+    // Vertices do not lie one below the other.
+    const Eigen::AngleAxisd turn(5. * radius, Eigen::Vector3d(1., 2., 3.).normalized());
+    for (Eigen::Vector3d& point : shell.points)
+    {
+      point = turn * point;
+    }
+    append(coarse, shell, { 0., 0., 0. });
+  }
+  const PointCloud cloud(pointsOn(shells, 30000));
+  EXPECT_TRUE(explainedBy(coarse, cloud).torn.any());
+  Reconstruction result;
+  result.surface = buildMesh(coarse, cloud);
+  ASSERT_TRUE(explainPoints(
+    cloud, nullptr, 0.0005, false, result, [](double) { return true; }, Executor::sequential()));
+  EXPECT_FALSE(result.explanation->torn.any());
 }
 
 // A bore that the mesh closes is told though its points lie no farther from the mesh than from each other; without it

@@ -179,6 +179,48 @@ TEST(SeparateClusters, BodiesFullOfNoiseStay)
   }
 }
 
+// Where a small ball has more noise than the body, the hollow in it is less wide, but there.
+TEST(SeparateClusters, NoisyShellsStay)
+{
+  constexpr double Radius = 0.1;
+  for (const double noise : { 0.2, 0.25 })
+  {
+    for (const std::uint64_t seed : { 1, 2, 3, 4, 5 })
+    {
+      SCOPED_TRACE(std::to_string(noise) + " of the radius, seed " + std::to_string(seed));
+      Points points = body(makeSphere(), 0.001);
+      Random random(seed);
+      for (const Eigen::Vector3d& point : partOf(makeSphere(), 400, Radius, { 1.5, 0., 0. }))
+      {
+        addCluster(points, point, noise * Radius, 1, random);
+      }
+      EXPECT_FALSE(withoutClusters(PointCloud(points)).has_value());
+    }
+  }
+}
+
+// Whoever ends the search is asked no more, and gets the whole cloud, whenever that is.
+TEST(SeparateClusters, CanBeEnded)
+{
+  Points points = body(makeSphere(), 0.001);
+  Random random(6);
+  for (const double place : { 1.3, 1.6, 1.9 })
+  {
+    addCluster(points, { place, 0., 0. }, 0.03, 200, random);
+  }
+  const PointCloud cloud(points);
+  int all = 0;
+  ASSERT_TRUE(withoutClusters(cloud, [&](double) { return ++all > 0; }).has_value());
+  // For each group, each place where the noise is measured, and between.
+  ASSERT_GT(all, 100);
+  for (int last = 1; last <= all; last += last < 8 || last > all - 4 ? 1 : 50)
+  {
+    int calls = 0;
+    EXPECT_FALSE(withoutClusters(cloud, [&](double) { return ++calls < last; }).has_value());
+    EXPECT_EQ(calls, last);
+  }
+}
+
 // What makes up a good part of the cloud is what was scanned.
 TEST(SeparateClusters, LargeGroupsStay)
 {
