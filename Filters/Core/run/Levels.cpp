@@ -10,6 +10,7 @@
 #include <numeric>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace neuralmesh
 {
@@ -56,40 +57,54 @@ Beginning simplified(Beginning beginning, std::uint64_t vertices, std::uint64_t 
   return beginning;
 }
 
-/// A level that may have lost thin parts.
-struct DoubtfulLevel
+/// Whether the mesh is fitted and may be fitted again. Feature strength belongs to the places where
+/// vertices have learnt.
+bool canBeMadeAgain(const LearntRun& run)
 {
-  std::size_t number;
-  Reconstruction mesh;
+  return run.result.finish && !run.learnt.featureStrength;
+}
+
+/// The levels below the last one.
+struct SmallerLevels
+{
+  std::vector<Reconstruction> meshes;
+  std::vector<std::size_t> doubtful; ///< those that may have lost thin parts, ascending
 };
 
-/// Gives the doubtful levels to `take`. A level is replaced by a simplification of the last level,
-/// `learnt`, if that holds more of the cloud. If the last level has lost thin parts itself,
-/// `learnt` is nothing, and each level is checked by a run of its own.
-void takeDoubtful(Run& run, const std::optional<LearntRun>& learnt, const RunRequest& request,
-  Reconstruction& last, std::vector<DoubtfulLevel>& doubtful, const LevelTaker& take,
-  const Progress& progress)
+/// Replaces each doubtful level by a simplification of the last level, `made`, if that holds more of
+/// the cloud. `made` is fitted, so few rounds fit the simplification. If the last level has lost
+/// thin parts itself, `made` is nothing, and each level is checked by a run of its own. Returns
+/// false if the run was ended.
+bool replaceDoubtful(Run& run, const std::optional<LearntRun>& made, const RunRequest& request,
+  SmallerLevels& smaller, const Progress& progress)
 {
-  for (auto& [number, mesh] : doubtful)
+  for (const std::size_t level : smaller.doubtful)
   {
+    Reconstruction& mesh = smaller.meshes[level];
     Parameters parameters = request.parameters;
     parameters.numberOfVertices = mesh.surface.vertexCount();
-    if (last.isComplete())
+    Reconstruction other;
+    if (made)
     {
-      Reconstruction other = learnt
-        ? betterOf(mesh, run.finish(*learnt, parameters.numberOfVertices, { 1., 1. }), holdsMore)
-        : runWithThinParts(mesh, requestWith(request, parameters), progress);
-      if (other.stopReason == StopReason::Cancelled)
-      {
-        last.stopReason = StopReason::Cancelled;
-      }
-      else
-      {
-        mesh = std::move(other);
-      }
+      LearntRun again = *made;
+      again.result.times = {};
+      again.result.times.enter(Phase::Finish);
+      run.makeAgain(again, parameters.numberOfVertices, { 1., 1. });
+      again.result.times.leave();
+      other = betterOf(
+        mesh, run.describe(std::move(again), parameters.numberOfVertices, { 1., 1. }), holdsMore);
     }
-    take(number, std::move(mesh));
+    else
+    {
+      other = runWithThinParts(mesh, requestWith(request, parameters), progress);
+    }
+    if (other.stopReason == StopReason::Cancelled)
+    {
+      return false;
+    }
+    mesh = std::move(other);
   }
+  return true;
 }
 }
 
@@ -121,7 +136,7 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
   const Beginning beginning = run.begin(levels.back(), { 0., StartOfLearning });
   times.leave();
   Checkpoint none({}, request.cloud, request.parameters);
-  std::vector<DoubtfulLevel> doubtful;
+  SmallerLevels smaller;
   const double all = std::accumulate(levels.begin(), levels.end(), 0.);
   double done = StartOfLearning;
   for (const Chain& chain : chainsOf(levels))
@@ -134,6 +149,9 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
       const RunRequest own = requestWith(request, parameters);
       const double end = done + (1. - StartOfLearning) * double(levels[level]) / all;
       const double endOfGrowth = done + PartOfGrowth * (end - done);
+      const double endOfFit = request.parameters.computeUncertainty
+        ? endOfGrowth + PartBeforeUncertainty * (end - endOfGrowth)
+        : end;
       LearntRun learnt =
         run.learn(verticesToLearn(own), std::move(next), { done, endOfGrowth }, none);
       // A first surface that is larger than its level learns nothing. It is finished and simplified
@@ -141,34 +159,43 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
       learnt.isLearnt = true;
       next = { learnt.learnt.mesh, beginning.gaps, beginning.weights };
       const bool isLast = level + 1 == levels.size();
-      auto learntForDoubtful =
-        isLast && !doubtful.empty() ? std::optional<LearntRun>(learnt) : std::nullopt;
+      learnt.result.times.enter(Phase::Finish);
+      run.make(learnt, levels[level], { endOfGrowth, endOfFit });
+      learnt.result.times.leave();
+      auto made = isLast && !smaller.doubtful.empty() && canBeMadeAgain(learnt)
+        ? std::optional<LearntRun>(learnt)
+        : std::nullopt;
       Reconstruction result =
-        betterRun(run.finish(std::move(learnt), levels[level], { endOfGrowth, end }), own,
+        betterRun(run.describe(std::move(learnt), levels[level], { endOfFit, end }), own,
           partOf(progress, end, end));
       result.times.add(std::exchange(times, {}));
-      if (mayHaveLostThinParts(result, own))
+      const bool isDoubtful = mayHaveLostThinParts(result, own);
+      if (isDoubtful)
       {
-        learntForDoubtful.reset();
+        made.reset();
       }
       if (isLast)
       {
         result = runWithThinParts(std::move(result), own, partOf(progress, end, end));
+        if (result.isComplete() &&
+          !replaceDoubtful(run, made, request, smaller, partOf(progress, end, end)))
+        {
+          result.stopReason = StopReason::Cancelled;
+        }
       }
       if (isLast || !result.isComplete())
       {
-        takeDoubtful(
-          run, learntForDoubtful, request, result, doubtful, take, partOf(progress, end, end));
+        for (std::size_t number = 0; number < smaller.meshes.size(); ++number)
+        {
+          take(number, std::move(smaller.meshes[number]));
+        }
         return result;
       }
-      if (mayHaveLostThinParts(result, own))
+      if (isDoubtful)
       {
-        doubtful.push_back({ level, std::move(result) });
+        smaller.doubtful.push_back(level);
       }
-      else
-      {
-        take(level, std::move(result));
-      }
+      smaller.meshes.push_back(std::move(result));
       done = end;
     }
   }
