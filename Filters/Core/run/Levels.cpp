@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace neuralmesh
 {
@@ -57,54 +57,40 @@ Beginning simplified(Beginning beginning, std::uint64_t vertices, std::uint64_t 
   return beginning;
 }
 
-/// Whether the mesh is fitted and may be fitted again. Feature strength belongs to the places where
-/// vertices have learnt.
-bool canBeMadeAgain(const LearntRun& run)
+/// A level that may have lost thin parts.
+struct DoubtfulLevel
 {
-  return run.result.finish && !run.learnt.featureStrength;
-}
-
-/// The levels below the last one.
-struct SmallerLevels
-{
-  std::vector<Reconstruction> meshes;
-  std::vector<std::size_t> doubtful; ///< those that may have lost thin parts, ascending
+  std::size_t number;
+  Reconstruction mesh;
 };
 
-/// Replaces each doubtful level by a simplification of the last level, `made`, if that holds more of
-/// the cloud. `made` is fitted, so few rounds fit the simplification. If the last level has lost
-/// thin parts itself, `made` is nothing, and each level is checked by a run of its own. Returns
-/// false if the run was ended.
-bool replaceDoubtful(Run& run, const std::optional<LearntRun>& made, const RunRequest& request,
-  SmallerLevels& smaller, const Progress& progress)
+/// Gives the doubtful levels to `take`. A level is replaced by a simplification of the last level,
+/// `learnt`, if that holds more of the cloud. If the last level has lost thin parts itself,
+/// `learnt` is nothing, and each level is checked by a run of its own.
+void takeDoubtful(Run& run, const std::optional<LearntRun>& learnt, const RunRequest& request,
+  Reconstruction& last, std::vector<DoubtfulLevel>& doubtful, const LevelTaker& take,
+  const Progress& progress)
 {
-  for (const std::size_t level : smaller.doubtful)
+  for (auto& [number, mesh] : doubtful)
   {
-    Reconstruction& mesh = smaller.meshes[level];
     Parameters parameters = request.parameters;
     parameters.numberOfVertices = mesh.surface.vertexCount();
-    Reconstruction other;
-    if (made)
+    if (last.isComplete())
     {
-      LearntRun again = *made;
-      again.result.times = {};
-      again.result.times.enter(Phase::Finish);
-      run.makeAgain(again, parameters.numberOfVertices, { 1., 1. });
-      again.result.times.leave();
-      other = betterOf(
-        mesh, run.describe(std::move(again), parameters.numberOfVertices, { 1., 1. }), holdsMore);
+      Reconstruction other = learnt
+        ? betterOf(mesh, run.finish(*learnt, parameters.numberOfVertices, { 1., 1. }), holdsMore)
+        : runWithThinParts(mesh, requestWith(request, parameters), progress);
+      if (other.stopReason == StopReason::Cancelled)
+      {
+        last.stopReason = StopReason::Cancelled;
+      }
+      else
+      {
+        mesh = std::move(other);
+      }
     }
-    else
-    {
-      other = runWithThinParts(mesh, requestWith(request, parameters), progress);
-    }
-    if (other.stopReason == StopReason::Cancelled)
-    {
-      return false;
-    }
-    mesh = std::move(other);
+    take(number, std::move(mesh));
   }
-  return true;
 }
 }
 
@@ -136,7 +122,10 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
   const Beginning beginning = run.begin(levels.back(), { 0., StartOfLearning });
   times.leave();
   Checkpoint none({}, request.cloud, request.parameters);
-  SmallerLevels smaller;
+  std::vector<DoubtfulLevel> doubtful;
+  std::map<std::size_t, Reconstruction> smaller;
+  const LevelTaker keep = [&smaller](std::size_t level, Reconstruction mesh)
+  { smaller.emplace(level, std::move(mesh)); };
   const double all = std::accumulate(levels.begin(), levels.end(), 0.);
   double done = StartOfLearning;
   for (const Chain& chain : chainsOf(levels))
@@ -149,9 +138,6 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
       const RunRequest own = requestWith(request, parameters);
       const double end = done + (1. - StartOfLearning) * double(levels[level]) / all;
       const double endOfGrowth = done + PartOfGrowth * (end - done);
-      const double endOfFit = request.parameters.computeUncertainty
-        ? endOfGrowth + PartBeforeUncertainty * (end - endOfGrowth)
-        : end;
       LearntRun learnt =
         run.learn(verticesToLearn(own), std::move(next), { done, endOfGrowth }, none);
       // A first surface that is larger than its level learns nothing. It is finished and simplified
@@ -159,43 +145,38 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
       learnt.isLearnt = true;
       next = { learnt.learnt.mesh, beginning.gaps, beginning.weights };
       const bool isLast = level + 1 == levels.size();
-      learnt.result.times.enter(Phase::Finish);
-      run.make(learnt, levels[level], { endOfGrowth, endOfFit });
-      learnt.result.times.leave();
-      auto made = isLast && !smaller.doubtful.empty() && canBeMadeAgain(learnt)
-        ? std::optional<LearntRun>(learnt)
-        : std::nullopt;
+      auto learntForDoubtful =
+        isLast && !doubtful.empty() ? std::optional<LearntRun>(learnt) : std::nullopt;
       Reconstruction result =
-        betterRun(run.describe(std::move(learnt), levels[level], { endOfFit, end }), own,
+        betterRun(run.finish(std::move(learnt), levels[level], { endOfGrowth, end }), own,
           partOf(progress, end, end));
       result.times.add(std::exchange(times, {}));
-      const bool isDoubtful = mayHaveLostThinParts(result, own);
-      if (isDoubtful)
+      if (mayHaveLostThinParts(result, own))
       {
-        made.reset();
+        learntForDoubtful.reset();
       }
       if (isLast)
       {
         result = runWithThinParts(std::move(result), own, partOf(progress, end, end));
-        if (result.isComplete() &&
-          !replaceDoubtful(run, made, request, smaller, partOf(progress, end, end)))
-        {
-          result.stopReason = StopReason::Cancelled;
-        }
       }
       if (isLast || !result.isComplete())
       {
-        for (std::size_t number = 0; number < smaller.meshes.size(); ++number)
+        takeDoubtful(
+          run, learntForDoubtful, request, result, doubtful, keep, partOf(progress, end, end));
+        for (auto& [number, mesh] : smaller)
         {
-          take(number, std::move(smaller.meshes[number]));
+          take(number, std::move(mesh));
         }
         return result;
       }
-      if (isDoubtful)
+      if (mayHaveLostThinParts(result, own))
       {
-        smaller.doubtful.push_back(level);
+        doubtful.push_back({ level, std::move(result) });
       }
-      smaller.meshes.push_back(std::move(result));
+      else
+      {
+        keep(level, std::move(result));
+      }
       done = end;
     }
   }
