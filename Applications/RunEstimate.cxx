@@ -85,6 +85,7 @@ neuralmesh::PlannedRun PlanRun(vtkNeuralMesh* filter, vtkPointSet* points)
     .samplesForFeatures =
       filter->GetComputeFeatureStrength() ? filter->GetFeatureSamples() * vertices : 0.0,
     .samplesPerAddition = static_cast<double>(filter->GetSamplesPerAddition()),
+    .mostSamples = static_cast<double>(filter->GetMaximumIterations()),
     .isEnsemble = vtkNeuralMeshEnsemble::SafeDownCast(filter) != nullptr };
 }
 

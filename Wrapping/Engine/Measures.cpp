@@ -42,6 +42,7 @@ PlannedRun plannedRunOf(const nb::dict& plan)
     .bytesOfPoints = number("bytes_of_points"),
     .samplesForFeatures = number("samples_for_features"),
     .samplesPerAddition = number("samples_per_addition"),
+    .mostSamples = number("most_samples"),
     .isEnsemble = nb::cast<bool>(plan["is_ensemble"]) };
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -122,6 +123,9 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
   times.leave();
   Checkpoint none({}, request.cloud, request.parameters);
   std::vector<DoubtfulLevel> doubtful;
+  std::map<std::size_t, Reconstruction> smaller;
+  const LevelTaker keep = [&smaller](std::size_t level, Reconstruction mesh)
+  { smaller.emplace(level, std::move(mesh)); };
   const double all = std::accumulate(levels.begin(), levels.end(), 0.);
   double done = StartOfLearning;
   for (const Chain& chain : chainsOf(levels))
@@ -158,7 +162,11 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
       if (isLast || !result.isComplete())
       {
         takeDoubtful(
-          run, learntForDoubtful, request, result, doubtful, take, partOf(progress, end, end));
+          run, learntForDoubtful, request, result, doubtful, keep, partOf(progress, end, end));
+        for (auto& [number, mesh] : smaller)
+        {
+          take(number, std::move(mesh));
+        }
         return result;
       }
       if (mayHaveLostThinParts(result, own))
@@ -167,7 +175,7 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
       }
       else
       {
-        take(level, std::move(result));
+        keep(level, std::move(result));
       }
       done = end;
     }

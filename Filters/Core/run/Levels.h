@@ -28,8 +28,7 @@ struct BesideLevels
 std::string whyNoLevels(std::span<const std::uint64_t> levels, const Parameters& parameters,
   const BesideLevels& beside = {});
 
-/// Receives each level except the last one, with its index. Levels that may have lost thin parts
-/// come after the others.
+/// Receives each level except the last one, with its index, in ascending order.
 using LevelTaker = std::function<void(std::size_t level, Reconstruction mesh)>;
 
 /// Grows one mesh, and finishes a copy of it at each level. Each level is as good as a run of its

@@ -102,9 +102,13 @@ RunEstimate estimateRun(const PlannedRun& run, const TrialRun& trial, const Tria
   const double before = scale * middle.vertices;
   const double samplesOfGrowth =
     samplesPerVertex * std::max(0., learntVertices(run) - before - scale * added);
-  const double samplesLeft =
+  const double samplesWanted =
     (run.isEnsemble ? PartLearntByEnsemble : 1.) * samplesOfGrowth + run.samplesForFeatures;
-  estimate.samples = last.iterations + samplesLeft;
+  const double samplesLeft = run.mostSamples > 0.
+    ? std::clamp(run.mostSamples - last.iterations, 0., samplesWanted)
+    : samplesWanted;
+  estimate.samples = run.mostSamples > 0. ? std::min(run.mostSamples, last.iterations + samplesLeft)
+                                          : last.iterations + samplesLeft;
 
   // Rows have wall-clock times.
   const double timeOfTrial =

@@ -26,6 +26,7 @@ struct PlannedRun
   double bytesOfPoints = 0.; ///< that the input takes
   double samplesForFeatures = 0.;
   double samplesPerAddition = 0.;
+  double mostSamples = 0.; ///< of learning, at which it ends; 0: any number
   bool isEnsemble = false;
 };
 

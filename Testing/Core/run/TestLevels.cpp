@@ -40,7 +40,10 @@ std::vector<Reconstruction> meshesOf(
   Reconstruction last = reconstructLevels(
     { cloud, parameters, none, executor, hints }, levels,
     [&](std::size_t level, Reconstruction mesh)
-    { EXPECT_TRUE(taken.emplace(level, std::move(mesh)).second); },
+    {
+      EXPECT_EQ(level, taken.size()) << "levels ascend";
+      EXPECT_TRUE(taken.emplace(level, std::move(mesh)).second);
+    },
     progress);
   for (auto& [level, mesh] : taken)
   {

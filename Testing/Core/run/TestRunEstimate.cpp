@@ -75,6 +75,18 @@ TEST(RunEstimate, KnowsThePaceOfTheParameters)
   EXPECT_NEAR(estimateRun(planOf(20000.), trial).samples, 200000. + 15000. * 50., 1.);
 }
 
+// Promise: a run that ends at a number of samples is told to take no more of them.
+TEST(RunEstimate, EndsAtTheMostSamples)
+{
+  PlannedRun plan = planOf(20000.);
+  plan.mostSamples = 600000.;
+  const RunEstimate estimate = estimateRun(plan, evenTrial());
+  EXPECT_NEAR(estimate.samples, 600000., 1.);
+  EXPECT_LT(estimate.seconds, estimateRun(planOf(20000.), evenTrial()).seconds);
+  plan.mostSamples = 1000.;
+  EXPECT_NEAR(estimateRun(plan, evenTrial()).samples, 1000., 1.);
+}
+
 // Promise: large meshes are slower, features take samples of their own, and of an ensemble less is left to
 // learn.
 TEST(RunEstimate, KnowsWhatElseTakesTime)

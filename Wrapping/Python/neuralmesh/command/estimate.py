@@ -44,6 +44,7 @@ def plan_of(mesh: Any, points: Mesh) -> dict[str, Any]:
             float(mesh.GetFeatureSamples() * vertices) if mesh.GetComputeFeatureStrength() else 0.0
         ),
         "samples_per_addition": float(mesh.GetSamplesPerAddition()),
+        "most_samples": float(mesh.GetMaximumIterations()),
         "is_ensemble": bool(mesh.IS_ENSEMBLE),
     }
 
