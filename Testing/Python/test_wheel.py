@@ -87,6 +87,14 @@ class Import(unittest.TestCase):
         with self.assertRaises(AttributeError):
             neuralmesh.vtkNothing()
 
+    # Promise: completion proposes the classes where they work, and whoever lists all names finds each.
+    def test_completion(self):
+        self.assertIn("reconstruct", dir(neuralmesh))
+        if WORLD != "cvista":
+            self.assertEqual("vtkNeuralMesh" in dir(neuralmesh), HAS_VTK)
+            for name in dir(neuralmesh):
+                getattr(neuralmesh, name)
+
 
 class Functions(unittest.TestCase):
     # Promise: arrays in give a mesh out: a vtkPolyData where there is a VTK, else a neuralmesh.Mesh.
