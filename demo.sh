@@ -5,9 +5,12 @@ set -euo pipefail
 cd "$(dirname "$0")"
 source Utilities/build.sh
 
-# The icons of ParaView, which that of Debian 12 comes without.
+# The icons of ParaView, which comes without what draws them: Qt 5 on Debian 12, Qt 6 on Debian 13.
 icons=()
-[ "$(. /etc/os-release && echo "${VERSION_ID:-}")" != 12 ] || icons=(libqt5svg5)
+case $(. /etc/os-release && echo "${VERSION_ID:-}") in
+  12) icons=(libqt5svg5) ;;
+  13) icons=(qt6-svg-plugins) ;;
+esac
 install_packages "${build_packages[@]}" libcgal-demo glmark2-data "${screen_packages[@]}" "${icons[@]}"
 build build all
 

@@ -2,6 +2,7 @@
 """reconstruct(): whatever holds the points, the mesh is that of the filter."""
 
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -90,6 +91,20 @@ class Arrays(unittest.TestCase):
                 with self.assertRaisesRegex(ValueError, r"of shape \(N, 3\)") as caught:
                     neuralmesh.reconstruct(points, 100)
                 self.assertIn(part, str(caught.exception))
+
+    # Promise: arrays with more columns, on their side or with named fields are told what to pass, and
+    # that works.
+    def test_what_to_pass(self):
+        cloud = support.sphere()
+        wanted = support.arrays_of(neuralmesh.reconstruct(cloud, 100))
+        fields = np.zeros(len(cloud), [("x", "f8"), ("y", "f8"), ("z", "f8"), ("intensity", "u1")])
+        fields["x"], fields["y"], fields["z"] = cloud.T
+        for points in np.hstack((cloud, cloud)), cloud.T, fields:
+            with self.assertRaises(ValueError) as caught:
+                neuralmesh.reconstruct(points, 100)
+            said = re.search(r": pass (.*?)(?: if .*)?$", str(caught.exception))[1]
+            mesh = neuralmesh.reconstruct(eval(said, {"numpy": np, "points": points}), 100)
+            self.assertEqual(support.arrays_of(mesh), wanted)
 
 
 class Datasets(unittest.TestCase):

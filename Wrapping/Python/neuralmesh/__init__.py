@@ -41,5 +41,9 @@ else:
         """The classes for pipelines, which import VTK only where they are wanted."""
         return _own_engine.vtk_class(name)
 
+    def __dir__() -> list[str]:
+        """What completion proposes: also the classes, where there is a VTK for them."""
+        return sorted({*globals(), *_own_engine.vtk_classes()})
+
 
 _pyvista_hook.install()

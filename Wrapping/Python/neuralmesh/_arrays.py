@@ -23,9 +23,21 @@ def as_points(points: object) -> np.ndarray:
     if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "fiu":
         raise ValueError(
             f"{wanted}, not {type(points).__name__} of shape {array.shape} and type {array.dtype}"
+            f"{_how_to_pass(array)}"
         )
     single = array.dtype.kind == "f" and array.dtype.itemsize == 4
     return np.ascontiguousarray(array, dtype=np.float32 if single else np.float64)
+
+
+def _how_to_pass(array: np.ndarray) -> str:
+    """What makes points of usual arrays that have more or other columns; else nothing."""
+    if array.dtype.names is not None and {"x", "y", "z"} <= set(array.dtype.names):
+        return ": pass numpy.stack([points[axis] for axis in 'xyz'], axis=1)"
+    if array.ndim == 2 and array.shape[1] > 3 and array.dtype.kind in "fiu":
+        if array.shape[0] == 3:
+            return ": pass points.T"
+        return ": pass points[:, :3] if its first columns are x, y and z"
+    return ""
 
 
 def as_triangles(triangles: object, parameter: str) -> np.ndarray:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 from typing import Any
 
 _CLASSES = (
@@ -37,6 +38,11 @@ def require_engine(version: str) -> None:
             f"neuralmesh {version} found an engine of version {_engine.version}, {_engine.__file__}: "
             "two versions lie in one folder. Remove it, and install neuralmesh again."
         )
+
+
+def vtk_classes() -> tuple[str, ...]:
+    """The names of the classes for pipelines; none where there is no VTK. Does not import VTK."""
+    return _CLASSES if importlib.util.find_spec("vtkmodules") else ()
 
 
 def vtk_class(name: str) -> Any:

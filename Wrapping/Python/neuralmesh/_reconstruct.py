@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numbers
 import os
-from typing import Any, Sequence
+from typing import Any, Literal, Sequence
 
 from . import _world
 from ._parameters import assign, parameters_of, refuse_unknown, table
@@ -39,7 +39,7 @@ ENSEMBLE_PARAMETERS = {
 
 def reconstruct(
     points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | str | os.PathLike,
-    vertices: int | str = 20000,
+    vertices: int | Literal["auto"] = 20000,
     seed: int = 1,
     *,
     variant: str = "noise",
@@ -181,7 +181,7 @@ if reconstruct.__doc__:
 
 
 def make_filter(
-    vertices: int | str = 20000,
+    vertices: int | Literal["auto"] = 20000,
     seed: int = 1,
     *,
     variant: str = "noise",
