@@ -149,10 +149,14 @@ private:
 
   bool isNoNoise(float median) const
   {
+    if (double(median) <= EdgesOfNoise * result_.asked.meanEdge)
+    {
+      return false;
+    }
     const std::size_t all = result_.asked.points.size(), asked = std::min(all, LayersOfNoise);
     double sum = 0.;
     std::vector<NearPoint> near;
-    for (std::size_t i = 0; i<asked&& double(median)> EdgesOfNoise * result_.asked.meanEdge; ++i)
+    for (std::size_t i = 0; i < asked; ++i)
     {
       near.clear();
       nearest_.forEachWithin(placeOf(i * all / asked), MediansOfBall * median,
