@@ -30,8 +30,9 @@ constexpr double PartOfFirstRounds = 0.4;
 constexpr double PartOfPlaces = 0.5;
 /// For them.
 constexpr double LeastSamplesPerVertex = 1.5;
-/// Folds after a round, at most, against the triangles.
+/// Folds after a round, at most, against the triangles. A repair mends a few without a loss, however small the mesh is.
 constexpr double MostPartFolded = 0.0025;
+constexpr std::size_t FewFolds = 32;
 /// Of the residual of a surface: what it may cost to mend intersections, and slivers.
 constexpr double MostGrownByRepair = 0.1;
 /// A piece with less than this part of the area has shrunk to a point.
@@ -384,7 +385,7 @@ void Finish::collapseDefects()
 bool Finish::isMuchFolded() const
 {
   const std::size_t folds = foldedEdges(mesh_, executor_).size();
-  return double(folds) > MostPartFolded * double(mesh_.triangleCount());
+  return folds > FewFolds && double(folds) > MostPartFolded * double(mesh_.triangleCount());
 }
 
 /// Where a round folds much, vertices stay where they would break the mesh. Otherwise the repair loses points, and all
