@@ -2,20 +2,13 @@
 #include "fit/EmptyPieces.h"
 
 #include "base/ConcurrentSets.h"
+#include "mesh/Pieces.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace neuralmesh
 {
-double areaOf(const Mesh& mesh, const Triangle& triangle)
-{
-  const Vector4 a = mesh.position(triangle[0]);
-  return 0.5 *
-    std::sqrt(
-      double(squaredNorm(cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a))));
-}
-
 Vector4 centerOf(const Mesh& mesh, const Triangle& triangle)
 {
   return 1.f / 3.f *

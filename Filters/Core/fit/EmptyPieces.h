@@ -11,7 +11,6 @@
 
 namespace neuralmesh
 {
-double areaOf(const Mesh& mesh, const Triangle& triangle);
 Vector4 centerOf(const Mesh& mesh, const Triangle& triangle);
 
 /// A connected piece of triangles without samples.

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/TornLoops.h"
 
-#include "fit/EmptyPieces.h"
 #include "mesh/BoundaryFilling.h"
 #include "mesh/BoundaryManager.h"
+#include "mesh/Pieces.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace neuralmesh
@@ -26,21 +25,12 @@ struct SamplesAtLoop
   double area = 0.;   ///< of these
 };
 
-double enclosedArea(const Mesh& mesh, const std::vector<VertexIndex>& loop)
+/// The area over which the points go on. That of the triangles is asked, as the sides of a loop around a slit may cancel
+/// each other.
+double areaWithSamples(const SamplesAtLoop& samples)
 {
-  const Vector4 origin = mesh.position(loop.front());
-  Vector4 area;
-  for (const VertexIndex v : loop)
-  {
-    area += cross(mesh.position(v) - origin, mesh.position(mesh.ring(v).back()) - origin);
-  }
-  return 0.5 * std::sqrt(double(squaredNorm(area)));
-}
-
-bool isTorn(const SamplesAtLoop& samples, double enclosed)
-{
-  return samples.beyond >= FewestInTear &&
-    samples.beyond * samples.area >= LeastPartInTear * enclosed * samples.around;
+  const bool areMany = samples.beyond >= FewestInTear && samples.around > 0.;
+  return areMany ? samples.beyond * samples.area / (LeastPartInTear * samples.around) : 0.;
 }
 }
 
@@ -78,12 +68,8 @@ std::size_t fillTornLoops(Mesh& mesh, std::span<const PlaceOnMesh> places)
   std::size_t filled = 0;
   for (BoundaryManager::LoopIndex index = 0; index < samples.size(); ++index)
   {
-    const std::vector<VertexIndex> loop = boundaries.vertices(mesh, index);
-    if (!loop.empty() && isTorn(samples[index], enclosedArea(mesh, loop)) &&
-      fillBoundary(mesh, boundaries, index, CosineOfOutline))
-    {
-      ++filled;
-    }
+    const double area = areaWithSamples(samples[index]);
+    filled += area > 0. && fillBoundary(mesh, boundaries, index, CosineOfOutline, area) ? 1 : 0;
   }
   return filled;
 }

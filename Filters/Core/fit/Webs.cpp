@@ -3,6 +3,7 @@
 
 #include "base/Morton.h"
 #include "cloud/NearestPoints.h"
+#include "mesh/Pieces.h"
 
 #include <algorithm>
 #include <cmath>

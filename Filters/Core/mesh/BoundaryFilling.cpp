@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/BoundaryFilling.h"
 
+#include "mesh/Pieces.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -119,12 +121,18 @@ std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longe
   return filled;
 }
 
-bool fillBoundary(
-  Mesh& mesh, BoundaryManager& boundaries, BoundaryManager::LoopIndex loop, float leastCosine)
+bool fillBoundary(Mesh& mesh, BoundaryManager& boundaries, BoundaryManager::LoopIndex loop,
+  float leastCosine, double mostArea)
 {
   const std::vector<VertexIndex> vertices = boundaries.vertices(mesh, loop);
+  double area = 0.;
+  const auto isWithinArea = [&](const Triangle& triangle)
+  {
+    area += areaOf(mesh, triangle);
+    return area <= mostArea;
+  };
   const bool isFilled = !vertices.empty() && cosineAround(mesh, vertices) >= leastCosine &&
-    fillLoop(mesh, vertices, std::numeric_limits<float>::max(), nullptr);
+    fillLoop(mesh, vertices, std::numeric_limits<float>::max(), isWithinArea);
   if (isFilled)
   {
     boundaries.retrace(mesh, vertices);

@@ -24,9 +24,10 @@ std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longe
   const std::function<bool(const Triangle&)>& isAllowed = nullptr,
   std::size_t mostEdges = std::numeric_limits<std::size_t>::max(), float leastCosine = -1.f);
 
-/// Fills this loop, unless the normals around are farther from that of what would fill it. Returns whether it did.
-bool fillBoundary(
-  Mesh& mesh, BoundaryManager& boundaries, BoundaryManager::LoopIndex loop, float leastCosine);
+/// Fills this loop, unless the normals around are farther from that of what would fill it, or its triangles have more
+/// area. Returns whether it did.
+bool fillBoundary(Mesh& mesh, BoundaryManager& boundaries, BoundaryManager::LoopIndex loop,
+  float leastCosine, double mostArea);
 
 /// As fillBoundaries() for loops of at most a dozen edges, whatever their length, that are not the outlines of sheets,
 /// which have more than six. Longer ones are openings.

@@ -139,15 +139,20 @@ std::vector<Piece> findPieces(const Mesh& mesh, const Executor& executor)
   return pieces;
 }
 
+double areaOf(const Mesh& mesh, const Triangle& triangle)
+{
+  const Vector4 a = mesh.position(triangle[0]);
+  return 0.5 *
+    std::sqrt(
+      double(squaredNorm(cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a))));
+}
+
 double areaOf(const Mesh& mesh)
 {
   double area = 0.;
   mesh.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c)
-    {
-      const Vector4 first = mesh.position(a);
-      const Vector4 twice = cross(mesh.position(b) - first, mesh.position(c) - first);
-      area += 0.5 * std::sqrt(double(squaredNorm(twice)));
+    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+      area += areaOf(mesh, { a, b, c });
     });
   return area;
 }

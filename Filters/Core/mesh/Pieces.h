@@ -23,6 +23,7 @@ struct Piece
 /// The pieces of a mesh, in the order of their lowest vertices.
 std::vector<Piece> findPieces(const Mesh& mesh, const Executor& executor = Executor::sequential());
 
+double areaOf(const Mesh& mesh, const Triangle& triangle);
 /// Of all triangles.
 double areaOf(const Mesh& mesh);
 

@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 
 namespace neuralmesh::testing
 {
@@ -117,6 +118,29 @@ TEST(TornLoops, EndsStay)
     expectLoops(makeGrid(40), pointsAlong(makeGrid(40), 40000, noise), 0, 1);
     expectLoops(pipe, pointsAlong(pipe, 40000, noise), 0, 2);
     expectLoops(ribbon, pointsAlong(ribbon, 20000, noise), 0, 1);
+  }
+}
+
+// The sides of such a slit cancel each other in the sum of its area. Noise puts points into it.
+TEST(TornLoops, ASlitAroundABallStays)
+{
+  const auto isInSlit = [](const Eigen::Vector3d& place)
+  { return std::abs(place.z()) < 0.1 && place.x() > -0.95; };
+  const TriangleMesh ball = makeSphere(48);
+  for (const double noise : { 0., 0.01, 0.02 })
+  {
+    SCOPED_TRACE(noise);
+    CloudOptions options;
+    options.count = 40000;
+    Points points = generateCloud(ball, options);
+    std::erase_if(points, isInSlit);
+    std::mt19937 random(1);
+    std::normal_distribution<double> error(0., noise > 0. ? noise : 1e-9);
+    for (Eigen::Vector3d& point : points)
+    {
+      point += Eigen::Vector3d(error(random), error(random), error(random));
+    }
+    expectLoops(without(ball, isInSlit), points, 0, 1);
   }
 }
 }
