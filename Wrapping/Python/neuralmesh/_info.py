@@ -50,7 +50,7 @@ def info(mesh: vtkPolyData | Mesh) -> dict[str, Any]:
         True
     """
     report = _world.report(_world.take_surface(mesh, "mesh"))
-    figures = {name: report.get(name) for name in FIGURES}
+    figures: dict[str, Any] = {name: report.get(name) for name in FIGURES}
     # No edge of no triangles is on a boundary, but nothing is enclosed either.
     figures["closed"] = figures["closed"] and figures["triangles"] > 0
     return figures
