@@ -50,6 +50,8 @@ class HowMany(unittest.TestCase):
             (sphere(), {"vertices": 3}, "an integer from 4 to 1000000000, or 0"),
             (sphere(), {"vertices": "AUTO"}, 'an integer from 4 to 1000000000, or 0, or "auto", not'),
             (sphere(), {"tolerance": -1}, "from 0"),
+            (sphere(), {"tolerance": 0}, "larger than 0"),
+            (sphere(), {"tolerance": 0.0, "vertices": "auto"}, "larger than 0"),
             (sphere(), {"tolerance": 100}, "any mesh meets it"),
             (sphere(3), {"vertices": "auto"}, "3 points"),
             (sphere(), {"vertices": 0, "time_limit": 5}, "stopping rule"),

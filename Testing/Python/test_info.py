@@ -60,6 +60,14 @@ class Info(unittest.TestCase):
         self.assertEqual(mesh.GetFieldData().GetNumberOfArrays(), before)
         self.assertEqual(mesh.GetFieldData().GetArray("Genus").GetValue(0), 7)
 
+    # Promise: a cloud without triangles is not said to be closed, and its points are counted.
+    def test_cloud(self):
+        cloud = vtkPolyData()
+        cloud.SetPoints(support.point_set(support.sphere(30)).GetPoints())
+        figures = neuralmesh.info(cloud)
+        self.assertIs(figures["closed"], False)
+        self.assertEqual((figures["vertices"], figures["unused_points"]), (0, 30))
+
     # Promise: an empty mesh has figures of 0; what is no mesh is a ValueError that says so.
     def test_bad_input(self):
         figures = neuralmesh.info(vtkPolyData())

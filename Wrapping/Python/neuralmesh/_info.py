@@ -37,7 +37,8 @@ def info(mesh: vtkPolyData | Mesh) -> dict[str, Any]:
         positive if the normals point outwards, None if the mesh is not closed or not oriented. And
         `valences`, a dict from the number of edges at a vertex to the number of such vertices.
 
-        Without points and triangles the figures are 0.
+        Without triangles, as of a cloud, the other figures are 0, and `closed` is False; `unused_points`
+        and `non_finite_points` count all points.
 
     Raises:
         ValueError: The mesh is no vtkPolyData, or a triangle refers to a point that is not there.
@@ -49,4 +50,7 @@ def info(mesh: vtkPolyData | Mesh) -> dict[str, Any]:
         True
     """
     report = _world.report(_world.take_surface(mesh, "mesh"))
-    return {name: report.get(name) for name in FIGURES}
+    figures: dict[str, Any] = {name: report.get(name) for name in FIGURES}
+    # No edge of no triangles is on a boundary, but nothing is enclosed either.
+    figures["closed"] = figures["closed"] and figures["triangles"] > 0
+    return figures

@@ -216,6 +216,8 @@ def make_filter(
     assign(mesh, "preset", preset)
     for name, value in parameters.items():
         assign(mesh, name, value)
+    if parameters.get("tolerance") == 0:
+        raise ValueError("tolerance must be larger than 0; without it the number of vertices counts.")
     set_outer_side(mesh, viewpoints, up)
     for level in () if levels is None else levels:
         _add_level(mesh, level)

@@ -65,7 +65,8 @@ def remesh(
         5000
     """
     refuse_unknown(remesh, parameters, _KNOWN)
-    mesh = make_filter(vertices, seed, input_is="surface", **parameters)
+    handed_on: dict[str, Any] = {**parameters, "input_is": "surface"}
+    mesh = make_filter(vertices, seed, **handed_on)
     mesh.SetComputeFeatureLines(bool(feature_lines))
     given: Any = surface
     result, _, lines, _ = _world.learn(

@@ -61,7 +61,8 @@ def take_polygons(surface: Any, parameter: str) -> vtkPolyData | vtkCompositeDat
     if isinstance(surface, (vtkPolyData, vtkCompositeDataSet)):
         return surface
     if isinstance(surface, tuple) and len(surface) == 2:
-        points, triangles = take_points(surface[0]), as_triangles(surface[1], parameter)
+        points: Any = take_points(surface[0])
+        triangles = as_triangles(surface[1], parameter)
         cells = vtkCellArray()
         corners = np.ascontiguousarray(triangles, dtype=np.int64)
         cells.SetData(3, numpy_to_vtkIdTypeArray(corners.reshape(-1), deep=True))
