@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -27,6 +28,14 @@ namespace
 /// In units of the cloud, whose bulk is about 1.
 constexpr double BridgeWidth = 0.03;
 constexpr std::size_t Vertices = 1500;
+/// ... of the sphere.
+constexpr double PartOfDenseTop = 0.005;
+constexpr double NoiseOfDenseTop = 0.02;
+
+bool isInDenseTop(const Eigen::Vector3d& point)
+{
+  return point.z() > (1. - 2. * PartOfDenseTop) * point.norm();
+}
 
 PointCloud noisySphere(double noise, double outliers, bool hasHole)
 {
@@ -42,11 +51,26 @@ PointCloud noisySphere(double noise, double outliers, bool hasHole)
   return PointCloud(points);
 }
 
+/// Points at the top are as many as on the rest of the sphere, closer together than their noise.
+PointCloud sphereWithDenseTop()
+{
+  CloudOptions options;
+  options.count = 40000;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
+  options.count = std::size_t(40000 / PartOfDenseTop);
+  options.noise = NoiseOfDenseTop;
+  options.seed = 2;
+  std::vector<Eigen::Vector3d> dense = generateCloud(makeSphere(), options);
+  std::erase_if(dense, [](const Eigen::Vector3d& point) { return !isInDenseTop(point); });
+  points.insert(points.end(), dense.begin(), dense.end());
+  return PointCloud(points);
+}
+
 /// A closed mesh that learning alone has made of a cloud, which lies all around a hole.
-Mesh learnt(const PointCloud& cloud)
+Mesh learnt(const PointCloud& cloud, std::size_t vertices = Vertices)
 {
   Parameters parameters = learningAlone();
-  parameters.numberOfVertices = Vertices;
+  parameters.numberOfVertices = vertices;
   SequentialLearner learner(cloud, parameters, buildMesh(makeSphere(8), cloud));
   while (!learner.isComplete())
   {
@@ -78,6 +102,23 @@ void expectOriginsInRange(const Mesh& mesh, VertexProperty<float> origin)
     EXPECT_GE(learnt, 0.f);
     EXPECT_LT(learnt, float(Vertices));
   }
+}
+
+/// The root mean square of the distance from the sphere to vertices of its lower half.
+double errorBelow(const Mesh& mesh, const PointCloud& cloud)
+{
+  double squares = 0.;
+  std::size_t count = 0;
+  for (const Eigen::Vector3d& point : trianglesOf(mesh, cloud).points)
+  {
+    if (point.z() < 0.)
+    {
+      const double error = point.norm() - 1.;
+      squares += error * error;
+      ++count;
+    }
+  }
+  return std::sqrt(squares / double(count));
 }
 
 FinishPlan planFor(std::size_t vertices, std::optional<GapPlan> gaps = GapPlan{ BridgeWidth })
@@ -291,6 +332,26 @@ TEST(Finish, WhatCannotBeMendedIsCollapsed)
   }
   EXPECT_GT(leftByMoves, 0u);
   EXPECT_LT(left, leftByMoves);
+}
+
+// Where points are closer together than their noise, a round would fold the mesh. Vertices stay there: little is left to
+// repair, no round is taken back because of that place, and the rest is fitted all the same.
+TEST(Finish, DenseNoiseDoesNotFold)
+{
+  const PointCloud cloud = sphereWithDenseTop();
+  const Mesh before = learnt(cloud, 4 * Vertices);
+  Mesh mesh = before;
+  FinishPlan plan = planFor(before.vertexCount(), std::nullopt);
+  // More rounds would have rules of their own.
+  plan.fidelity = Fidelity::Draft;
+  Finish finish(cloud, mesh, plan);
+  ASSERT_TRUE(finish.run(goOn));
+  const FinishReport& report = finish.report();
+  EXPECT_EQ(report.roundsTakenBack, 0);
+  EXPECT_LT(double(report.repaired.total()), 0.01 * double(mesh.triangleCount()));
+  EXPECT_EQ(report.left.total(), 0u);
+  EXPECT_EQ(defectOf(mesh), "");
+  EXPECT_LT(errorBelow(mesh, cloud), errorBelow(before, cloud));
 }
 
 // Small pieces go, but not where they are most of the mesh, and one is large for no good reason.
