@@ -185,7 +185,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     {
       return false;
     }
-    if (isLast && !plan_.surface && fillTornLoops(mesh_, surfaceFit->places()) > 0)
+    if (isLast && fillTornLoops(mesh_, surfaceFit->places()) > 0)
     {
       flipEdges(mesh_, EdgesToFlip::All, executor_);
       beginAnew();

@@ -35,7 +35,7 @@ constexpr float MostSpacingAtRims = 1.75f;
 constexpr float EdgesCutOff = 0.5f;
 constexpr double DiagonalCutOff = 0.01;
 /// If the mesh misses most points, their median distance is not noise. It is then more than so many
-/// usual spacings, or edges: where a mesh cuts off bends, it is a twentieth of one. The noise is then measured in the
+/// usual spacings, or a part of an edge: where a mesh cuts off bends, it is a third of that. The noise is then measured in the
 /// layers of so many points. Noise spreads points that are three medians apart as far as one across their layer: that is
 /// a fifth of the variance.
 constexpr float SpacingsOfNoise = 3.f;
@@ -130,7 +130,7 @@ private:
     }
     usualSpacing_ = medianOf(std::move(spacings));
     float median = medianOf(distances);
-    if (median > SpacingsOfNoise * usualSpacing_ || isNoNoise(median))
+    if (median > SpacingsOfNoise * usualSpacing_ || liesOffTheLayers(median))
     {
       std::vector<float> moves;
       const std::size_t layers = std::min(all, LayersOfNoise);
@@ -147,7 +147,7 @@ private:
     noise_ = MediansAway * median;
   }
 
-  bool isNoNoise(float median) const
+  bool liesOffTheLayers(float median) const
   {
     if (double(median) <= EdgesOfNoise * result_.asked.meanEdge)
     {
@@ -165,7 +165,7 @@ private:
         });
       sum += variationOf(near, cloud_.points());
     }
-    return sum > 0. && sum < LeastVariationOfNoise * double(asked);
+    return sum < LeastVariationOfNoise * double(asked);
   }
 
   bool isSparse(std::size_t i) const { return spacings_[i] > LoneSpacings * usualSpacing_; }

@@ -149,7 +149,7 @@ void TuningPatch::beginFor(const Parameters& parameters, const Progress& progres
   if (!beginning_)
   {
     cleaned_ = parameters.start == Start::OccupiedSpace && parameters.keepPieces > 0.
-      ? withoutClusters(cloud_, progress)
+      ? withoutClusters(cloud_, partOf(progress, 0., 0.))
       : std::nullopt;
   }
   if (!beginning_ || (density != 0. && density != densityOfBeginning_))

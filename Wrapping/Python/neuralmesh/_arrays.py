@@ -34,9 +34,9 @@ def _how_to_pass(array: np.ndarray) -> str:
     if array.dtype.names is not None and {"x", "y", "z"} <= set(array.dtype.names):
         return ": pass numpy.stack([points[axis] for axis in 'xyz'], axis=1)"
     if array.ndim == 2 and array.shape[1] > 3 and array.dtype.kind in "fiu":
-        if array.shape[0] == 3:
-            return ": pass points.T"
-        return ": pass points[:, :3] if its first columns are x, y and z"
+        if array.shape[0] == 3 and array.shape[1] > 6:
+            return ": pass numpy.asarray(points).T"
+        return ": pass numpy.asarray(points)[:, :3] if its first columns are x, y and z"
     return ""
 
 
