@@ -1,38 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "FileTest.h"
 #include "MeshReader.h"
 
 #include "vtkPolyData.h"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 namespace
 {
-class MeshReader : public ::testing::Test
-{
-protected:
-  void SetUp() override { std::filesystem::create_directories(this->Folder); }
-  void TearDown() override { std::filesystem::remove_all(this->Folder); }
-
-  std::string Write(const std::string& name, const std::string& text) const
-  {
-    std::ofstream(this->Folder / name) << text;
-    return (this->Folder / name).string();
-  }
-
-  const std::filesystem::path Folder =
-    std::filesystem::temp_directory_path() / "neuralmesh-MeshReader";
-};
+using MeshReader = FileTest;
 
 const std::string FlatCorner = "facet normal 0 0 1\nouter loop\n";
 
 // Promise: triangles of .stl that meet share their points.
 TEST_F(MeshReader, MergesCornersOfSTL)
 {
-  const auto mesh = ReadMesh(this->Write("a.stl",
+  const auto mesh = ReadMesh(this->WriteText("a.stl",
     "solid\n" + FlatCorner + "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n" +
       FlatCorner + "vertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n"));
   EXPECT_EQ(mesh->GetNumberOfPoints(), 4);
@@ -42,7 +27,7 @@ TEST_F(MeshReader, MergesCornersOfSTL)
 // Promise: an .obj does not fall to pieces where its texture has seams.
 TEST_F(MeshReader, MergesSeamsOfOBJ)
 {
-  const auto mesh = ReadMesh(this->Write("a.obj",
+  const auto mesh = ReadMesh(this->WriteText("a.obj",
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\n"
     "f 1/1 2/2 3/3\nf 2/4 4/1 3/2\n"));
   EXPECT_EQ(mesh->GetNumberOfPoints(), 4);
@@ -52,8 +37,9 @@ TEST_F(MeshReader, MergesSeamsOfOBJ)
 // Promise: points without triangles and files of points are no meshes.
 TEST_F(MeshReader, WantsTriangles)
 {
-  EXPECT_THROW(ReadMesh(this->Write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")), std::runtime_error);
-  EXPECT_THROW(ReadMesh(this->Write("a.xyz", "0 0 0\n1 0 0\n0 1 0\n")), std::runtime_error);
-  EXPECT_THROW(ReadMesh((this->Folder / "missing.ply").string()), std::runtime_error);
+  EXPECT_THROW(
+    ReadMesh(this->WriteText("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")), std::runtime_error);
+  EXPECT_THROW(ReadMesh(this->WriteText("a.xyz", "0 0 0\n1 0 0\n0 1 0\n")), std::runtime_error);
+  EXPECT_THROW(ReadMesh(this->Path("missing.ply")), std::runtime_error);
 }
 }
