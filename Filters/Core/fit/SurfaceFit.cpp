@@ -407,15 +407,19 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
         smoothness_, Tolerance, scale_, positions, partOf(progress, choice, 1.));
     });
   system_.reset();
-  noise_ = isSolved ? std::sqrt(residualVariance(positions, smoothness_)) : noise_;
-  if (!isSolved || !progress(1.))
+  const double variance = isSolved ? residualVariance(positions, smoothness_) : 0.;
+  const bool goesOn = isSolved && progress(1.);
+  // On a mesh that is badly broken the solution may leave all bounds.
+  heldCount_ = 0;
+  if (!goesOn || !std::isfinite(variance))
   {
     for (std::size_t v = 0; v < positions.size(); ++v)
     {
       positions[v] = before[v];
     }
-    return false;
+    return goesOn;
   }
+  noise_ = std::sqrt(variance);
   for (VertexIndex v = 0; v < positions.size() && smoothnessOfVertices_; ++v)
   {
     const float part = smoothnessParts_.empty() ? 1.f : smoothnessParts_[v];
