@@ -409,8 +409,8 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
   system_.reset();
   const double variance = isSolved ? residualVariance(positions, smoothness_) : 0.;
   const bool goesOn = isSolved && progress(1.);
-  // On a mesh that is badly broken the solution may leave all bounds.
   heldCount_ = 0;
+  // On a mesh that is badly broken the solution may leave all bounds.
   if (!goesOn || !std::isfinite(variance))
   {
     for (std::size_t v = 0; v < positions.size(); ++v)
