@@ -35,9 +35,9 @@ constexpr float MostSpacingAtRims = 1.75f;
 constexpr float EdgesCutOff = 0.5f;
 constexpr double DiagonalCutOff = 0.01;
 /// If the mesh misses most points, their median distance is not noise. It is then more than so many
-/// usual spacings, or a part of an edge: where a mesh cuts off bends, it is a third of that. The noise is then measured in the
-/// layers of so many points. Noise spreads points that are three medians apart as far as one across their layer: that is
-/// a fifth of the variance.
+/// usual spacings, or a part of an edge: where a mesh cuts off bends, it is a third of that. The noise is then
+/// measured in the layers of so many points. Noise spreads points that are three medians apart as far as one across
+/// their layer: that is a fifth of the variance.
 constexpr float SpacingsOfNoise = 3.f;
 constexpr double EdgesOfNoise = 0.15;
 constexpr float MediansOfBall = 3.f;

@@ -123,9 +123,10 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
   times.leave();
   Checkpoint none({}, request.cloud, request.parameters);
   std::vector<DoubtfulLevel> doubtful;
-  std::map<std::size_t, Reconstruction> smaller;
-  const LevelTaker keep = [&smaller](std::size_t level, Reconstruction mesh)
-  { smaller.emplace(level, std::move(mesh)); };
+  // Those from the first doubtful one on wait for it.
+  std::map<std::size_t, Reconstruction> waiting;
+  const LevelTaker keep = [&waiting](std::size_t level, Reconstruction mesh)
+  { waiting.emplace(level, std::move(mesh)); };
   const double all = std::accumulate(levels.begin(), levels.end(), 0.);
   double done = StartOfLearning;
   for (const Chain& chain : chainsOf(levels))
@@ -163,7 +164,7 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
       {
         takeDoubtful(
           run, learntForDoubtful, request, result, doubtful, keep, partOf(progress, end, end));
-        for (auto& [number, mesh] : smaller)
+        for (auto& [number, mesh] : waiting)
         {
           take(number, std::move(mesh));
         }
@@ -175,7 +176,7 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
       }
       else
       {
-        keep(level, std::move(result));
+        (doubtful.empty() ? take : keep)(level, std::move(result));
       }
       done = end;
     }

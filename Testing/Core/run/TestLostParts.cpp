@@ -96,6 +96,7 @@ TEST(TornParts, ABarInTwoPieces)
     const PointCloud cloud(pointsOn(bar(1.), count));
     const Explanation explanation = explainedBy(twoBars(0.005), cloud);
     EXPECT_EQ(explanation.torn.tears, 1u);
+    EXPECT_LT(std::abs(explanation.torn.place.x()), 0.03);
     EXPECT_LT(explanation.torn.place.norm(), 0.06);
     EXPECT_TRUE(std::any_of(cloud.points().begin(), cloud.points().end(),
       [&](Vector4 point) { return cloud.toInput(point) == explanation.torn.place; }));
