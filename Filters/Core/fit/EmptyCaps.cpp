@@ -125,6 +125,13 @@ void EmptyCaps::expect()
   }
 }
 
+bool EmptyCaps::isAtGap(VertexIndex v) const
+{
+  const Ring& ring = mesh_.ring(v);
+  return std::any_of(
+    ring.begin(), ring.end(), [&](VertexIndex neighbor) { return caps_[neighbor].count == 0.f; });
+}
+
 std::optional<EmptyCaps::End> EmptyCaps::endAt(VertexIndex v) const
 {
   const Cap& cap = caps_[v];
@@ -133,7 +140,7 @@ std::optional<EmptyCaps::End> EmptyCaps::endAt(VertexIndex v) const
   const Vector4 normal = mesh_.normal(v);
   const float squared = squaredNorm(normal);
   if (mesh_.isBoundary(v) || cap.nearest == None || !(squared > 0.f) || !(empty > usual) ||
-    std::pow(1. - empty * empty, count) > ChanceOfEmptyCap)
+    std::pow(1. - empty * empty, count) > ChanceOfEmptyCap || isAtGap(v))
   {
     return {};
   }

@@ -15,7 +15,8 @@ namespace neuralmesh
 /// that sticks out of a tip, or lies too deep in a pit, that there are none around it.
 ///
 /// The cap of a vertex is the part of its triangles that is nearer to it than any of their samples. With samples
-/// spread evenly there is a chance that it is so large.
+/// spread evenly there is a chance that it is so large. Beside a neighbour without samples there is a gap that was closed:
+/// the surface bends freely there, and its vertices are left where they are.
 class EmptyCaps
 {
 public:
@@ -50,6 +51,7 @@ private:
   void offer(VertexIndex v, Cap& cap, std::uint32_t sample) const;
   void lookAround();
   void expect();
+  bool isAtGap(VertexIndex v) const;
 
   const Mesh& mesh_;
   PlacedSamples samples_;

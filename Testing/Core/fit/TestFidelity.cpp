@@ -246,6 +246,38 @@ TEST(EmptyCaps, TellWhereSamplesEnd)
   }
 }
 
+// Where a gap of the points is closed, the surface is left as it is: it bulges there, far from all points.
+TEST(EmptyCaps, LeaveClosedGaps)
+{
+  const std::vector<Eigen::Vector3d> points = pointsOf(trueSphere(), 20000);
+  std::vector<Eigen::Vector3d> outside;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(outside),
+    [](const Eigen::Vector3d& point) { return point.z() < 0.8; });
+  const PointCloud cloud(outside);
+  const Mesh mesh = made(points, 1000, Fidelity::Draft).surface;
+  const PlacedCloud placed(cloud, mesh);
+  const EmptyCaps caps(mesh, placed.samples, 0., Executor::sequential());
+  std::vector<char> hasSamples(mesh.indexEnd(), 0);
+  for (const PlaceOnMesh& place : placed.places)
+  {
+    for (const VertexIndex v : place.triangle)
+    {
+      hasSamples[v] = 1;
+    }
+  }
+  std::size_t atGap = 0;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    const Ring& ring = mesh.ring(v);
+    if (std::any_of(ring.begin(), ring.end(), [&](VertexIndex n) { return hasSamples[n] == 0; }))
+    {
+      ++atGap;
+      EXPECT_FALSE(caps.endAt(v)) << v;
+    }
+  }
+  EXPECT_GT(atGap, 50u);
+}
+
 // Samples are taken from a triangle and put on another, and the loads tell.
 TEST(TriangleSamples, FollowTheirTriangles)
 {
