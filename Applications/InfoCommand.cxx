@@ -132,7 +132,9 @@ void PrintReportTable(const std::string& path, const SurfaceReport& report)
   }
   PrintLine(
     "triangle quality", SixDigits(report.meanQuality) + " (mean; 1: equilateral, 0: no area)");
-  PrintLine("closed", YesUnless(Count(report.boundaryEdges, "boundary edges"), report.isClosed()));
+  const std::string open = report.components > 0 ? Count(report.boundaryEdges, "boundary edges")
+                                                 : "no triangle of three points";
+  PrintLine("closed", YesUnless(open, report.isClosed()));
   PrintLine("manifold",
     YesUnless(Count(report.nonManifoldEdges, "edges and ") +
         Count(report.nonManifoldVertices, "vertices are not"),

@@ -18,7 +18,8 @@
  * - `Valences` (2 components): a valence, and how many vertices have it;
  * - `TriangleQuality` (double): the mean of twice the radius of the inscribed over that of the circumscribed
  *   circle, 1 for an equilateral triangle, 0 for one without area;
- * - `Closed`, `EdgeManifold`, `VertexManifold`, `Oriented` (unsigned char, 1 or 0);
+ * - `Closed`, `EdgeManifold`, `VertexManifold`, `Oriented` (unsigned char, 1 or 0); without triangles
+ *   `Closed` is 0;
  * - `Components`, pieces that edges hold together; `Genus`, the handles of all of them, with the holes taken
  *   as capped; `BoundaryLoops`;
  * - `BoundaryEdges`, of one triangle; `FoldedEdges`, where the surface turns by more than 150 degrees;

@@ -102,6 +102,9 @@ test_info_table()
   grep -Eq '^  vertices +8$' out || fail "not 8 vertices"
   grep -Eq '^  closed +no \(4 boundary edges\)$' out || fail "the open mesh is not told"
   grep -Eq '^  genus +0$' out || fail "no genus"
+  printf 'v 0 0 0\nv 1 0 0\nf 1 2 2\n' > line.obj
+  expect 0 "$neuralmesh" info line.obj
+  grep -Eq '^  closed +no \(no triangle of three points\)$' out || { cat out; fail "a line is closed"; }
 }
 
 # Promise: --json gives an object for each mesh, on a line of its own.
@@ -115,6 +118,9 @@ test_info_json()
   json 'near(lines[0]["volume"], 1) and near(lines[0]["surface_area"], 6)'
   json 'lines[1]["closed"] is False and lines[1]["boundary_loops"] == 1 and lines[1]["volume"] is None'
   json 'lines[2]["edge_manifold"] is False and lines[2]["genus"] is None'
+  printf 'v 0 0 0\nv 1 0 0\nf 1 2 2\n' > line.obj
+  expect 0 "$neuralmesh" info --json line.obj
+  json 'lines[0]["closed"] is False and lines[0]["components"] == 0'
 }
 
 # Promise: a mesh is the same in each format that is read; also corners of .stl become vertices.

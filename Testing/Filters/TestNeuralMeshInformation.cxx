@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Promises: the report on known surfaces is right; what is undefined is left out, also where the input has
-// it of an earlier report; the mesh passes through with all its data; an empty input is quiet, a cell
-// without its points an error.
+// it of an earlier report; the mesh passes through with all its data; an empty input is quiet and not
+// closed, a cell without its points an error.
 #include "FilterTesting.h"
 
 #include "vtkNeuralMeshInformation.h"
@@ -179,6 +179,11 @@ int CheckBadInput()
   CHECK(messages->Errors == 0 && messages->Warnings == 0);
   CHECK(FieldValue(filter->GetOutput(), "Vertices") == 0);
   CHECK(FieldValue(filter->GetOutput(), "SurfaceArea") == 0);
+  CHECK(FieldValue(filter->GetOutput(), "Closed") == 0);
+  filter->SetInputData(Mesh({ { 0, 0, 0 }, { 1, 0, 0 } }, {}));
+  filter->Update();
+  CHECK(FieldValue(filter->GetOutput(), "UnusedPoints") == 2);
+  CHECK(FieldValue(filter->GetOutput(), "Closed") == 0);
 
   const auto broken = Mesh({ { 0, 0, 0 }, { 1, 0, 0 } }, { { 0, 1, 2 } });
   filter->SetInputData(broken);

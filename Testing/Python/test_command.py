@@ -41,6 +41,7 @@ class CommandTest(unittest.TestCase):
         cls.folder = pathlib.Path(temporary.name)
         np.savetxt(cls.folder / "ball.xyz", support.sphere(3000), fmt="%.9f")
         cls.run_command("reconstruct", "ball.xyz", "mesh.ply", "--vertices", 200, "--quiet")
+        (cls.folder / "line.obj").write_text("v 0 0 0\nv 1 0 0\nf 1 2 2\n")
 
     @classmethod
     def run_command(cls, *arguments, command=None):
@@ -274,7 +275,7 @@ class Beside(CommandTest):
             ["compare", "coarse.ply", "mesh.ply", "--samples", "2000"],
             ["compare", "coarse.ply", "mesh.ply", "--json"],
             ["compare", "mesh.ply", "mesh.ply", "--json"],
-            ["info", "mesh.ply", "none.ply"],
+            ["info", "mesh.ply", "none.ply", "line.obj"],
             ["info", "mesh.ply", "--json"],
         ):
             with self.subTest(arguments):

@@ -342,7 +342,7 @@ private:
       const long characteristic = long(report.vertices) - long(edges_) + long(triangles);
       report_.genus = long(report.components) - (characteristic + long(report.boundaryLoops)) / 2;
     }
-    if (triangles > 0 && report.isClosed() && report.isOriented())
+    if (report.isClosed() && report.isOriented())
     {
       report_.volume = volume_;
     }

@@ -47,7 +47,8 @@ struct SurfaceReport
   std::optional<double> volume;
   double diagonal = 0.; ///< of the bounding box of the triangles that have an area
 
-  bool isClosed() const { return boundaryEdges == 0; }
+  /// Nothing is enclosed without triangles.
+  bool isClosed() const { return components > 0 && boundaryEdges == 0; }
   bool isEdgeManifold() const { return nonManifoldEdges == 0; }
   bool isVertexManifold() const { return nonManifoldVertices == 0; }
   bool isOriented() const { return inconsistentEdges == 0; }

@@ -278,15 +278,20 @@ TEST(SurfaceReport, UncleanMeshes)
   EXPECT_EQ(report.foldedEdges, 0u);
 }
 
-// No triangles: nothing of anything, and no genus.
+// No triangles: nothing of anything, no genus, and nothing that is closed; nor where all triangles use a
+// point twice.
 TEST(SurfaceReport, NoTriangles)
 {
+  EXPECT_FALSE(reportSurface(withTriangles({ { 0., 0., 0. }, { 1., 0., 0. } }, {})).isClosed());
+  EXPECT_FALSE(
+    reportSurface(withTriangles({ { 0., 0., 0. }, { 1., 0., 0. } }, { { 0, 0, 1 } })).isClosed());
   const SurfaceReport empty = reportSurface({});
   EXPECT_EQ(empty.vertices, 0u);
   EXPECT_EQ(empty.components, 0u);
   EXPECT_EQ(empty.regularRatio, 0.);
   EXPECT_FALSE(empty.genus);
   EXPECT_FALSE(empty.volume);
+  EXPECT_FALSE(empty.isClosed());
   EXPECT_EQ(empty.diagonal, 0.);
 }
 

@@ -50,7 +50,4 @@ def info(mesh: vtkPolyData | Mesh) -> dict[str, Any]:
         True
     """
     report = _world.report(_world.take_surface(mesh, "mesh"))
-    figures: dict[str, Any] = {name: report.get(name) for name in FIGURES}
-    # No edge of no triangles is on a boundary, but nothing is enclosed either.
-    figures["closed"] = figures["closed"] and figures["triangles"] > 0
-    return figures
+    return {name: report.get(name) for name in FIGURES}

@@ -68,7 +68,9 @@ def _print_table(path: str, found: dict[str, Any]) -> None:
     if found["vertices"] > 0:
         _line("valences", _valences(found))
     _line("triangle quality", f"{found['triangle_quality']:.6g} (mean; 1: equilateral, 0: no area)")
-    _line("closed", _yes_unless(f"{found['boundary_edges']} boundary edges", found["closed"]))
+    has_surface = found["components"] > 0
+    wrong = f"{found['boundary_edges']} boundary edges" if has_surface else "no triangle of three points"
+    _line("closed", _yes_unless(wrong, found["closed"]))
     wrong = (
         f"{found['non_manifold_edges']} edges and {found['non_manifold_vertices']} vertices are not"
     )
