@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNeuralMeshAlgorithm.h"
 
+#include "base/AvailableProcessors.h"
 #include "learn/Parameters.h"
 #include "vtkNeuralMeshParameters.h"
 
@@ -129,6 +130,11 @@ bool vtkNeuralMeshAlgorithm::CheckParameters()
     vtkErrorMacro(<< error);
   }
   return errors.empty();
+}
+
+int vtkNeuralMeshAlgorithm::GetNumberOfAvailableProcessors()
+{
+  return static_cast<int>(neuralmesh::availableProcessors());
 }
 
 void vtkNeuralMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)

@@ -1,16 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The batch command where memory or the disk ends: what it says, and what it leaves."""
+"""The batch command where processors, memory or the disk end: what it takes, says and leaves."""
 
+import argparse
 import csv
 import os
 import pathlib
+import re
 import resource
 import signal
+import subprocess
+import sys
 import time
 import unittest
 
 import support
 from batch_testing import BatchTest, start, write_scan
+from neuralmesh._command import add_processes_option
+from neuralmesh._world import NeuralMesh
 from neuralmesh.batch.words import heading_of, tag_of, without_tag, words_of_process
 
 LOGGED = (
@@ -44,6 +50,35 @@ class Words(unittest.TestCase):
         self.assertEqual(heading_of("part-is-missing"), "Part is missing")
         for warning in ("Some file is odd [1]", "It is old."):
             self.assertEqual((tag_of(warning), without_tag(warning)), ("other", warning))
+
+
+class Processors(unittest.TestCase):
+    # Promise: jobs and their threads are as many as the processors of this process: by its affinity.
+    def test_affinity(self):
+        allowed = os.sched_getaffinity(0)
+        self.addCleanup(os.sched_setaffinity, 0, allowed)
+        self.assertLessEqual(NeuralMesh.GetNumberOfAvailableProcessors(), len(allowed))
+        os.sched_setaffinity(0, {min(allowed)})
+        self.assertEqual(NeuralMesh.GetNumberOfAvailableProcessors(), 1)
+        parser = argparse.ArgumentParser()
+        add_processes_option(parser, "jobs")
+        self.assertEqual(parser.parse_args([]).processes, 1)
+
+    # Promise: and by the quota of its control group, as containers have one: here one of half a processor.
+    def test_quota(self):
+        group = re.search("^0::(/.*)$", pathlib.Path("/proc/self/cgroup").read_text("ascii"), re.M)
+        folder = "/sys/fs/cgroup" + (group[1] if group else "/")
+        # Where only this command sees it.
+        prepare = f"mount -t tmpfs none /sys/fs/cgroup && mkdir -p {folder} && "
+        command = ["unshare", "--map-root-user", "--mount", "sh", "-c"]
+        if subprocess.run([*command, prepare + "true"], capture_output=True, check=False).returncode:
+            self.skipTest("no file systems can be mounted here")
+        available = NeuralMesh.GetNumberOfAvailableProcessors()
+        for quota, processors in (("50000 100000", 1), ("max 100000", available)):
+            script = f"echo {quota} > {folder}/cpu.max && exec $0 -m neuralmesh batch --help"
+            told = subprocess.run([*command, prepare + script, sys.executable], capture_output=True,
+                                  text=True, check=True).stdout  # fmt: skip
+            self.assertRegex(told, rf"as many as there\s+are\s+processors,\s+{processors}\)")
 
 
 class Killed(BatchTest):

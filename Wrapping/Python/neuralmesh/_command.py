@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 import argparse
-import os
 import signal
 import sys
 from typing import Callable
+
+from ._world import NeuralMesh
 
 _INTERRUPTED = 128 + signal.SIGINT
 
@@ -47,7 +48,7 @@ def add_processes_option(parser: argparse.ArgumentParser, what: str) -> None:
     parser.add_argument(
         "--processes",
         type=_count,
-        default=len(os.sched_getaffinity(0)),
+        default=NeuralMesh.GetNumberOfAvailableProcessors(),
         metavar="N",
         help=f"how many {what} at a time (default: as many as there are processors, %(default)s)",
     )

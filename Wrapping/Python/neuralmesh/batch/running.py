@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 from typing import IO, Callable
 
+from .._world import NeuralMesh
 from .recipe import Job
 from .report import identity_of, report_path, result_path
 from .atomic_file import WriteError, write_json
@@ -36,7 +37,7 @@ def run_jobs(
     """
     waiting = list(reversed(jobs))
     running: list[_Process] = []
-    threads = max(1, len(os.sched_getaffinity(0)) // processes)
+    threads = max(1, NeuralMesh.GetNumberOfAvailableProcessors() // processes)
     try:
         while waiting or running:
             while waiting and len(running) < processes:

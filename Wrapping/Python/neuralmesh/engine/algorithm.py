@@ -94,6 +94,11 @@ class NeuralMeshAlgorithm:
             self._viewpoints.clear()
             self.Modified()
 
+    @staticmethod
+    def GetNumberOfAvailableProcessors() -> int:
+        """How many threads can run at the same time, by the affinity and the CPU quota of this process."""
+        return _engine.available_processors()
+
     def GetNumberOfViewpoints(self) -> int:
         """How many there are."""
         return len(self._viewpoints)
