@@ -333,7 +333,7 @@ class Types(unittest.TestCase):
     def test_wrong_use(self):
         script = "import neuralmesh\nneuralmesh.reconstruct([[0.0]], vertices='many')\n"
         told = self.mypy("script.py", script=script)
-        self.assertIn('; expected "int | Literal', told)
+        self.assertIn('"reconstruct" matches argument types "list[list[float]]", "str"', told)
         self.assertIn("Found 1 error", told)
 
     # Promise: nothing is said against right use, with meshes of this package, too.
@@ -352,6 +352,54 @@ class Types(unittest.TestCase):
             stream.add_points(scan, viewpoint=[0, 0, 9])
             print(stream.learn(1000), stream.mesh())
         """)  # fmt: skip
+        self.assertIn("Success", told)
+
+    # Promise: a mesh has the type of its points; for arrays that of VTK, where it is installed.
+    def test_results(self):
+        mesh = "neuralmesh.engine.mesh.Mesh"
+        known = [
+            ("neuralmesh.reconstruct(scan, 300, seed=2)", mesh),
+            ("neuralmesh.remesh(scan)", mesh),
+            ("neuralmesh.remesh(scan, feature_lines=True)", f"tuple[{mesh}, {mesh}]"),
+            ("neuralmesh.explain(scan, scan)", mesh),
+        ]
+        if WORLD in ("vtk", "pyvista"):
+            mesh = "vtkmodules.vtkCommonDataModel.vtkPolyData"
+            known += [
+                ("neuralmesh.reconstruct(array)", mesh),
+                ("neuralmesh.remesh((array, array))", mesh),
+                ("neuralmesh.explain(array, scan)", mesh),
+            ]
+        self.assert_types("scan = neuralmesh.read('scan.ply')\narray = [[0.0, 0.0, 0.0]]\n", known)
+
+    # Promise: for datasets of PyVista it is pyvista.PolyData, by the functions and by the accessor.
+    def test_results_of_pyvista(self):
+        if WORLD != "pyvista":
+            self.skipTest("there is no PyVista")
+        mesh = "pyvista.core.pointset.PolyData"
+        self.assert_types(
+            "import pyvista\n"
+            "from neuralmesh.pyvista_accessor import CloudAccessor, SurfaceAccessor\n"
+            "ball = pyvista.Sphere()\ncloud, surface = CloudAccessor(ball), SurfaceAccessor(ball)\n",
+            [
+                ("neuralmesh.reconstruct(ball, 300)", mesh),
+                ("neuralmesh.reconstruct(pyvista.PointSet())", mesh),
+                ("neuralmesh.reconstruct(pyvista.MultiBlock())", mesh),
+                ("neuralmesh.remesh(ball)", mesh),
+                ("neuralmesh.explain(ball, ball)", mesh),
+                ("cloud.reconstruct(300, winner_rate=0.1)", mesh),
+                ("cloud.explain(ball)", mesh),
+                ("surface.reconstruct()", mesh),
+                ("surface.remesh(300, feature_lines=True)", f"tuple[{mesh}, {mesh}]"),
+            ],
+        )
+
+    def assert_types(self, givens, known):
+        """What is known of expressions after the givens."""
+        questions = "".join(f"reveal_type({expression})\n" for expression, _ in known)
+        told = self.mypy("script.py", script=f"import neuralmesh\n{givens}{questions}")
+        found = re.findall('Revealed type is "(.*)"', told)
+        self.assertEqual(dict(zip([one for one, _ in known], found)), dict(known), told)
         self.assertIn("Success", told)
 
     # Promise: the hints within the package are sound.

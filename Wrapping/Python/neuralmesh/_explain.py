@@ -3,27 +3,45 @@
 
 from __future__ import annotations
 
+from typing import Any, overload
+
 from . import _world
 from ._parameters import assign
 from ._reconstruct import require_points
 from ._types import (
     ArrayLike,
-    MadeMesh,
     Mesh,
+    OfPyVista,
     Progress,
+    PyVistaMesh,
     vtkCompositeDataSet,
     vtkPointSet,
     vtkPolyData,
 )
 
 
+# fmt: off
+@overload
 def explain(
-    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh,
+    points: OfPyVista, mesh: vtkPolyData | Mesh, smallest_piece: float = ..., *, progress: Progress | None = ...,
+) -> PyVistaMesh: ...
+@overload
+def explain(
+    points: Mesh, mesh: vtkPolyData | Mesh, smallest_piece: float = ..., *, progress: Progress | None = ...,
+) -> Mesh: ...
+@overload
+def explain(
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet, mesh: vtkPolyData | Mesh, smallest_piece: float = ...,
+    *, progress: Progress | None = ...,
+) -> vtkPolyData: ...
+# fmt: on
+def explain(
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | OfPyVista,
     mesh: vtkPolyData | Mesh,
     smallest_piece: float = 0.0005,
     *,
     progress: Progress | None = None,
-) -> MadeMesh:
+) -> Any:
     """Distance from a mesh for each point of a cloud, and the reason why the mesh leaves it out.
 
     Any program may have made the mesh. A point is away from it if its distance exceeds two limits: three

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numbers
 import os
-from typing import Any, Literal, Sequence
+from typing import Any, Literal, Sequence, overload
 
 from . import _world
 from ._parameters import assign, parameters_of, refuse_unknown, table
@@ -14,7 +14,9 @@ from ._types import (
     ArrayLike,
     MadeMesh,
     Mesh,
+    OfPyVista,
     Progress,
+    PyVistaMesh,
     vtkCompositeDataSet,
     vtkPointSet,
     vtkPolyData,
@@ -37,8 +39,55 @@ ENSEMBLE_PARAMETERS = {
 }
 
 
+# One mesh has the kind of its points. With explain, feature_lines or levels there are several.
+# fmt: off
+@overload
 def reconstruct(
-    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | str | os.PathLike,
+    points: OfPyVista,
+    vertices: int | Literal["auto"] = ..., seed: int = ..., *,
+    variant: str = ..., order: str = ..., preset: str = ..., first_mesh: vtkPolyData | Mesh | None = ...,
+    ensemble: int | None = ..., weights: ArrayLike | str | None = ..., viewpoints: ArrayLike | None = ...,
+    views: ArrayLike | str | None = ..., normals: ArrayLike | str | None = ..., up: ArrayLike | None = ...,
+    checkpoint: str | os.PathLike[str] | None = ..., explain: Literal[False] = ...,
+    feature_lines: Literal[False] = ..., levels: None = ..., progress: Progress | None = ...,
+    **parameters: float | bool | str,
+) -> PyVistaMesh: ...
+@overload
+def reconstruct(
+    points: Mesh,
+    vertices: int | Literal["auto"] = ..., seed: int = ..., *,
+    variant: str = ..., order: str = ..., preset: str = ..., first_mesh: vtkPolyData | Mesh | None = ...,
+    ensemble: int | None = ..., weights: ArrayLike | str | None = ..., viewpoints: ArrayLike | None = ...,
+    views: ArrayLike | str | None = ..., normals: ArrayLike | str | None = ..., up: ArrayLike | None = ...,
+    checkpoint: str | os.PathLike[str] | None = ..., explain: Literal[False] = ...,
+    feature_lines: Literal[False] = ..., levels: None = ..., progress: Progress | None = ...,
+    **parameters: float | bool | str,
+) -> Mesh: ...
+@overload
+def reconstruct(
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | str | os.PathLike,
+    vertices: int | Literal["auto"] = ..., seed: int = ..., *,
+    variant: str = ..., order: str = ..., preset: str = ..., first_mesh: vtkPolyData | Mesh | None = ...,
+    ensemble: int | None = ..., weights: ArrayLike | str | None = ..., viewpoints: ArrayLike | None = ...,
+    views: ArrayLike | str | None = ..., normals: ArrayLike | str | None = ..., up: ArrayLike | None = ...,
+    checkpoint: str | os.PathLike[str] | None = ..., explain: Literal[False] = ...,
+    feature_lines: Literal[False] = ..., levels: None = ..., progress: Progress | None = ...,
+    **parameters: float | bool | str,
+) -> vtkPolyData: ...
+@overload
+def reconstruct(
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | OfPyVista | str | os.PathLike,
+    vertices: int | Literal["auto"] = ..., seed: int = ..., *,
+    variant: str = ..., order: str = ..., preset: str = ..., first_mesh: vtkPolyData | Mesh | None = ...,
+    ensemble: int | None = ..., weights: ArrayLike | str | None = ..., viewpoints: ArrayLike | None = ...,
+    views: ArrayLike | str | None = ..., normals: ArrayLike | str | None = ..., up: ArrayLike | None = ...,
+    checkpoint: str | os.PathLike[str] | None = ..., explain: bool = ...,
+    feature_lines: bool = ..., levels: Sequence[int] | None = ..., progress: Progress | None = ...,
+    **parameters: float | bool | str,
+) -> MadeMesh: ...
+# fmt: on
+def reconstruct(
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | OfPyVista | str | os.PathLike,
     vertices: int | Literal["auto"] = 20000,
     seed: int = 1,
     *,
@@ -249,7 +298,7 @@ def require_one_start(ensemble: object, first_mesh: object) -> None:
 
 def take_input(
     mesh: Any,
-    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | str | os.PathLike,
+    points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | OfPyVista | str | os.PathLike,
     weights: ArrayLike | str | None = None,
     views: ArrayLike | str | None = None,
     normals: ArrayLike | str | None = None,

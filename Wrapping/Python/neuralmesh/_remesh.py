@@ -3,12 +3,21 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal, overload
 
 from . import _world
 from ._parameters import refuse_unknown
 from ._reconstruct import PARAMETERS, make_filter, require_points
-from ._types import ArrayLike, MadeMesh, Mesh, Progress, vtkCompositeDataSet, vtkPolyData
+from ._types import (
+    ArrayLike,
+    MadeMesh,
+    Mesh,
+    OfPyVista,
+    Progress,
+    PyVistaMesh,
+    vtkCompositeDataSet,
+    vtkPolyData,
+)
 
 # Properties, and what reconstruct() names and hands on to them.
 _KNOWN = [
@@ -22,8 +31,40 @@ _KNOWN = [
 ]
 
 
+# fmt: off
+@overload
 def remesh(
-    surface: vtkPolyData | vtkCompositeDataSet | Mesh | tuple[ArrayLike, ArrayLike],
+    surface: OfPyVista, vertices: int = ..., seed: int = ..., *,
+    feature_lines: Literal[False] = ..., progress: Progress | None = ..., **parameters: float | bool | str,
+) -> PyVistaMesh: ...
+@overload
+def remesh(
+    surface: Mesh, vertices: int = ..., seed: int = ..., *,
+    feature_lines: Literal[False] = ..., progress: Progress | None = ..., **parameters: float | bool | str,
+) -> Mesh: ...
+@overload
+def remesh(
+    surface: vtkPolyData | vtkCompositeDataSet | tuple[ArrayLike, ArrayLike], vertices: int = ..., seed: int = ..., *,
+    feature_lines: Literal[False] = ..., progress: Progress | None = ..., **parameters: float | bool | str,
+) -> vtkPolyData: ...
+@overload
+def remesh(
+    surface: OfPyVista, vertices: int = ..., seed: int = ..., *,
+    feature_lines: Literal[True], progress: Progress | None = ..., **parameters: float | bool | str,
+) -> tuple[PyVistaMesh, PyVistaMesh]: ...
+@overload
+def remesh(
+    surface: Mesh, vertices: int = ..., seed: int = ..., *,
+    feature_lines: Literal[True], progress: Progress | None = ..., **parameters: float | bool | str,
+) -> tuple[Mesh, Mesh]: ...
+@overload
+def remesh(
+    surface: vtkPolyData | vtkCompositeDataSet | tuple[ArrayLike, ArrayLike], vertices: int = ..., seed: int = ..., *,
+    feature_lines: Literal[True], progress: Progress | None = ..., **parameters: float | bool | str,
+) -> tuple[vtkPolyData, vtkPolyData]: ...
+# fmt: on
+def remesh(
+    surface: vtkPolyData | vtkCompositeDataSet | Mesh | OfPyVista | tuple[ArrayLike, ArrayLike],
     vertices: int = 20000,
     seed: int = 1,
     *,

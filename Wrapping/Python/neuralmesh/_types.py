@@ -8,7 +8,7 @@ beside VTK, too, unless the C++ classes are there.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable
+from typing import TYPE_CHECKING, Any, Callable, Protocol
 
 from numpy.typing import ArrayLike
 
@@ -19,20 +19,37 @@ if TYPE_CHECKING or VTK_VERSION:
 else:
     vtkCompositeDataSet = vtkPointSet = vtkPolyData = Any
 
+# Subclasses of vtkPolyData; this package does not import PyVista by itself.
+if TYPE_CHECKING:
+    from pyvista import PolyData as PyVistaMesh
+else:
+    PyVistaMesh = Any
+
 if TYPE_CHECKING or not VTK_VERSION:
     from .engine.mesh import Mesh
 else:
     Mesh = vtkPolyData
 
-# What the functions return: a vtkPolyData, a pyvista.PolyData or a neuralmesh.Mesh as the points were, and
-# with explain or feature_lines several of them. Hints that said it would be wrong for some.
+
+class OfPyVista(Protocol):
+    """A dataset of PyVista, where that is installed. Nothing is one where it is not: the name of a class would
+    stand for anything there.
+    """
+
+    def copy_meta_from(self, *arguments: Any, **parameters: Any) -> Any: ...
+
+
+# What the functions return in one of several cases: a vtkPolyData, a pyvista.PolyData or a neuralmesh.Mesh as
+# the points were, and with explain, feature_lines or levels several of them.
 MadeMesh = Any
 
 __all__ = [
     "ArrayLike",
     "MadeMesh",
     "Mesh",
+    "OfPyVista",
     "Progress",
+    "PyVistaMesh",
     "vtkCompositeDataSet",
     "vtkPointSet",
     "vtkPolyData",

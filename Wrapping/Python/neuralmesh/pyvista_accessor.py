@@ -8,15 +8,14 @@ registers it, too, for other ways of installation and for earlier versions: see 
 from __future__ import annotations
 
 import inspect
-from typing import Any, Callable, TypeVar
+from typing import Any, Callable, Literal, TypeVar, overload
 
 import pyvista
 
+from . import _reconstruct, _remesh
 from ._compare import compare
 from ._explain import explain
 from ._info import info
-from ._reconstruct import reconstruct
-from ._remesh import remesh
 from ._types import Progress
 
 NAME = "neuralmesh"
@@ -62,14 +61,28 @@ class CloudAccessor:
     def __init__(self, dataset: Any) -> None:
         self._dataset = dataset
 
-    @_told_as(reconstruct, "points")
+    # With explain, feature_lines or levels there are several meshes.
+    @overload
+    def reconstruct(
+        self,
+        vertices: int | Literal["auto"] = ...,
+        seed: int = ...,
+        *,
+        explain: Literal[False] = ...,
+        feature_lines: Literal[False] = ...,
+        levels: None = ...,
+        **parameters: Any,
+    ) -> pyvista.PolyData: ...
+    @overload
+    def reconstruct(self, *arguments: Any, **parameters: Any) -> Any: ...
+    @_told_as(_reconstruct.reconstruct, "points")
     def reconstruct(self, *arguments: Any, **parameters: Any) -> Any:
-        return reconstruct(self._dataset, *arguments, **parameters)
+        return _reconstruct.reconstruct(self._dataset, *arguments, **parameters)
 
     @_told_as(explain, "points")
     def explain(
         self, mesh: Any, smallest_piece: float = 0.0005, *, progress: Progress | None = None
-    ) -> Any:
+    ) -> pyvista.PolyData:
         return explain(self._dataset, mesh, smallest_piece, progress=progress)
 
     def __getattr__(self, name: str) -> Any:
@@ -88,9 +101,27 @@ class SurfaceAccessor(CloudAccessor):
     ) -> dict[str, dict[str, float]]:
         return compare(reference, self._dataset, samples, seed)
 
-    @_told_as(remesh, "surface")
+    @overload
+    def remesh(
+        self,
+        vertices: int = ...,
+        seed: int = ...,
+        *,
+        feature_lines: Literal[False] = ...,
+        **parameters: Any,
+    ) -> pyvista.PolyData: ...
+    @overload
+    def remesh(
+        self,
+        vertices: int = ...,
+        seed: int = ...,
+        *,
+        feature_lines: Literal[True],
+        **parameters: Any,
+    ) -> tuple[pyvista.PolyData, pyvista.PolyData]: ...
+    @_told_as(_remesh.remesh, "surface")
     def remesh(self, *arguments: Any, **parameters: Any) -> Any:
-        return remesh(self._dataset, *arguments, **parameters)
+        return _remesh.remesh(self._dataset, *arguments, **parameters)
 
     @_told_as(info, "mesh")
     def info(self) -> dict[str, Any]:
