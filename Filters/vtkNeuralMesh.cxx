@@ -50,6 +50,8 @@ vtkNeuralMesh::vtkNeuralMesh()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(this->ExplanationPort + 3);
+  // What ParaView shows beside the bar, in place of the name of the class.
+  this->SetProgressText("Neural Mesh");
 }
 
 vtkNeuralMesh::~vtkNeuralMesh() = default;

@@ -46,6 +46,7 @@ vtkNeuralMeshComparison::vtkNeuralMeshComparison()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
+  this->SetProgressText("Neural Mesh Comparison");
 }
 
 vtkNeuralMeshComparison::~vtkNeuralMeshComparison() = default;

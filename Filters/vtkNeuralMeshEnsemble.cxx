@@ -102,6 +102,7 @@ vtkNeuralMeshEnsemble::vtkNeuralMeshEnsemble()
   this->ExplanationPort = 4;
   this->SetNumberOfOutputPorts(this->ExplanationPort + 2);
   this->TopologyLearningOn();
+  this->SetProgressText("Neural Mesh Ensemble");
 }
 
 vtkNeuralMeshEnsemble::~vtkNeuralMeshEnsemble() = default;

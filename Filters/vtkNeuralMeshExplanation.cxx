@@ -19,7 +19,11 @@
 
 vtkStandardNewMacro(vtkNeuralMeshExplanation);
 
-vtkNeuralMeshExplanation::vtkNeuralMeshExplanation() { this->SetNumberOfInputPorts(2); }
+vtkNeuralMeshExplanation::vtkNeuralMeshExplanation()
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetProgressText("Neural Mesh Explanation");
+}
 
 vtkNeuralMeshExplanation::~vtkNeuralMeshExplanation() = default;
 

@@ -16,7 +16,11 @@
 
 vtkStandardNewMacro(vtkNeuralMeshFileSampler);
 
-vtkNeuralMeshFileSampler::vtkNeuralMeshFileSampler() { this->SetNumberOfInputPorts(0); }
+vtkNeuralMeshFileSampler::vtkNeuralMeshFileSampler()
+{
+  this->SetNumberOfInputPorts(0);
+  this->SetProgressText("Neural Mesh File Sampler");
+}
 
 vtkNeuralMeshFileSampler::~vtkNeuralMeshFileSampler() = default;
 

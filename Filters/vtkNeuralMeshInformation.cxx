@@ -87,7 +87,10 @@ void AddReport(vtkPolyData* mesh, const neuralmesh::SurfaceReport& report)
 }
 }
 
-vtkNeuralMeshInformation::vtkNeuralMeshInformation() = default;
+vtkNeuralMeshInformation::vtkNeuralMeshInformation()
+{
+  this->SetProgressText("Neural Mesh Information");
+}
 
 vtkNeuralMeshInformation::~vtkNeuralMeshInformation() = default;
 

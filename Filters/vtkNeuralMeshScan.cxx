@@ -33,7 +33,7 @@ vtkNew<vtkCellArray> MakeCell(vtkIdType points)
 }
 }
 
-vtkNeuralMeshScan::vtkNeuralMeshScan() = default;
+vtkNeuralMeshScan::vtkNeuralMeshScan() { this->SetProgressText("Neural Mesh Scan"); }
 
 vtkNeuralMeshScan::~vtkNeuralMeshScan() = default;
 

@@ -52,6 +52,9 @@ class Runs:
             mesh.UpdatePipeline()
         self.assertGreater(len(progress.fractions), 2)
         self.assertTrue(any(0 < fraction < 100 for fraction in progress.fractions))
+        # The name of the filter, not that of a class.
+        self.assertIn("Neural Mesh", progress.texts)
+        self.assertFalse([text for text in progress.texts if "NeuralMesh" in text])
         self.assertEqual(support.field_value(mesh, "StopReason"), "time limit")
         points = support.information_of(mesh).GetNumberOfPoints()
         self.assertTrue(1000 < points < 900000, points)

@@ -44,6 +44,8 @@ class vtkEngineAlgorithm(VTKPythonAlgorithmBase):
         VTKPythonAlgorithmBase.__init__(
             self, nInputPorts=len(self._INPUTS), nOutputPorts=len(self._OUTPUTS)
         )
+        # What ParaView shows beside the bar, in place of the name of a class of VTK.
+        self.SetProgressText(" ".join(re.findall("[A-Z][a-z]+", type(self).__name__)))
 
     def _set(self, properties: dict[str, Any]) -> None:
         for name, value in properties.items():
