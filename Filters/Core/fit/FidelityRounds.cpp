@@ -81,8 +81,10 @@ bool FidelityRounds::run(Fidelity fidelity, int rounds, bool isClean, bool isFix
   {
     return false;
   }
+  // A flip for the sake of shapes would cut off what is sharp now.
   return mesh_.vertexCount() >= vertexCount_ ||
-    refine(mesh_, vertexCount_, partOf(progress, 1., 1.));
+    refine(mesh_, vertexCount_, partOf(progress, 1., 1.),
+      isClean ? EdgesAfterSplit::FlipFlat : EdgesAfterSplit::Flip);
 }
 
 bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
