@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/CreaseSnapping.h"
 
+#include "fit/PlaneQuadric.h"
 #include "fit/SampleBundle.h"
 #include "mesh/TriangleShape.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>
@@ -20,8 +19,6 @@ constexpr double LeastPartOfSnapGain = 0.1;
 /// Steps from the old place to where the planes meet: the first that helps most.
 constexpr std::array<float, 3> StepsOfMove{ 1.f, 0.5f, 0.25f };
 constexpr std::array<float, 2> StepsOfCollapse{ 1.f, 0.5f };
-/// What keeps a place near where planes do not tell, against what they weigh.
-constexpr double SnapRegularization = 0.01;
 /// A triangle may not turn by more, nor become worse than that, unless it was.
 constexpr float LeastSnapCosine = 0.2f;
 constexpr float LeastSnapRatio = 0.15f;
@@ -30,34 +27,6 @@ constexpr float MostCosineOfCrease = 0.9f;
 constexpr unsigned MostSnappedValence = 9;
 /// A part for the executor.
 constexpr std::size_t VerticesAskedPerRange = 1024;
-
-/// The sum of squared distances to planes, as a function of the place.
-class PlaneQuadric
-{
-public:
-  void add(Vector4 unitNormal, Vector4 point, double weight)
-  {
-    const Eigen::Vector3d normal = unitNormal.toDouble();
-    matrix_ += weight * normal * normal.transpose();
-    pull_ += weight * normal.dot(point.toDouble()) * normal;
-  }
-  /// Where it is least, but near `origin` where it does not tell.
-  Vector4 least(Vector4 origin) const
-  {
-    const double keep = SnapRegularization * matrix_.trace();
-    const Eigen::Vector3d start = origin.toDouble();
-    if (!(keep > 0.))
-    {
-      return origin;
-    }
-    const Eigen::Matrix3d matrix = matrix_ + keep * Eigen::Matrix3d::Identity();
-    return Vector4(Eigen::Vector3d(start + matrix.ldlt().solve(pull_ - matrix_ * start)));
-  }
-
-private:
-  Eigen::Matrix3d matrix_ = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d pull_ = Eigen::Vector3d::Zero();
-};
 
 class CreaseSnapping
 {

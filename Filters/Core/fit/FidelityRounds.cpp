@@ -2,6 +2,7 @@
 #include "fit/FidelityRounds.h"
 
 #include "fit/CreaseSnapping.h"
+#include "fit/CutCorners.h"
 #include "fit/DataFlips.h"
 #include "fit/IntersectionRepair.h"
 #include "fit/Redistribution.h"
@@ -76,8 +77,14 @@ bool FidelityRounds::run(Fidelity fidelity, int rounds, bool isClean, bool isFix
       return false;
     }
   }
+  if (isClean && rounds > 0 && !keepsPlaces_ && !sharpenCorners(partOf(progress, 1., 1.)))
+  {
+    return false;
+  }
+  // A flip for the sake of shapes would cut off what is sharp now.
   return mesh_.vertexCount() >= vertexCount_ ||
-    refine(mesh_, vertexCount_, partOf(progress, 1., 1.));
+    refine(mesh_, vertexCount_, partOf(progress, 1., 1.),
+      isClean ? EdgesAfterSplit::FlipFlat : EdgesAfterSplit::Flip);
 }
 
 bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
@@ -137,6 +144,21 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
     takeBackBrokenMoves(mesh_, before, partOf(progress, 1., 1.), executor_);
   mayBeBroken_ = after != AfterBrokenMoves::Sound;
   return after != AfterBrokenMoves::Cancelled && progress(1.);
+}
+
+/// A solution rounds off corners beside which few samples lie. So they get sharp again after the last one.
+bool FidelityRounds::sharpenCorners(const Progress& progress)
+{
+  const auto follow = [&](const auto& change)
+  {
+    if (!fit_.findPlaces(progress))
+    {
+      return false;
+    }
+    fit_.follow(change(mesh_, fit_.placedSamples(), fit_.variance(), executor_));
+    return true;
+  };
+  return follow(completeCorners) && follow(snapToCreases) && follow(completeCorners);
 }
 
 bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress)

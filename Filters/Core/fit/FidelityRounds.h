@@ -50,6 +50,7 @@ public:
 
 private:
   bool sharpen(bool distributes, const Progress& progress);
+  bool sharpenCorners(const Progress& progress);
   bool smooth(bool isFirst, bool isFixed, const Progress& progress);
   bool move(double lambda, const Progress& progress);
 

@@ -3,6 +3,7 @@
 
 #include "cloud/MeshBuilder.h"
 #include "fit/CreaseSnapping.h"
+#include "fit/CutCorners.h"
 #include "fit/DataFlips.h"
 #include "fit/EmptyCaps.h"
 #include "fit/HeldOutPoints.h"
@@ -216,6 +217,46 @@ TEST(CreaseSnapping, FindsTheEdgesOfACube)
   }
   mesh.dropErased();
   EXPECT_LT(squaresOf(cloud, mesh), 0.7 * before);
+}
+
+// A corner of a cube that is cut off gets sharp again though no sample lies there, but where it is cut off in truth, or too
+// many samples are missing, it stays as it is.
+TEST(CutCorners, GetSharpWherePlanesMeet)
+{
+  TriangleMesh cube = makeCube(10);
+  const auto corner = std::size_t(
+    std::max_element(cube.points.begin(), cube.points.end(),
+      [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.sum() < b.sum(); }) -
+    cube.points.begin());
+  const Eigen::Vector3d sharp = cube.points[corner];
+  CloudOptions options;
+  options.count = 20000;
+  const std::vector<Eigen::Vector3d> ofCube = generateCloud(cube, options);
+  cube.points[corner] -= Eigen::Vector3d::Constant(0.1 / 3.);
+  const Eigen::Vector3d cut = cube.points[corner];
+  for (const auto& [emptyRadius, isSharp] :
+    { std::pair(0.03, true), { 0.12, false }, { 0.25, false }, { 0., false } })
+  {
+    SCOPED_TRACE(emptyRadius);
+    std::vector<Eigen::Vector3d> points = emptyRadius > 0. ? ofCube : generateCloud(cube, options);
+    std::erase_if(
+      points, [&](const Eigen::Vector3d& point) { return (point - sharp).norm() < emptyRadius; });
+    const PointCloud cloud(points);
+    Mesh mesh = buildMesh(cube, cloud);
+    const Mesh before = mesh;
+    const PlacedCloud placed(cloud, mesh);
+    const ChangedVertices changed = completeCorners(mesh, placed.samples, 0.);
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(changed.any, isSharp);
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      const Eigen::Vector3d moved =
+        cloud.unit() * (mesh.position(v) - before.position(v)).toDouble();
+      EXPECT_LT(
+        (moved - (v == corner && isSharp ? sharp - cut : Eigen::Vector3d(0., 0., 0.))).norm(),
+        0.003);
+    }
+  }
 }
 
 // A vertex that sticks out of a sphere, or is pushed in, is told where the points end; of the others, no more than chance
