@@ -36,8 +36,10 @@ constexpr double ClosedVoxels = 2.;
 
 /// At least so many in an occupied voxel: with less, surfaces are torn.
 constexpr double LeastPointsPerVoxel = 2.;
-/// Of a skin, in voxels.
+/// Of a skin, in voxels: of points without noise it is one to two thick.
 constexpr double SkinThickness = 1.5;
+/// If it is thicker, noise is wider than voxels.
+constexpr double MostSkinThickness = 2.;
 /// Different ones. With less, a coarse grid tells nothing.
 constexpr std::size_t LeastPointsForGrid = 500;
 
@@ -171,24 +173,51 @@ struct Skin
   OccupiedSolid solid;
 };
 
-/// A thin closed skin around the points: of the finest grid that the points are dense enough for.
-std::optional<FirstSurface> finestSkin(const PointCloud& cloud, std::span<const Skin> skins)
+/// A closed skin around the points.
+std::optional<FirstSurface> skinSurface(const PointCloud& cloud, const Skin& skin)
 {
-  const auto finest = std::find_if(
-    skins.rbegin(), skins.rend(), [&](const Skin& skin) { return isDenseFor(skin.solid, cloud); });
-  if (finest == skins.rend())
-  {
-    return {};
-  }
-  const OccupiedSolid& solid = finest->solid;
-  TriangleMesh surface = voxelSurface(solid.grid, solid.inside);
+  const double width = skin.solid.grid.width;
+  TriangleMesh surface = voxelSurface(skin.solid.grid, skin.solid.inside);
   if (surface.triangles.empty())
   {
     return {};
   }
-  FirstSurface result{ meshOf(std::move(surface), cloud), finest->resolution };
-  result.bridgeWidth = bridgeWidthOf(solid);
-  result.skinThickness = float(SkinThickness * solid.grid.width);
+  FirstSurface result{ meshOf(std::move(surface), cloud), skin.resolution };
+  result.bridgeWidth = bridgeWidthOf(skin.solid);
+  const auto voxels = double(std::count(skin.solid.inside.begin(), skin.solid.inside.end(), 1));
+  // The area is that of two sides.
+  const double thickness = 2. * voxels * width * width / areaOf(result.mesh);
+  result.skinThickness = float(SkinThickness * width * std::max(1., thickness / MostSkinThickness));
+  return result;
+}
+
+/// Of points that enclose nothing.
+struct SkinSurfaces
+{
+  std::optional<FirstSurface> finest;  ///< of the finest grid that the points are dense enough for
+  std::optional<FirstSurface> ofSheet; ///< of the finest of those whose voxels are wider than noise
+};
+
+/// A grid finer than the noise shows both sides of a band of points around a sheet. If all are finer, the
+/// coarsest is the closest to one.
+SkinSurfaces skinSurfaces(const PointCloud& cloud, std::span<const Skin> skins)
+{
+  SkinSurfaces result;
+  bool isThin = false;
+  for (auto skin = skins.rbegin(); skin != skins.rend() && !isThin; ++skin)
+  {
+    auto surface =
+      isDenseFor(skin->solid, cloud) ? skinSurface(cloud, *skin) : std::optional<FirstSurface>();
+    if (surface)
+    {
+      isThin = surface->skinThickness <= float(SkinThickness * skin->solid.grid.width);
+      if (!result.finest)
+      {
+        result.finest = surface;
+      }
+      result.ofSheet = std::move(surface);
+    }
+  }
   return result;
 }
 
@@ -341,6 +370,7 @@ struct Candidate
   Evidence evidence = {};
   bool explains = false;        ///< the points, so that no other needs to be tried
   bool isBetweenLayers = false; ///< of points, or jumps from one to the other
+  bool isOneSheet = false;      ///< near all points, though noise may be as wide as its triangles
 };
 
 /// The closed solid, fitted, and opened where there is no data if that is to be. Nothing if it has too
@@ -386,9 +416,9 @@ std::optional<Candidate> sheetCandidate(const PointCloud& cloud, const NearestPo
   Candidate result{ std::move(*sheet) };
   const Mesh& mesh = result.surface.mesh;
   result.evidence = evidenceFor(cloud, nearest, mesh, UsuallyAsked, executor);
-  result.explains = result.evidence.unexplained < LeastUnexplainedBySheet &&
-    result.evidence.medianInEdges < MostMedianOfSheet && pieceCount(mesh) == 1 &&
-    BoundaryManager(mesh).loopCount() <= MostLoopsOfSheet;
+  result.isOneSheet = result.evidence.unexplained < LeastUnexplainedBySheet &&
+    pieceCount(mesh) == 1 && BoundaryManager(mesh).loopCount() <= MostLoopsOfSheet;
+  result.explains = result.isOneSheet && result.evidence.medianInEdges < MostMedianOfSheet;
   return result;
 }
 
@@ -510,36 +540,40 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
   }
   std::vector<Skin> skins;
   auto solid = closedSurface(cloud, skins, partOf(progress, 0., PartOfGrids));
-  const auto skin = solid ? std::nullopt : finestSkin(cloud, skins);
+  const bool isSolid = solid.has_value();
+  const SkinSurfaces skin = isSolid ? SkinSurfaces() : skinSurfaces(cloud, skins);
   const Progress ofGrid = partOf(progress, PartOfGrids, 0.5 * (1. + PartOfGrids));
   const Progress ofFront = partOf(progress, 0.5 * (1. + PartOfGrids), 1.);
   const NearestPoints nearest(cloud.points(), executor);
   std::optional<Candidate> grid;
-  if (solid)
+  if (isSolid)
   {
     grid = solidCandidate(
       cloud, nearest, std::move(*solid), mostVertices, boundaries, leastPiece, ofGrid, executor);
   }
-  else if (skin)
+  else if (skin.ofSheet)
   {
-    grid =
-      sheetCandidate(cloud, nearest, *skin, mostVertices, boundaries, leastPiece, ofGrid, executor);
+    grid = sheetCandidate(
+      cloud, nearest, *skin.ofSheet, mostVertices, boundaries, leastPiece, ofGrid, executor);
   }
   if (grid && grid->explains && progress(1.))
   {
     return std::move(grid->surface);
   }
-  const bool isClosed = grid && !skin && grid->surface.isCertain;
+  const bool isClosed = grid && isSolid && grid->surface.isCertain;
   if (auto front =
         surfaceOfFront(cloud, nearest, mostOfFront, boundaries, ofFront, leastPiece, isClosed))
   {
     const double left = grid ? grid->evidence.unexplained : 1.;
     // What the grid gave does not explain the points for another reason, if not for this.
     const double most = front->isCertain ? std::max(left, LeastUnexplainedBySheet) : left;
-    // Of a closed solid that explains nearly all points the handles are known.
-    const bool hasMoreHandles = isClosed && !grid->isBetweenLayers &&
-      grid->evidence.unexplained < LeastUnexplained &&
-      genusOf(front->mesh) > genusOf(grid->surface.mesh);
+    // Of a closed solid that explains nearly all points the handles are known. An uncertain front
+    // goes from one side of a noisy sheet to the other.
+    const bool areHandlesKnown = grid &&
+      ((isClosed && !grid->isBetweenLayers && grid->evidence.unexplained < LeastUnexplained) ||
+        (grid->isOneSheet && !front->isCertain));
+    const bool hasMoreHandles =
+      areHandlesKnown && genusOf(front->mesh) > genusOf(grid->surface.mesh);
     if ((front->isCertain || !isClosed) && !hasMoreHandles &&
       evidenceFor(cloud, nearest, front->mesh, UsuallyAsked, executor).unexplained <= most)
     {
@@ -550,6 +584,7 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
   {
     return std::move(grid->surface);
   }
-  return skin ? thinSolid(cloud, *skin, mostVertices, ofFront, executor) : std::nullopt;
+  return skin.finest ? thinSolid(cloud, *skin.finest, mostVertices, ofFront, executor)
+                     : std::nullopt;
 }
 }

@@ -66,6 +66,29 @@ TriangleMesh heightField()
   return field;
 }
 
+/// A square, folded to a right angle.
+TriangleMesh foldedSquare()
+{
+  TriangleMesh square = makeGrid(64);
+  for (Eigen::Vector3d& point : square.points)
+  {
+    const double beyond = std::max(0., point.x() - 0.5);
+    point.x() -= beyond;
+    point.z() = beyond;
+  }
+  return square;
+}
+
+/// A cube without its lid.
+TriangleMesh openBox()
+{
+  TriangleMesh box = trueCube().triangles;
+  const auto isAbove = [&](std::uint32_t point) { return box.points[point].z() > 0.; };
+  std::erase_if(box.triangles,
+    [&](const auto& triangle) { return std::all_of(triangle.begin(), triangle.end(), isAbove); });
+  return box;
+}
+
 /// Ridges and valleys as steep as 60 degrees, some of which end at the boundary.
 TriangleMesh ruggedField(double turn)
 {
@@ -288,6 +311,33 @@ TEST(FirstSurface, OpenScansGiveOneSheet)
       EXPECT_EQ(report.genus(), 0);
       const double area = reportSurface(shape).area;
       EXPECT_NEAR(reportSurface(trianglesOf(first->mesh, cloud)).area, area, 0.05 * area);
+    }
+  }
+}
+
+// Noise that is wider than the voxels of fine grids makes no second layer of a sheet, and no handles.
+TEST(FirstSurface, NoisySheetsHaveOneLayer)
+{
+  const std::vector<std::pair<std::string, TriangleMesh>> shapes{
+    { "folded square", foldedSquare() }, { "open box", openBox() }, { "half sphere", cutSphere(0.) }
+  };
+  for (const auto& [name, shape] : shapes)
+  {
+    for (const double noise : { 0.005, 0.01, 0.015 })
+    {
+      SCOPED_TRACE(name + ", noise " + std::to_string(noise));
+      CloudOptions options;
+      options.noise = noise;
+      const PointCloud cloud = cloudOf(shape, options);
+      const auto first = firstSurface(cloud, MostVertices, MostVertices, Boundaries::Keep, goOn);
+      ASSERT_TRUE(first.has_value());
+      EXPECT_TRUE(first->isOpen);
+      const ManifoldReport report = reportOf(first->mesh);
+      EXPECT_EQ(report.components, 1u);
+      EXPECT_EQ(report.boundaryLoops, 1u);
+      EXPECT_EQ(report.genus(), 0);
+      EXPECT_LT(
+        reportSurface(trianglesOf(first->mesh, cloud)).area, 1.3 * reportSurface(shape).area);
     }
   }
 }
