@@ -89,7 +89,7 @@ bool FidelityRounds::run(Fidelity fidelity, int rounds, bool isClean, bool isFix
 
 bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
 {
-  if (mayBeBroken_)
+  if (mayBeBroken_ && !staysUnbroken_)
   {
     // As long as a round follows that brings back what it rounds off.
     repairIntersections(mesh_, partOf(progress, 0., 0.), executor_);

@@ -43,6 +43,10 @@ public:
   bool run(Fidelity fidelity, int rounds, bool isClean, bool isFixed, double lambda,
     const Progress& progress);
 
+  /// From now on broken triangles are left to the repair in the end: the rounds before have held vertices there, and
+  /// would hold what a repair rounds off.
+  void stayUnbroken() { staysUnbroken_ = true; }
+
   double lambda() const { return lambda_; }
   std::size_t heldVertices() const { return heldVertices_; }
   /// Of a noisy cloud.
@@ -60,6 +64,7 @@ private:
   bool keepsPlaces_;
   const Executor& executor_;
   bool mayBeBroken_ = true; ///< by intersections or folds
+  bool staysUnbroken_ = false;
   double lambda_ = 0.;
   std::size_t heldVertices_ = 0;
   NoiseParts noiseParts_;

@@ -329,11 +329,19 @@ bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& pro
     report_.heldVertices += surfaceFit.holdAgainst(broken);
     report_.left = countDefects(mesh_, executor_);
   }
-  while (mendsBy([this] { collapseDefects(); }, guard, progress))
+  // A mesh that is open anyway may have a small hole more. That loses fewer points than a collapse where these are
+  // dense.
+  const bool isOpen = mesh_.isOpen();
+  const auto collapse = [this] { collapseDefects(); };
+  while (mendsBy(collapse, isOpen ? MayLose::NoPoints : MayLose::SomePoints, guard, progress))
   {
   }
-  // A mesh that is open anyway may have a small hole more.
-  while (mesh_.isOpen() && mendsBy([this] { replaceFewestCrossings(mesh_); }, guard, progress))
+  while (isOpen &&
+    mendsBy([this] { replaceFewestCrossings(mesh_); }, MayLose::SomePoints, guard, progress))
+  {
+  }
+  while (isOpen && report_.left.intersectingTriangles > 0 &&
+    mendsBy(collapse, MayLose::SomePoints, guard, progress))
   {
   }
   return true;
@@ -342,7 +350,8 @@ bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& pro
 /// Takes away by `remove` some of what is broken. Where no less is broken then, or points are lost, the
 /// mesh stays as it was, and the answer is no.
 template <typename Remove>
-bool Finish::mendsBy(const Remove& remove, FitGuard& guard, const Progress& progress)
+bool Finish::mendsBy(
+  const Remove& remove, MayLose mayLose, FitGuard& guard, const Progress& progress)
 {
   const auto most = std::size_t(MostPartTakenAway * double(mesh_.triangleCount()));
   if (report_.left.total() == 0 || report_.left.total() > std::max(MostTakenAway, most))
@@ -358,7 +367,8 @@ bool Finish::mendsBy(const Remove& remove, FitGuard& guard, const Progress& prog
     mesh_, before.vertexCount(), [](double) { return true; }, EdgesAfterSplit::Keep);
   const IntersectionRepair again = repairIntersections(mesh_, progress, executor_);
   if (again.after.total() >= report_.left.total() || mesh_.vertexCount() != before.vertexCount() ||
-    (!wasWorse && guard.losesPoints(mesh_, true)))
+    (!wasWorse && guard.losesPoints(mesh_, true)) ||
+    (mayLose == MayLose::NoPoints && guard.losesDensePoints(before.mesh(executor_), mesh_)))
   {
     mesh_ = before.mesh(executor_);
     return false;
@@ -426,6 +436,10 @@ bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
   report_.fidelityRounds =
     std::min(plan_.mostFidelityRounds, FidelityRounds::count(plan_.fidelity, report_.isClean));
   FidelityRounds rounds(mesh_, surfaceFit, plan_.vertexCount, plan_.keepsPlaces, executor_);
+  if (staysUnbroken_)
+  {
+    rounds.stayUnbroken();
+  }
   if (!rounds.run(plan_.fidelity, report_.fidelityRounds, report_.isClean, plan_.smoothness > 0.,
         report_.smoothness, progress))
   {

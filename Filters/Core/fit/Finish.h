@@ -93,8 +93,14 @@ private:
   bool closeHoles();
   void dropOddPieces();
   bool repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress);
+  /// How a defect is taken away, beyond what the guard allows anyway.
+  enum class MayLose
+  {
+    SomePoints,
+    NoPoints ///< not even of those closer together than their noise
+  };
   template <typename Remove>
-  bool mendsBy(const Remove& remove, FitGuard& guard, const Progress& progress);
+  bool mendsBy(const Remove& remove, MayLose mayLose, FitGuard& guard, const Progress& progress);
   void collapseDefects();
 
   const PointCloud& cloud_;

@@ -76,6 +76,28 @@ bool FitGuard::losesPoints(const Mesh& mesh, bool isRepaired)
   return losesPoints(squaredDistances(cloud_, points_, mesh, executor_, to_), isRepaired);
 }
 
+bool FitGuard::losesDensePoints(const Mesh& before, const Mesh& mesh)
+{
+  const std::vector<float> then = squaredDistances(cloud_, points_, before, executor_, to_);
+  const std::vector<float> now = squaredDistances(cloud_, points_, mesh, executor_, to_);
+  if (!spacing_)
+  {
+    spacing_.emplace(cloud_, executor_);
+  }
+  double lost = 0., won = 0.;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+  {
+    if (now[i] != then[i])
+    {
+      const float limit = MissedSpacings * spacing_->at(cloud_.points()[points_[i]]);
+      const bool wasMissed = then[i] > limit * limit, isMissed = now[i] > limit * limit;
+      lost += isMissed && !wasMissed ? 1. : 0.;
+      won += wasMissed && !isMissed ? 1. : 0.;
+    }
+  }
+  return lost > won + Deviations * std::sqrt(lost + won);
+}
+
 /// The root mean square distance of the points that are no outliers.
 double FitGuard::residual(const std::vector<float>& squared, double meanEdge) const
 {

@@ -44,6 +44,9 @@ public:
   bool hasGrown(const Mesh& before, const Mesh& mesh, double part) const;
   /// Whether `mesh` misses more points than the first one.
   bool losesPoints(const Mesh& mesh, bool isRepaired);
+  /// Whether `mesh` misses more points than `before` by their distances to their neighbours alone, be these below the
+  /// noise.
+  bool losesDensePoints(const Mesh& before, const Mesh& mesh);
 
 private:
   bool hasGrown(const std::vector<float>& after, double meanEdge, ResidualRule rule) const;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SmallPieces.h"
 
-#include "mesh/Pieces.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -166,45 +165,62 @@ std::vector<std::uint8_t> valencesOf(const Mesh& mesh)
   return valences;
 }
 
-std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices, const Executor& executor)
+std::vector<Piece> findOddPieces(
+  const Mesh& mesh, double leastArea, double leastVertices, const Executor& executor)
 {
+  std::vector<Piece> result;
   if (pieceCount(mesh, executor) < 2)
   {
-    return 0;
+    return result;
   }
-  const std::vector<Piece> pieces = findPieces(mesh);
+  std::vector<Piece> pieces = findPieces(mesh);
   double all = 0., largest = 0.;
   for (const Piece& piece : pieces)
   {
     all += piece.area;
     largest = std::max(largest, piece.area);
   }
-  std::vector<std::uint8_t> isDropped(mesh.indexEnd(), 0);
-  std::size_t dropped = 0, vertices = 0;
-  for (const Piece& piece : pieces)
+  std::size_t vertices = 0;
+  for (Piece& piece : pieces)
   {
     if (piece.area < leastArea * all && piece.area < largest &&
       double(piece.vertices.size()) < leastVertices * double(mesh.vertexCount()))
     {
-      ++dropped;
       vertices += piece.vertices.size();
-      for (const VertexIndex v : piece.vertices)
-      {
-        isDropped[v] = 1;
-      }
+      result.push_back(std::move(piece));
     }
   }
   const bool areSmall = leastArea < PartOfSmallPiece;
   const bool areMost = double(vertices) > MostOfVertices * double(mesh.vertexCount());
   if (areSmall && areMost)
   {
-    return 0;
+    result.clear();
   }
-  if (dropped > 0)
+  return result;
+}
+
+void dropPieces(Mesh& mesh, const std::vector<Piece>& pieces)
+{
+  if (pieces.empty())
   {
-    removeVertices(mesh, isDropped);
+    return;
   }
-  return dropped;
+  std::vector<std::uint8_t> isDropped(mesh.indexEnd(), 0);
+  for (const Piece& piece : pieces)
+  {
+    for (const VertexIndex v : piece.vertices)
+    {
+      isDropped[v] = 1;
+    }
+  }
+  removeVertices(mesh, isDropped);
+}
+
+std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices, const Executor& executor)
+{
+  const std::vector<Piece> pieces = findOddPieces(mesh, leastArea, leastVertices, executor);
+  dropPieces(mesh, pieces);
+  return pieces.size();
 }
 
 std::size_t dropScraps(Mesh& mesh, const Executor& executor)

@@ -3,6 +3,7 @@
 
 #include "base/Executor.h"
 #include "mesh/Mesh.h"
+#include "mesh/Pieces.h"
 
 #include <cstdint>
 #include <span>
@@ -19,9 +20,13 @@ std::vector<Triangle> findCutOffPieces(
 /// By the index of the vertex.
 std::vector<std::uint8_t> valencesOf(const Mesh& mesh);
 
-/// Drops all pieces with less than these parts of the area and of the vertices of all, but the largest. No vertex
-/// may be erased, and none is in the end; properties follow. Where pieces with less than 1 % of the area are most
-/// of the mesh, they stay. Returns how many were dropped.
+/// All pieces with less than these parts of the area and of the vertices of all, but the largest; none where pieces
+/// with less than 1 % of the area are most of the mesh.
+std::vector<Piece> findOddPieces(const Mesh& mesh, double leastArea, double leastVertices,
+  const Executor& executor = Executor::sequential());
+/// No vertex may be erased, and none is in the end; properties follow.
+void dropPieces(Mesh& mesh, const std::vector<Piece>& pieces);
+/// Drops the odd ones. Returns how many.
 std::size_t dropPieces(Mesh& mesh, double leastArea, double leastVertices,
   const Executor& executor = Executor::sequential());
 

@@ -4,6 +4,7 @@
 #include "cloud/MeshBuilder.h"
 #include "cloud/RepeatedPoints.h"
 #include "fit/CreaseRefinement.h"
+#include "fit/NeededPieces.h"
 #include "fit/Uncertainty.h"
 #include "learn/SequentialLearner.h"
 #include "mesh/QuadricSimplification.h"
@@ -208,8 +209,10 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   plan.gaps = gaps;
   plan.closedOutline = parameters.closeHolesBelow / cloud.unit();
   plan.vertexCount = std::max(vertexCount, learnt.mesh.vertexCount());
-  dropPieces(
-    learnt.mesh, parameters.keepPieces, VerticesOfDensePiece * parameters.keepPieces, executor);
+  dropPieces(learnt.mesh,
+    withoutNeeded(findOddPieces(learnt.mesh, parameters.keepPieces,
+                    VerticesOfDensePiece * parameters.keepPieces, executor),
+      learnt.mesh, cloud, parameters.keepPieces, executor));
   const bool isSimplified = plan.vertexCount > vertexCount;
   if (isSimplified)
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Promise: a piece with little area is kept where its points are dense, and dropped where it has few.
+// Promise: a piece with little area is kept where its points are dense, or the mesh would miss many without it, and
+// dropped where it has few.
 #include "run/Reconstruction.h"
 
 #include "mesh/Pieces.h"
@@ -43,6 +44,7 @@ TEST(DensePieces, AreKept)
   for (const std::uint64_t seed : { 1u, 2u, 3u })
   {
     EXPECT_EQ(piecesWith(4000, seed), 2u) << seed;
+    EXPECT_EQ(piecesWith(400, seed), 2u) << seed;
   }
 }
 
