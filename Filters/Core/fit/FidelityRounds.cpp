@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/FidelityRounds.h"
 
+#include "fit/CreaseRefinement.h"
 #include "fit/CreaseSnapping.h"
 #include "fit/CutCorners.h"
 #include "fit/DataFlips.h"
@@ -77,7 +78,8 @@ bool FidelityRounds::run(Fidelity fidelity, int rounds, bool isClean, bool isFix
       return false;
     }
   }
-  if (isClean && rounds > 0 && !keepsPlaces_ && !sharpenCorners(partOf(progress, 1., 1.)))
+  if (isClean && rounds > 0 && !keepsPlaces_ && hasCreases(mesh_) &&
+    !sharpenCorners(partOf(progress, 1., 1.)))
   {
     return false;
   }
@@ -146,7 +148,8 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   return after != AfterBrokenMoves::Cancelled && progress(1.);
 }
 
-/// A solution rounds off corners beside which few samples lie. So they get sharp again after the last one.
+/// A solution rounds off corners beside which few samples lie. So they get sharp again after the last one. Smooth shapes
+/// have next to none, and the search for them costs as much as a round.
 bool FidelityRounds::sharpenCorners(const Progress& progress)
 {
   const auto follow = [&](const auto& change)
