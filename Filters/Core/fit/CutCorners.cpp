@@ -73,9 +73,15 @@ public:
     for (const auto& [gain, v] : order)
     {
       // Samples are no longer known around what has moved.
-      if (isLocked_[v] == 0)
+      if (isLocked_[v] != 0)
       {
-        mesh_.setPosition(v, cornerOf(v).place);
+        continue;
+      }
+      // What has moved farther off has changed the planes: they may no longer meet near by.
+      const Corner corner = cornerOf(v);
+      if (corner.gain > 0.)
+      {
+        mesh_.setPosition(v, corner.place);
         lockAround(v);
         changed_.touchAround(mesh_, v);
       }

@@ -259,6 +259,41 @@ TEST(CutCorners, GetSharpWherePlanesMeet)
   }
 }
 
+// A corner that has moved can change the planes at another one. That stays where it is then: nowhere does a vertex
+// go farther than its neighbours are.
+TEST(CutCorners, StayNear)
+{
+  int changed = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    TriangleMesh cube = makeCube(5);
+    CloudOptions options;
+    options.count = 3000;
+    options.seed = seed;
+    const PointCloud cloud(generateCloud(cube, options));
+    Random random(seed);
+    for (Eigen::Vector3d& point : cube.points)
+    {
+      point *= 1. - 0.2 * random.uniform();
+    }
+    Mesh mesh = buildMesh(cube, cloud);
+    const Mesh before = mesh;
+    const PlacedCloud placed(cloud, mesh);
+    changed += completeCorners(mesh, placed.samples, 0.).any ? 1 : 0;
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      float longest = 0.f;
+      for (const VertexIndex neighbor : before.ring(v))
+      {
+        longest = std::max(longest, squaredNorm(before.position(neighbor) - before.position(v)));
+      }
+      EXPECT_LE(squaredNorm(mesh.position(v) - before.position(v)), longest) << v;
+    }
+  }
+  EXPECT_GT(changed, 5);
+}
+
 // A vertex that sticks out of a sphere, or is pushed in, is told where the points end; of the others, no more than chance
 // has it.
 TEST(EmptyCaps, TellWhereSamplesEnd)
