@@ -13,6 +13,7 @@
 #include "start/FrontSurface.h"
 #include "start/OccupiedSolid.h"
 #include "start/OneSheet.h"
+#include "start/SkinLayers.h"
 #include "start/VoxelSurface.h"
 
 #include <algorithm>
@@ -40,6 +41,8 @@ constexpr double LeastPointsPerVoxel = 2.;
 constexpr double SkinThickness = 1.5;
 /// If it is thicker, noise is wider than voxels.
 constexpr double MostSkinThickness = 2.;
+/// Of the neighbourhoods that tell layers in a skin.
+constexpr float RadiusByThickness = 2.f;
 /// Different ones. With less, a coarse grid tells nothing.
 constexpr std::size_t LeastPointsForGrid = 500;
 
@@ -199,8 +202,9 @@ struct SkinSurfaces
 };
 
 /// A grid finer than the noise shows both sides of a band of points around a sheet. If all are finer, the
-/// coarsest is the closest to one.
-SkinSurfaces skinSurfaces(const PointCloud& cloud, std::span<const Skin> skins)
+/// coarsest is the closest to one. Where points lie in two layers, coarse grids show one.
+SkinSurfaces skinSurfaces(
+  const PointCloud& cloud, const NearestPoints& nearest, std::span<const Skin> skins)
 {
   SkinSurfaces result;
   bool isThin = false;
@@ -210,10 +214,16 @@ SkinSurfaces skinSurfaces(const PointCloud& cloud, std::span<const Skin> skins)
       isDenseFor(skin->solid, cloud) ? skinSurface(cloud, *skin) : std::optional<FirstSurface>();
     if (surface)
     {
-      isThin = surface->skinThickness <= float(SkinThickness * skin->solid.grid.width);
+      const auto thin = float(SkinThickness * skin->solid.grid.width);
+      isThin = surface->skinThickness <= thin;
       if (!result.finest)
       {
         result.finest = surface;
+        if (!isThin && lieInTwoLayers(nearest, RadiusByThickness * surface->skinThickness))
+        {
+          surface->skinThickness = thin;
+          isThin = true;
+        }
       }
       result.ofSheet = std::move(surface);
     }
@@ -541,10 +551,10 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
   std::vector<Skin> skins;
   auto solid = closedSurface(cloud, skins, partOf(progress, 0., PartOfGrids));
   const bool isSolid = solid.has_value();
-  const SkinSurfaces skin = isSolid ? SkinSurfaces() : skinSurfaces(cloud, skins);
+  const NearestPoints nearest(cloud.points(), executor);
+  const SkinSurfaces skin = isSolid ? SkinSurfaces() : skinSurfaces(cloud, nearest, skins);
   const Progress ofGrid = partOf(progress, PartOfGrids, 0.5 * (1. + PartOfGrids));
   const Progress ofFront = partOf(progress, 0.5 * (1. + PartOfGrids), 1.);
-  const NearestPoints nearest(cloud.points(), executor);
   std::optional<Candidate> grid;
   if (isSolid)
   {

@@ -342,6 +342,30 @@ TEST(FirstSurface, NoisySheetsHaveOneLayer)
   }
 }
 
+// Two sides of a plate that are a few deviations of the noise apart stay two.
+TEST(FirstSurface, NoisyPlatesHaveTwoLayers)
+{
+  TriangleMesh plate = trueCube().triangles;
+  for (Eigen::Vector3d& point : plate.points)
+  {
+    point.z() *= 0.04;
+  }
+  const double area = reportSurface(plate).area;
+  for (const double noise : { 0.007, 0.01, 0.013 })
+  {
+    SCOPED_TRACE(noise);
+    CloudOptions options;
+    options.noise = noise;
+    const PointCloud cloud = cloudOf(plate, options);
+    const auto first = firstSurface(cloud, MostVertices, MostVertices, Boundaries::Keep, goOn);
+    ASSERT_TRUE(first.has_value());
+    EXPECT_EQ(reportOf(first->mesh).boundaryLoops, 0u);
+    const double found = reportSurface(trianglesOf(first->mesh, cloud)).area;
+    EXPECT_GT(found, 0.95 * area);
+    EXPECT_LT(found, 1.3 * area);
+  }
+}
+
 // Nowhere does a sheet go over to the other side of its surface: not even where valleys and ridges
 // meet its boundary.
 TEST(FirstSurface, SheetsKeepTheirSide)
