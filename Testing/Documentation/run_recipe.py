@@ -54,11 +54,14 @@ def main():
             (core / name).write_text(text, encoding="utf-8")
         check_places(folder, files)
         run([sys.executable, "CMake/Parameters/generate.py", ".", "build"], cwd=folder)
-        names = sorted(str(path.relative_to(core)) for path in core.rglob("*.cpp"))
-        # In one go: most of the time goes into the headers.
-        (core / "All.cpp").write_text("".join(f'#include "{name}"\n' for name in names), encoding="utf-8")
+        rooms = []
+        # A room in one go, as in the build: most of the time goes into the headers.
+        for room in sorted({path.parent for path in core.rglob("*.cpp")}):
+            names = sorted(path.name for path in room.glob("*.cpp"))
+            rooms.append(room / "All.cpp")
+            rooms[-1].write_text("".join(f'#include "{name}"\n' for name in names), encoding="utf-8")
         libraries = ["-lgtest", "-lgtest_main", "-lpthread"]
-        run([*compile_command, "Filters/Core/All.cpp", *libraries, "-o", "test"], cwd=folder)
+        run([*compile_command, *map(str, rooms), *libraries, "-o", "test"], cwd=folder)
         run([f"{folder}/test"])
 
 
