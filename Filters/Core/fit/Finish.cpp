@@ -243,6 +243,10 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   {
     return false;
   }
+  if (!plan_.surface)
+  {
+    fillCracks(mesh_);
+  }
   if (!repair(*surfaceFit, guard, partOf(report, 1., 1.)) || !report(1.))
   {
     return false;

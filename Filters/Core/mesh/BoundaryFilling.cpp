@@ -4,6 +4,7 @@
 #include "mesh/Pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
@@ -148,6 +149,44 @@ std::size_t fillSmallGaps(Mesh& mesh)
     fillBoundaries(mesh, boundaries, AnyLength, nullptr, LeastEdgesOfSheet - 1);
   return filled +
     fillBoundaries(mesh, boundaries, AnyLength, nullptr, MostEdgesOfGap, CosineOfOutline);
+}
+
+std::size_t fillCracks(Mesh& mesh)
+{
+  if (!mesh.isOpen())
+  {
+    return 0;
+  }
+  /// The triangles that touch a loop.
+  struct Surroundings
+  {
+    double area = 0.;
+    std::size_t triangles = 0;
+    bool hasOthers = false; ///< vertices
+  };
+  BoundaryManager boundaries(mesh);
+  std::vector<Surroundings> around(boundaries.loops().size());
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    {
+      const std::array loops{ boundaries.loopOf(a), boundaries.loopOf(b), boundaries.loopOf(c) };
+      const BoundaryManager::LoopIndex loop = *std::min_element(loops.begin(), loops.end());
+      if (loop != BoundaryManager::NoLoop)
+      {
+        around[loop].area += areaOf(mesh, { a, b, c });
+        ++around[loop].triangles;
+        around[loop].hasOthers =
+          around[loop].hasOthers || loops[0] != loop || loops[1] != loop || loops[2] != loop;
+      }
+    });
+  std::size_t filled = 0;
+  for (BoundaryManager::LoopIndex loop = 0; loop < around.size(); ++loop)
+  {
+    const auto& [area, triangles, hasOthers] = around[loop];
+    filled +=
+      hasOthers && fillBoundary(mesh, boundaries, loop, -1.f, area / double(triangles)) ? 1 : 0;
+  }
+  return filled;
 }
 
 std::size_t fillShortBoundaries(Mesh& mesh, BoundaryManager& boundaries, double outline)

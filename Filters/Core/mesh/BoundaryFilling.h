@@ -33,6 +33,11 @@ bool fillBoundary(Mesh& mesh, BoundaryManager& boundaries, BoundaryManager::Loop
 /// which have more than six. Longer ones are openings.
 std::size_t fillSmallGaps(Mesh& mesh);
 
+/// Fills cracks: loops that are filled with less area than a triangle around them has on average. What is smaller than a
+/// triangle is no opening that the mesh could show. Outlines of pieces that have no other vertices stay. Returns the
+/// number of loops filled.
+std::size_t fillCracks(Mesh& mesh);
+
 /// Fills the loops that can be filled and whose edges are shorter than `outline` all together. Returns their
 /// number.
 std::size_t fillShortBoundaries(Mesh& mesh, BoundaryManager& boundaries, double outline);

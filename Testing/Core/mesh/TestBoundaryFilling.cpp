@@ -181,6 +181,34 @@ TEST(BoundaryFilling, SmallGapsAreNoOutlines)
   }
 }
 
+// A slit with less area than a triangle around it is a crack, however long it is. A hole as large as the triangles
+// around it stays, and so does the outline of a sheet that has no other vertices, however narrow that is.
+TEST(BoundaryFilling, CracksAreFilled)
+{
+  for (const float width : { 0.01f, 1.f })
+  {
+    Tube tube = makeTube(8, 4);
+    Mesh& mesh = tube.mesh;
+    mesh.removeTriangles(trianglesAt(mesh, tube.top));
+    for (const VertexIndex v : tube.rings[0])
+    {
+      const Vector4 p = mesh.position(v);
+      mesh.setPosition(v, Vector4(p[0], width * p[1], p[2]));
+    }
+    EXPECT_EQ(fillCracks(mesh), width < 1.f ? 1u : 0u);
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(reportOf(mesh).isClosed(), width < 1.f);
+  }
+  Mesh sheet = makeFan(4);
+  removeTriangle(sheet, { 0, sheet.ring(0)[0], sheet.ring(0)[1] });
+  for (VertexIndex v = 0; v < sheet.indexEnd(); ++v)
+  {
+    const Vector4 p = sheet.position(v);
+    sheet.setPosition(v, Vector4(p[0], 0.001f * p[1], p[2]));
+  }
+  EXPECT_EQ(fillCracks(sheet), 0u);
+}
+
 // Whatever holes there are, what is filled is closed and has no edge as long as the limit; what is
 // not is as it was.
 TEST(BoundaryFilling, RandomMeshes)
