@@ -2,6 +2,7 @@
 #include "fit/Finish.h"
 
 #include "fit/FidelityRounds.h"
+#include "fit/SheetJoints.h"
 #include "fit/SliverRepair.h"
 #include "fit/TornLoops.h"
 #include "mesh/BoundaryFilling.h"
@@ -184,6 +185,14 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     if (!surfaceFit->findPlaces(partOf(part, 0., PartOfPlaces)))
     {
       return false;
+    }
+    if (isLast && cutJoints(*surfaceFit))
+    {
+      beginAnew();
+      if (!surfaceFit->findPlaces(partOf(part, PartOfPlaces, PartOfPlaces)))
+      {
+        return false;
+      }
     }
     if (isLast && fillTornLoops(mesh_, surfaceFit->places()) > 0)
     {
@@ -473,6 +482,20 @@ bool Finish::closeHoles()
   }
   BoundaryManager boundaries(mesh_);
   return fillShortBoundaries(mesh_, boundaries, plan_.closedOutline) > 0;
+}
+
+/// Sheets are told apart by now: vertices lie on the points.
+bool Finish::cutJoints(const SurfaceFit& surfaceFit)
+{
+  const std::size_t count = mesh_.vertexCount();
+  if (cutSheetJoints(mesh_, surfaceFit.places(), surfaceFit.medianDistance(), executor_) == 0)
+  {
+    return false;
+  }
+  mesh_.dropErased(executor_);
+  refine(mesh_, count, [](double) { return true; });
+  flipEdges(mesh_, EdgesToFlip::All, executor_);
+  return true;
 }
 
 bool Finish::openGaps(const SurfaceFit& surfaceFit, bool mustBeFar)

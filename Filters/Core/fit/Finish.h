@@ -91,6 +91,7 @@ private:
   bool trimsOutlines() const;
   bool improve(SurfaceFit& surfaceFit, const Progress& progress);
   bool closeHoles();
+  bool cutJoints(const SurfaceFit& surfaceFit);
   void dropOddPieces();
   bool repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& progress);
   /// How a defect is taken away, beyond what the guard allows anyway.

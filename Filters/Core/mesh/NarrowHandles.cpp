@@ -1,208 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/NarrowHandles.h"
 
+#include "mesh/NarrowStrips.h"
 #include "mesh/Pieces.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
+#include <vector>
 
 namespace neuralmesh
 {
 namespace
 {
-/// A loop through a vertex lies within so many edges of it.
-constexpr int RingsOfLoop = NarrowLoop / 2;
-/// Vertices of a strip through which narrow loops lead.
-constexpr std::size_t LeastInStrip = 3;
-/// With more it is a rod, whatever is at its ends.
-constexpr std::size_t MostInStrip = 30;
-/// Of those within some edges of a strip, on one side of it, there are four times the edges of its loops where
-/// a rod goes on, and up to three times as many where the strip opens into a sheet.
-constexpr int RingsAround = 4;
-constexpr std::size_t LeastOnEachSide = 32;
 /// Strips that are cut one by one, to find the place of a handle, and places that are wanted.
 constexpr std::size_t MostStripsTried = 32;
 constexpr std::size_t MostPlaces = 2;
-/// For the executor.
-constexpr std::size_t MostPartsOfStrips = 32;
-
-using HandleStrip = std::vector<VertexIndex>;
-
-/// The vertices that lie within some edges of one.
-class Surroundings
-{
-public:
-  explicit Surroundings(const Mesh& mesh)
-    : mesh_(mesh)
-    , lastCenter_(mesh.indexEnd(), NoVertex)
-  {
-  }
-
-  /// Whether they lie around `center` as on a strip that runs back into itself, and not as on a disk. (So
-  /// they do, too, where they enclose a vertex that is farther away.)
-  bool closeUp(VertexIndex center)
-  {
-    collect(center);
-    const auto isAround = [&](VertexIndex v) { return lastCenter_[v] == center; };
-    auto euler = long(around_.size());
-    for (const VertexIndex v : around_)
-    {
-      const Ring& ring = mesh_.ring(v);
-      for (const VertexIndex neighbor : ring)
-      {
-        euler -= neighbor > v && isAround(neighbor) ? 1 : 0;
-      }
-      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
-      {
-        const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
-        euler += b > v && c > v && isAround(b) && isAround(c) ? 1 : 0;
-      }
-    }
-    return euler < 1;
-  }
-
-  /// How many lie within some edges of a strip on that side of it where they are fewer. Where both sides hang
-  /// together it is half of them.
-  std::size_t countOnSmallerSide(const HandleStrip& strip)
-  {
-    around_ = strip;
-    for (const VertexIndex v : strip)
-    {
-      lastCenter_[v] = strip[0];
-    }
-    spread(strip[0], RingsAround);
-    const std::vector<VertexIndex> beyond(around_.begin() + long(strip.size()), around_.end());
-    for (const VertexIndex v : strip)
-    {
-      lastCenter_[v] = NoVertex;
-    }
-    std::array<std::size_t, 2> largest{};
-    for (const VertexIndex first : beyond)
-    {
-      if (lastCenter_[first] == strip[0])
-      {
-        const std::size_t side = takeSide(first, strip[0]);
-        largest = { std::max(largest[0], side), std::max(largest[1], std::min(largest[0], side)) };
-      }
-    }
-    return largest[1] > 0 ? largest[1] : largest[0] / 2;
-  }
-
-private:
-  void collect(VertexIndex center)
-  {
-    around_.assign(1, center);
-    lastCenter_[center] = center;
-    spread(center, RingsOfLoop);
-  }
-
-  void spread(VertexIndex center, int rings)
-  {
-    std::size_t next = 0;
-    for (int ring = 0; ring < rings; ++ring)
-    {
-      for (const std::size_t end = around_.size(); next < end; ++next)
-      {
-        for (const VertexIndex neighbor : mesh_.ring(around_[next]))
-        {
-          if (lastCenter_[neighbor] != center)
-          {
-            lastCenter_[neighbor] = center;
-            around_.push_back(neighbor);
-          }
-        }
-      }
-    }
-  }
-
-  /// How many of those around `center` hang together with one of them, which are then not around it any more.
-  std::size_t takeSide(VertexIndex first, VertexIndex center)
-  {
-    around_.assign(1, first);
-    lastCenter_[first] = NoVertex;
-    for (std::size_t next = 0; next < around_.size(); ++next)
-    {
-      for (const VertexIndex neighbor : mesh_.ring(around_[next]))
-      {
-        if (lastCenter_[neighbor] == center)
-        {
-          lastCenter_[neighbor] = NoVertex;
-          around_.push_back(neighbor);
-        }
-      }
-    }
-    return around_.size();
-  }
-
-  const Mesh& mesh_;
-  std::vector<VertexIndex> lastCenter_; ///< of each vertex, the last one that it was around
-  std::vector<VertexIndex> around_;
-};
-
-/// Of the vertices around which others close up, those that hang together, the most first.
-std::vector<HandleStrip> narrowStrips(const Mesh& mesh, const Executor& executor)
-{
-  std::vector<std::uint8_t> isOpen(mesh.indexEnd(), 0);
-  // Few parts: what was seen takes memory in each.
-  const std::size_t parts = std::clamp<std::size_t>(executor.threadCount(), 1, MostPartsOfStrips);
-  executor.forEachRange(mesh.indexEnd(), (mesh.indexEnd() + parts - 1) / parts,
-    [&](std::size_t begin, std::size_t end)
-    {
-      Surroundings surroundings(mesh);
-      for (auto v = VertexIndex(begin); v < end; ++v)
-      {
-        isOpen[v] = surroundings.closeUp(v) ? 1 : 0;
-      }
-    });
-  std::vector<HandleStrip> strips;
-  for (VertexIndex first = 0; first < mesh.indexEnd(); ++first)
-  {
-    if (isOpen[first] == 0)
-    {
-      continue;
-    }
-    isOpen[first] = 0;
-    HandleStrip strip{ first };
-    for (std::size_t i = 0; i < strip.size(); ++i)
-    {
-      for (const VertexIndex neighbor : mesh.ring(strip[i]))
-      {
-        if (isOpen[neighbor] != 0)
-        {
-          isOpen[neighbor] = 0;
-          strip.push_back(neighbor);
-        }
-      }
-    }
-    if (strip.size() >= LeastInStrip && strip.size() <= MostInStrip)
-    {
-      strips.push_back(std::move(strip));
-    }
-  }
-  // What was seen around vertices is not to count.
-  Surroundings aroundStrips(mesh);
-  std::erase_if(strips,
-    [&](const HandleStrip& strip)
-    { return aroundStrips.countOnSmallerSide(strip) < LeastOnEachSide; });
-  std::stable_sort(strips.begin(), strips.end(),
-    [](const HandleStrip& a, const HandleStrip& b) { return a.size() > b.size(); });
-  return strips;
-}
-
-void cut(Mesh& mesh, const HandleStrip& strip)
-{
-  std::vector<Triangle> triangles;
-  for (const VertexIndex v : strip)
-  {
-    const Ring& ring = mesh.ring(v);
-    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
-    {
-      triangles.push_back({ v, ring[slot], ring[ring.after(slot)] });
-    }
-  }
-  mesh.removeTriangles(triangles);
-}
 }
 
 NarrowHandles findNarrowHandles(const Mesh& mesh, const Executor& executor)
@@ -213,7 +24,7 @@ NarrowHandles findNarrowHandles(const Mesh& mesh, const Executor& executor)
   {
     return result;
   }
-  const std::vector<HandleStrip> strips = narrowStrips(mesh, executor);
+  const std::vector<NarrowStrip> strips = findNarrowStrips(mesh, executor);
   if (strips.empty())
   {
     return result;
@@ -222,7 +33,7 @@ NarrowHandles findNarrowHandles(const Mesh& mesh, const Executor& executor)
   long left = all;
   for (std::size_t i = 0; i < strips.size(); ++i)
   {
-    cut(rest, strips[i]);
+    cutStrip(rest, strips[i]);
     if (i < MostStripsTried && result.places.size() < MostPlaces)
     {
       const long before = left;

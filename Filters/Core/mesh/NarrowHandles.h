@@ -9,9 +9,6 @@
 
 namespace neuralmesh
 {
-/// Edges of the longest loop that is narrow.
-constexpr int NarrowLoop = 5;
-
 /// Handles that a narrow loop leads around: they are cut where they are no wider than a few triangles. Layers
 /// that have grown together make such ones. A thin rod is left out, which is narrow over a length.
 struct NarrowHandles

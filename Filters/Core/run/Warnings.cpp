@@ -3,6 +3,7 @@
 
 #include "base/WarningTopic.h"
 #include "cloud/PointsOnLine.h"
+#include "mesh/NarrowStrips.h"
 #include "mesh/Pieces.h"
 #include "run/BareArea.h"
 #include "run/PointWarnings.h"

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/NarrowStrips.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Vertices of a strip through which narrow loops lead.
+constexpr std::size_t LeastInStrip = 3;
+/// Edges around a strip in which its sides are looked at.
+constexpr int RingsAround = 4;
+/// For the executor.
+constexpr std::size_t MostPartsOfStrips = 32;
+
+/// The vertices that lie within some edges of one.
+class Surroundings
+{
+public:
+  Surroundings(const Mesh& mesh, int longestLoop)
+    : mesh_(mesh)
+    , ringsOfLoop_(longestLoop / 2)
+    , lastCenter_(mesh.indexEnd(), NoVertex)
+  {
+  }
+
+  /// Whether they lie around `center` as on a strip that runs back into itself, and not as on a disk. (So
+  /// they do, too, where they enclose a vertex that is farther away.)
+  bool closeUp(VertexIndex center)
+  {
+    collect(center);
+    const auto isAround = [&](VertexIndex v) { return lastCenter_[v] == center; };
+    auto euler = long(around_.size());
+    for (const VertexIndex v : around_)
+    {
+      const Ring& ring = mesh_.ring(v);
+      for (const VertexIndex neighbor : ring)
+      {
+        euler -= neighbor > v && isAround(neighbor) ? 1 : 0;
+      }
+      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+      {
+        const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
+        euler += b > v && c > v && isAround(b) && isAround(c) ? 1 : 0;
+      }
+    }
+    return euler < 1;
+  }
+
+  /// How many lie within some edges of a strip on that side of it where they are fewer. Where both sides hang
+  /// together it is half of them.
+  std::size_t countOnSmallerSide(const NarrowStrip& strip)
+  {
+    around_ = strip;
+    for (const VertexIndex v : strip)
+    {
+      lastCenter_[v] = strip[0];
+    }
+    spread(strip[0], RingsAround);
+    const std::vector<VertexIndex> beyond(around_.begin() + long(strip.size()), around_.end());
+    for (const VertexIndex v : strip)
+    {
+      lastCenter_[v] = NoVertex;
+    }
+    std::array<std::size_t, 2> largest{};
+    for (const VertexIndex first : beyond)
+    {
+      if (lastCenter_[first] == strip[0])
+      {
+        const std::size_t side = takeSide(first, strip[0]);
+        largest = { std::max(largest[0], side), std::max(largest[1], std::min(largest[0], side)) };
+      }
+    }
+    return largest[1] > 0 ? largest[1] : largest[0] / 2;
+  }
+
+private:
+  void collect(VertexIndex center)
+  {
+    around_.assign(1, center);
+    lastCenter_[center] = center;
+    spread(center, ringsOfLoop_);
+  }
+
+  void spread(VertexIndex center, int rings)
+  {
+    std::size_t next = 0;
+    for (int ring = 0; ring < rings; ++ring)
+    {
+      for (const std::size_t end = around_.size(); next < end; ++next)
+      {
+        for (const VertexIndex neighbor : mesh_.ring(around_[next]))
+        {
+          if (lastCenter_[neighbor] != center)
+          {
+            lastCenter_[neighbor] = center;
+            around_.push_back(neighbor);
+          }
+        }
+      }
+    }
+  }
+
+  /// How many of those around `center` hang together with one of them, which are then not around it any more.
+  std::size_t takeSide(VertexIndex first, VertexIndex center)
+  {
+    around_.assign(1, first);
+    lastCenter_[first] = NoVertex;
+    for (std::size_t next = 0; next < around_.size(); ++next)
+    {
+      for (const VertexIndex neighbor : mesh_.ring(around_[next]))
+      {
+        if (lastCenter_[neighbor] == center)
+        {
+          lastCenter_[neighbor] = NoVertex;
+          around_.push_back(neighbor);
+        }
+      }
+    }
+    return around_.size();
+  }
+
+  const Mesh& mesh_;
+  int ringsOfLoop_;                     ///< a loop through a vertex lies within so many edges of it
+  std::vector<VertexIndex> lastCenter_; ///< of each vertex, the last one that it was around
+  std::vector<VertexIndex> around_;
+};
+}
+
+std::vector<NarrowStrip> findNarrowStrips(const Mesh& mesh, const Executor& executor,
+  const StripLimits& limits, std::span<const std::uint8_t> isCandidate)
+{
+  std::vector<std::uint8_t> isOpen(mesh.indexEnd(), 0);
+  // Few parts: what was seen takes memory in each.
+  const std::size_t parts = std::clamp<std::size_t>(executor.threadCount(), 1, MostPartsOfStrips);
+  executor.forEachRange(mesh.indexEnd(), (mesh.indexEnd() + parts - 1) / parts,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Surroundings surroundings(mesh, limits.longestLoop);
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        isOpen[v] = (isCandidate.empty() || isCandidate[v] != 0) && surroundings.closeUp(v) ? 1 : 0;
+      }
+    });
+  std::vector<NarrowStrip> strips;
+  for (VertexIndex first = 0; first < mesh.indexEnd(); ++first)
+  {
+    if (isOpen[first] == 0)
+    {
+      continue;
+    }
+    isOpen[first] = 0;
+    NarrowStrip strip{ first };
+    for (std::size_t i = 0; i < strip.size(); ++i)
+    {
+      for (const VertexIndex neighbor : mesh.ring(strip[i]))
+      {
+        if (isOpen[neighbor] != 0)
+        {
+          isOpen[neighbor] = 0;
+          strip.push_back(neighbor);
+        }
+      }
+    }
+    if (strip.size() >= LeastInStrip && strip.size() <= limits.mostVertices)
+    {
+      strips.push_back(std::move(strip));
+    }
+  }
+  // What was seen around vertices is not to count.
+  Surroundings aroundStrips(mesh, limits.longestLoop);
+  std::erase_if(strips,
+    [&](const NarrowStrip& strip)
+    { return aroundStrips.countOnSmallerSide(strip) < limits.leastOnEachSide; });
+  std::stable_sort(strips.begin(), strips.end(),
+    [](const NarrowStrip& a, const NarrowStrip& b) { return a.size() > b.size(); });
+  return strips;
+}
+
+void cutStrip(Mesh& mesh, const NarrowStrip& strip)
+{
+  std::vector<Triangle> triangles;
+  for (const VertexIndex v : strip)
+  {
+    const Ring& ring = mesh.ring(v);
+    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+    {
+      triangles.push_back({ v, ring[slot], ring[ring.after(slot)] });
+    }
+  }
+  mesh.removeTriangles(triangles);
+}
+}

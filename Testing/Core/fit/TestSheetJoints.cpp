@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Promise: sheets that touch do not hang together by tubes on which no points lie. What the points show stays.
+#include "fit/SheetJoints.h"
+
+#include "cloud/MeshBuilder.h"
+#include "fit/SurfaceFit.h"
+#include "JoinedSheets.h"
+#include "mesh/Pieces.h"
+#include "MeshTools.h"
+#include "Shapes.h"
+#include "SphereRuns.h"
+
+#include <gtest/gtest.h>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+constexpr std::size_t SamplesPerVertexOfSheets = 10;
+constexpr double NoiseOfSheets = 0.001;
+
+/// The mesh of one surface, where the points are those of another one; and how many tubes of it were cut.
+struct CutRun
+{
+  Mesh mesh;
+  std::size_t cut = 0;
+};
+
+CutRun cutAt(const TriangleMesh& surface, const TriangleMesh& truth)
+{
+  CloudOptions options;
+  options.count = 40000;
+  options.noise = NoiseOfSheets;
+  const PointCloud cloud(generateCloud(truth, options));
+  CutRun run{ buildMesh(surface, cloud) };
+  SurfaceFit fit(cloud, run.mesh, SamplesPerVertexOfSheets * run.mesh.vertexCount());
+  EXPECT_TRUE(fit.findPlaces(goOn));
+  run.cut = cutSheetJoints(run.mesh, fit.places(), fit.medianDistance());
+  EXPECT_EQ(defectOf(run.mesh), "");
+  return run;
+}
+}
+
+// One tube joins two sheets, more make handles, too.
+TEST(SheetJoints, TubesWithoutPointsAreCut)
+{
+  const std::vector<std::vector<std::pair<unsigned, unsigned>>> joints{ { { 12, 12 } },
+    { { 5, 5 }, { 17, 16 } } };
+  for (const auto& tubes : joints)
+  {
+    SCOPED_TRACE(tubes.size());
+    const CutRun run = cutAt(joinedSheets(tubes), joinedSheets({}));
+    EXPECT_EQ(run.cut, tubes.size());
+    EXPECT_EQ(pieceCount(run.mesh), 2u);
+    EXPECT_EQ(genusOf(run.mesh), 0);
+    EXPECT_EQ(reportOf(run.mesh).boundaryLoops, 2u);
+  }
+}
+
+// Where points lie on the tube, as in an eyelet, it stays, and so does a plate with a hole: its sides hang together at
+// the rim.
+TEST(SheetJoints, TubesWithPointsStay)
+{
+  const TriangleMesh eyelet = joinedSheets({ { 12, 12 } });
+  EXPECT_EQ(cutAt(eyelet, eyelet).cut, 0u);
+  EXPECT_EQ(cutAt(makeTorus(0.4, 24), makeTorus(0.4, 24)).cut, 0u);
+}
+}
