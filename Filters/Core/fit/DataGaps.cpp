@@ -283,7 +283,8 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
         reaches(LeastSpacingsOfWeb, LeastMediansOfWeb, LeastRootsOfWeb * std::sqrt(piece.area)));
   }
   points.reset();
-  for (const auto& [one, other] : findWebs(mesh, triangles.all(), pieces, isSideOfWeb, executor))
+  for (const auto& [one, other] :
+    findWebs(mesh, triangles.all(), pieces, isSideOfWeb, isGap, executor))
   {
     isGap[one] = true;
     isGap[other] = true;

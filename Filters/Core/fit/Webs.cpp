@@ -23,8 +23,11 @@ constexpr double EdgesBehind = 1.5;
 constexpr float MostCosineBehind = -0.5f;
 /// A triangle is behind another one if this part of the way to it leads backwards.
 constexpr float LeastBackwards = 0.8f;
-/// The other side lies behind at least this part of the area of a side.
+/// The other side lies behind at least this part of the area of a side ...
 constexpr double LeastOfSide = 0.5;
+/// ... or, where that is a gap, or each is the other side of the other one, behind this part of it, and behind more than
+/// half of what has anything behind it. Where sides bend, not all has.
+constexpr double LeastOfBentSide = 0.25;
 
 /// Parts for the executor.
 constexpr std::size_t PiecesPerRange = 64;
@@ -55,23 +58,41 @@ public:
     }
   }
 
-  /// The piece behind most of the area of a piece; NoPiece if there is none.
-  std::size_t behind(const EmptyPiece& piece) const
+  /// A piece that lies behind another one.
+  struct Behind
+  {
+    std::size_t piece = NoPiece;
+    bool isCertain = false; ///< behind most of the area
+  };
+
+  Behind behind(const EmptyPiece& piece) const
   {
     const double reach = std::max(RootsBehind * std::sqrt(piece.area), EdgesBehind * meanEdge_);
     std::map<std::size_t, double> areas;
+    double anything = 0.;
     for (const std::uint32_t t : piece.triangles)
     {
       const std::uint32_t other = triangleBehind(t, float(reach));
-      if (other != NoneBehind && pieceOf_[other] != NoPiece)
+      if (other != NoneBehind)
       {
-        areas[pieceOf_[other]] += areaOf(mesh_, triangles_[t]);
+        const double area = areaOf(mesh_, triangles_[t]);
+        anything += area;
+        if (pieceOf_[other] != NoPiece)
+        {
+          areas[pieceOf_[other]] += area;
+        }
       }
     }
     const auto largest = std::max_element(
       areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    return largest != areas.end() && largest->second >= LeastOfSide * piece.area ? largest->first
-                                                                                 : NoPiece;
+    if (largest == areas.end())
+    {
+      return {};
+    }
+    const auto& [other, area] = *largest;
+    const bool isCertain = area >= LeastOfSide * piece.area;
+    const bool isLikely = area >= LeastOfBentSide * piece.area && area > 0.5 * anything;
+    return isCertain || isLikely ? Behind{ other, isCertain } : Behind{};
   }
 
 private:
@@ -157,7 +178,7 @@ private:
 
 std::vector<std::pair<std::size_t, std::size_t>> findWebs(const Mesh& mesh,
   std::span<const Triangle> triangles, std::span<const EmptyPiece> pieces,
-  const std::vector<bool>& mayBeSide, const Executor& executor)
+  const std::vector<bool>& mayBeSide, const std::vector<bool>& isGap, const Executor& executor)
 {
   std::vector<std::pair<std::size_t, std::size_t>> webs;
   if (std::count(mayBeSide.begin(), mayBeSide.end(), true) < 2)
@@ -165,20 +186,22 @@ std::vector<std::pair<std::size_t, std::size_t>> findWebs(const Mesh& mesh,
     return webs;
   }
   const WebSearch search(mesh, triangles, pieces, executor);
-  std::vector<std::size_t> behind(pieces.size(), NoPiece);
+  std::vector<WebSearch::Behind> behind(pieces.size());
   executor.forEachRange(pieces.size(), PiecesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        behind[i] = mayBeSide[i] ? search.behind(pieces[i]) : NoPiece;
+        behind[i] = mayBeSide[i] ? search.behind(pieces[i]) : WebSearch::Behind{};
       }
     });
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    if (behind[i] != NoPiece && behind[i] != i && mayBeSide[behind[i]])
+    const auto& [other, isCertain] = behind[i];
+    if (other != NoPiece && other != i && mayBeSide[other] &&
+      (isCertain || isGap[other] || behind[other].piece == i))
     {
-      webs.emplace_back(i, behind[i]);
+      webs.emplace_back(i, other);
     }
   }
   return webs;
