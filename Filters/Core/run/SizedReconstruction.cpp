@@ -58,6 +58,10 @@ constexpr double MostTimesForGain = 1.2, PartWithGain = 0.93;
 /// Errors vary from run to run. So a trial has so many times the vertices that are expected to be
 /// just enough, and each refined trial that misses the tolerance adds as much.
 constexpr double TimesEnough = 1.04;
+/// On a clean cloud, a mesh that is too large costs less than one that is too small: it is
+/// simplified with a short fit. So the first step to a larger mesh grows by this power of itself: no
+/// trial has shown yet how fast the error falls.
+constexpr double ExcessIfClean = 0.25;
 /// The search ends at a mesh with up to so many times the vertices that are just enough.
 constexpr double TimesTaken = 1.06;
 constexpr double LeastExponent = 0.15, UsualExponent = 0.78, MostExponent = 2.5;
@@ -182,6 +186,10 @@ private:
   std::uint64_t nextSize()
   {
     double size = (1. + (TimesEnough - 1.) * double(1 + missed_)) * enough();
+    if (!enough_ && noise_ == 0. && measured_.size() == 1)
+    {
+      size *= std::pow(size / double(tooFew_->vertices()), ExcessIfClean);
+    }
     if (!enough_ && canMakeAgain() && !tooFew_->isMadeAgain &&
       size <= MostTimesForGain * double(tooFew_->vertices()))
     {
