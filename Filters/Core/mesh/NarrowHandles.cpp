@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -25,7 +28,7 @@ constexpr std::size_t LeastOnEachSide = 32;
 constexpr std::size_t MostStripsTried = 32;
 constexpr std::size_t MostPlaces = 2;
 /// For the executor.
-constexpr std::size_t MostPartsOfStrips = 32;
+constexpr std::size_t VerticesOfStripPart = 4096;
 
 using HandleStrip = std::vector<VertexIndex>;
 
@@ -144,16 +147,31 @@ private:
 std::vector<HandleStrip> narrowStrips(const Mesh& mesh, const Executor& executor)
 {
   std::vector<std::uint8_t> isOpen(mesh.indexEnd(), 0);
-  // Few parts: what was seen takes memory in each.
-  const std::size_t parts = std::clamp<std::size_t>(executor.threadCount(), 1, MostPartsOfStrips);
-  executor.forEachRange(mesh.indexEnd(), (mesh.indexEnd() + parts - 1) / parts,
+  // What was seen takes memory in each, and does not matter to another vertex: so threads use it again.
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Surroundings>> idle;
+  executor.forEachRange(mesh.indexEnd(), VerticesOfStripPart,
     [&](std::size_t begin, std::size_t end)
     {
-      Surroundings surroundings(mesh);
+      std::unique_ptr<Surroundings> surroundings;
+      {
+        const std::lock_guard lock(mutex);
+        if (!idle.empty())
+        {
+          surroundings = std::move(idle.back());
+          idle.pop_back();
+        }
+      }
+      if (!surroundings)
+      {
+        surroundings = std::make_unique<Surroundings>(mesh);
+      }
       for (auto v = VertexIndex(begin); v < end; ++v)
       {
-        isOpen[v] = surroundings.closeUp(v) ? 1 : 0;
+        isOpen[v] = surroundings->closeUp(v) ? 1 : 0;
       }
+      const std::lock_guard lock(mutex);
+      idle.push_back(std::move(surroundings));
     });
   std::vector<HandleStrip> strips;
   for (VertexIndex first = 0; first < mesh.indexEnd(); ++first)
