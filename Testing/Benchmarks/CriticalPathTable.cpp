@@ -73,9 +73,10 @@ protected:
       now = after;
       free.pop();
       free.push(end);
+      // At once, as a part may report progress.
+      pathSeconds_ += std::max(0., end - last);
       last = std::max(last, end);
     }
-    pathSeconds_ += last;
     isAtWork_ = false;
   }
 

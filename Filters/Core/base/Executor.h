@@ -26,6 +26,9 @@ public:
   /// At most so many parts run at the same time.
   virtual unsigned threadCount() const = 0;
 
+  /// The same without an interruption between parts, for what must not throw.
+  virtual const Executor& uninterrupted() const { return *this; }
+
   /// Calls `body(part)` for the parts 0 ... count - 1, in any order; returns when all are done.
   /// What a part throws is thrown here, once all that have begun are done. Allocates nothing.
   template <typename Body>

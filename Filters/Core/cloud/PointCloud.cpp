@@ -4,6 +4,7 @@
 #include "base/BucketOrder.h"
 #include "base/Morton.h"
 #include "base/OrderStatistics.h"
+#include "base/TouchedVector.h"
 #include "mesh/BoxTree.h"
 
 #include <algorithm>
@@ -399,7 +400,7 @@ void PointCloud::takePoints(const Input& input, bool keepsOrigins, const Executo
   };
   const BucketOrder buckets(
     input.points.size(), PointsPerRange, std::size_t(1) << bits, forEachNear, executor);
-  points_.resize(buckets.itemCount());
+  points_ = touchedVector<LargeVector<Vector4>>(buckets.itemCount(), executor);
   origins_.resize(keepsOrigins ? buckets.itemCount() : 0);
   executor.forEachPart(buckets.bucketCount(),
     [&](std::size_t bucket)

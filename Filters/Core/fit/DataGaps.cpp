@@ -50,6 +50,7 @@ constexpr double LeastSpacingsIfEmpty = 1.5;
 /// Sizes of parts for the executor.
 constexpr std::size_t TrianglesPerRange = 4096;
 constexpr std::size_t PlacesCountedPerRange = 16384;
+constexpr std::size_t PiecesPerRange = 64;
 /// Samples are sparse where their distance is more than so many times the usual one. There, the
 /// local distance counts.
 constexpr double SparseGapSpacings = 2.;
@@ -264,8 +265,8 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   { return isFine && piece.samplesAround < LeastExpectedSamples ? meanDensity : piece.density(); };
   std::erase_if(pieces,
     [&](const EmptyPiece& piece) { return piece.area * densityAt(piece) < LeastExpectedSamples; });
-  std::vector<bool> isGap(pieces.size()), isSideOfWeb(pieces.size());
-  for (std::size_t i = 0; i < pieces.size(); ++i)
+  std::vector<std::uint8_t> isGap(pieces.size()), isSide(pieces.size());
+  const auto judge = [&](std::size_t i)
   {
     const EmptyPiece& piece = pieces[i];
     const double spacing = std::max(meanSpacing, 1. / std::sqrt(densityAt(piece)));
@@ -277,22 +278,35 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
         [&](std::uint32_t t)
         { return distance(t) > std::max(reach, spacings * sparseSpacing(t)); });
     };
-    isGap[i] = (piece.isAtBoundary && !mustBeFar) || reaches(LeastSpacings, LeastMedians, 0.);
-    isSideOfWeb[i] = !piece.isAtBoundary &&
-      (isGap[i] ||
-        reaches(LeastSpacingsOfWeb, LeastMediansOfWeb, LeastRootsOfWeb * std::sqrt(piece.area)));
-  }
+    const bool isOne =
+      (piece.isAtBoundary && !mustBeFar) || reaches(LeastSpacings, LeastMedians, 0.);
+    isGap[i] = isOne ? 1 : 0;
+    isSide[i] = !piece.isAtBoundary &&
+        (isOne ||
+          reaches(LeastSpacingsOfWeb, LeastMediansOfWeb, LeastRootsOfWeb * std::sqrt(piece.area)))
+      ? 1
+      : 0;
+  };
+  executor.forEachRange(pieces.size(), PiecesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        judge(i);
+      }
+    });
+  const std::vector<bool> isSideOfWeb(isSide.begin(), isSide.end());
   points.reset();
   for (const auto& [one, other] :
     findWebs(mesh, triangles.all(), pieces, isSideOfWeb, isGap, executor))
   {
-    isGap[one] = true;
-    isGap[other] = true;
+    isGap[one] = 1;
+    isGap[other] = 1;
   }
   std::vector<Triangle> gaps;
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    if (isGap[i])
+    if (isGap[i] != 0)
     {
       std::transform(pieces[i].triangles.begin(), pieces[i].triangles.end(),
         std::back_inserter(gaps), [&](std::uint32_t t) { return triangles.all()[t]; });

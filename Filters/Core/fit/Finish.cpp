@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/Finish.h"
 
+#include "base/InterruptibleExecutor.h"
 #include "fit/FidelityRounds.h"
 #include "fit/SheetJoints.h"
 #include "fit/SliverRepair.h"
@@ -79,6 +80,19 @@ Finish::Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
 bool Finish::run(const Progress& progress)
 {
   const StoredMesh before(mesh_, executor_);
+  try
+  {
+    return runAll(before, progress);
+  }
+  catch (const Interrupted&)
+  {
+    mesh_ = before.mesh(executor_);
+    return false;
+  }
+}
+
+bool Finish::runAll(const StoredMesh& before, const Progress& progress)
+{
   FitGuard guard(cloud_, mesh_, executor_, plan_.residualTo);
   if (!progress(0.) || !runRounds(plan_.rounds, guard, progress))
   {

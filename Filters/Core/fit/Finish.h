@@ -76,12 +76,14 @@ public:
     const Executor& executor = Executor::sequential(), PointNormals normalOf = {},
     PointViews viewOf = {});
 
-  /// Returns false if it was ended before its end; then the mesh is valid all the same.
+  /// Returns false if it was ended before its end; then the mesh is valid all the same. It is as it was at first if the
+  /// executor was interrupted.
   bool run(const Progress& progress);
 
   const FinishReport& report() const { return report_; }
 
 private:
+  bool runAll(const StoredMesh& before, const Progress& progress);
   bool runRounds(int rounds, FitGuard& guard, const Progress& progress);
   bool isWorseThan(const StoredMesh& before, FitGuard& guard) const;
   bool isMuchFolded() const;

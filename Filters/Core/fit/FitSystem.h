@@ -79,11 +79,14 @@ public:
   {
     return solve(lambda, tolerance, scale, x, progress, rightSide_);
   }
-  /// Solves the system for the last time, in less memory.
+  /// Solves the system for the last time, in less memory. Nothing but the rings is left of it.
   bool solveLast(
     double lambda, double tolerance, double& scale, std::span<Vector4> x, const Progress& progress)
   {
-    return solve(lambda, tolerance, scale, x, progress, std::move(rightSide_));
+    const bool isSolved = solve(lambda, tolerance, scale, x, progress, std::move(rightSide_));
+    diagonal_ = SymmetricBlocks(0);
+    others_.reset();
+    return isSolved;
   }
 
   const CompactRings& rings() const { return rings_; }

@@ -381,11 +381,12 @@ void SurfaceFit::pullTipsIn()
 
 bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
 {
-  fillSystem();
+  // Before the equations, beside which there is least memory left.
   if (!spacing_)
   {
     spacing_.emplace(mesh_, places_, executor_).forgetEdges();
   }
+  fillSystem();
   if (!progress(0.))
   {
     system_.reset();

@@ -42,7 +42,7 @@ public:
   RingsReleased(Mesh& mesh, const CompactRings& rings, const Executor& executor)
     : mesh_(mesh)
     , rings_(rings)
-    , executor_(executor)
+    , executor_(executor.uninterrupted())
   {
     mesh_.releaseRings();
   }

@@ -2,6 +2,7 @@
 #include "mesh/Mesh.h"
 
 #include "base/Executor.h"
+#include "base/TouchedVector.h"
 #include "mesh/Renumbering.h"
 
 #include <algorithm>
@@ -369,8 +370,8 @@ void Mesh::renumber(std::span<const VertexIndex> permutation, const Executor& ex
 {
   assert(permutation.size() == vertexCount());
   const std::vector<VertexIndex> newIndex = newIndices(permutation);
-  LargeVector<Ring> rings(permutation.size());
-  LargeVector<Vector4> positions(permutation.size());
+  auto rings = touchedVector<LargeVector<Ring>>(permutation.size(), executor);
+  auto positions = touchedVector<LargeVector<Vector4>>(permutation.size(), executor);
   executor.forEachRange(permutation.size(), MeshVerticesPerRange,
     [&](std::size_t begin, std::size_t end)
     {

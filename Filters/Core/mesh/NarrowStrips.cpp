@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -14,7 +17,7 @@ constexpr std::size_t LeastInStrip = 3;
 /// Edges around a strip in which its sides are looked at.
 constexpr int RingsAround = 4;
 /// For the executor.
-constexpr std::size_t MostPartsOfStrips = 32;
+constexpr std::size_t VerticesOfStripPart = 4096;
 
 /// The vertices that lie within some edges of one.
 class Surroundings
@@ -134,16 +137,32 @@ std::vector<NarrowStrip> findNarrowStrips(const Mesh& mesh, const Executor& exec
   const StripLimits& limits, std::span<const std::uint8_t> isCandidate)
 {
   std::vector<std::uint8_t> isOpen(mesh.indexEnd(), 0);
-  // Few parts: what was seen takes memory in each.
-  const std::size_t parts = std::clamp<std::size_t>(executor.threadCount(), 1, MostPartsOfStrips);
-  executor.forEachRange(mesh.indexEnd(), (mesh.indexEnd() + parts - 1) / parts,
+  // What was seen takes memory in each, and does not matter to another vertex: so threads use it again.
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Surroundings>> idle;
+  executor.forEachRange(mesh.indexEnd(), VerticesOfStripPart,
     [&](std::size_t begin, std::size_t end)
     {
-      Surroundings surroundings(mesh, limits.longestLoop);
+      std::unique_ptr<Surroundings> surroundings;
+      {
+        const std::lock_guard lock(mutex);
+        if (!idle.empty())
+        {
+          surroundings = std::move(idle.back());
+          idle.pop_back();
+        }
+      }
+      if (!surroundings)
+      {
+        surroundings = std::make_unique<Surroundings>(mesh, limits.longestLoop);
+      }
       for (auto v = VertexIndex(begin); v < end; ++v)
       {
-        isOpen[v] = (isCandidate.empty() || isCandidate[v] != 0) && surroundings.closeUp(v) ? 1 : 0;
+        isOpen[v] =
+          (isCandidate.empty() || isCandidate[v] != 0) && surroundings->closeUp(v) ? 1 : 0;
       }
+      const std::lock_guard lock(mutex);
+      idle.push_back(std::move(surroundings));
     });
   std::vector<NarrowStrip> strips;
   for (VertexIndex first = 0; first < mesh.indexEnd(); ++first)

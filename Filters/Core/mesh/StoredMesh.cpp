@@ -2,6 +2,7 @@
 #include "mesh/StoredMesh.h"
 
 #include "base/DifferenceBytes.h"
+#include "base/TouchedVector.h"
 
 #include <array>
 #include <span>
@@ -76,8 +77,8 @@ StoredMesh::StoredMesh(const Mesh& mesh, const Executor& executor)
 Mesh StoredMesh::mesh(const Executor& executor) const
 {
   Mesh result = rest_;
-  result.rings_.resize(indexEnd_);
-  result.positions_.resize(indexEnd_);
+  result.rings_ = touchedVector<LargeVector<Ring>>(indexEnd_, executor);
+  result.positions_ = touchedVector<LargeVector<Vector4>>(indexEnd_, executor);
   executor.forEachRange(indexEnd_, ByteBlocks::ItemsOfBlock,
     [&](std::size_t begin, std::size_t end)
     {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/Subdivision.h"
 
+#include "base/TouchedVector.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -60,8 +62,8 @@ Subdivision subdivide(const Mesh& mesh, const Executor& executor)
 {
   const EdgeNumbers numbers(mesh, executor);
   const std::size_t count = mesh.indexEnd();
-  LargeVector<Vector4> positions(count + numbers.count());
-  LargeVector<Ring> rings(count + numbers.count());
+  auto positions = touchedVector<LargeVector<Vector4>>(count + numbers.count(), executor);
+  auto rings = touchedVector<LargeVector<Ring>>(count + numbers.count(), executor);
   std::vector<std::array<VertexIndex, 2>> edges(numbers.count());
   const auto middle = [&](VertexIndex a, VertexIndex b)
   { return VertexIndex(count + numbers(a, b)); };

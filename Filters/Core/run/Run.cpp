@@ -58,8 +58,13 @@ RunRequest requestWith(const RunRequest& request, const Parameters& parameters)
 
 Run::Run(const RunRequest& request, const Progress& progress)
   : request_(request)
-  , progress_([this, &progress](double fraction)
-      { return !isCancelled_ && !(isCancelled_ = !progress(fraction)); })
+  , progress_(
+      [this, &progress](double fraction)
+      {
+        fraction_ = fraction;
+        return !isCancelled_ && !(isCancelled_ = !progress(fraction));
+      })
+  , interruptible_(request.executor, [this] { return progress_(fraction_); })
 {
 }
 
@@ -129,8 +134,12 @@ void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress)
   const bool isRefined = vertices < asked && finished == most;
   const Progress finishing = inTime(run, progress);
   const double endOfFirst = isRefined ? PartBeforeRefinement : 1.;
-  result.finish = neuralmesh::finish(learnt, cloud(), parameters, run.gaps, finished,
-    partOf(finishing, 0., endOfFirst), request_.executor, request_.hints);
+  result.finish = unlessInterrupted(
+    [&]
+    {
+      return neuralmesh::finish(learnt, cloud(), parameters, run.gaps, finished,
+        partOf(finishing, 0., endOfFirst), interruptible_, request_.hints);
+    });
   if (result.finish && isRefined)
   {
     const auto refined = std::size_t(parametersFor(asked, request_).numberOfVertices);
@@ -167,9 +176,13 @@ bool Run::make(LearntRun& run, std::uint64_t asked, ProgressPart part)
 bool Run::makeAgain(LearntRun& run, std::uint64_t asked, ProgressPart part)
 {
   Reconstruction& result = run.result;
-  result.finish = finishAgain(run.learnt, *result.finish, cloud(), parametersFor(asked, request_),
-    std::size_t(asked), inTime(run, partOf(progress_, part.begin, part.end)), request_.executor,
-    request_.hints);
+  result.finish = unlessInterrupted(
+    [&]
+    {
+      return finishAgain(run.learnt, *result.finish, cloud(), parametersFor(asked, request_),
+        std::size_t(asked), inTime(run, partOf(progress_, part.begin, part.end)), interruptible_,
+        request_.hints);
+    });
   result.curve.endWith(run.learnt.mesh);
   if (!result.finish)
   {
@@ -192,10 +205,13 @@ Reconstruction Run::describe(LearntRun run, std::uint64_t asked, ProgressPart pa
   const bool isWhole = result.stopReason != StopReason::Cancelled;
   const Progress describing = partOf(progress_, part.end, part.end);
   neuralmesh::describe(std::move(run.learnt), cloud(), isWhole ? &request_.cloud : nullptr,
-    request_.hints, result, describing, request_.executor);
-  if (isWhole &&
-    !explainPoints(request_.cloud, cleaned_ ? &*cleaned_ : nullptr, request_.parameters.keepPieces,
-      request_.explainsAll, result, describing, request_.executor))
+    request_.hints, result, describing, interruptible_);
+  const auto explains = [&]
+  {
+    return explainPoints(request_.cloud, cleaned_ ? &*cleaned_ : nullptr,
+      request_.parameters.keepPieces, request_.explainsAll, result, describing, interruptible_);
+  };
+  if (isWhole && !unlessInterrupted(explains))
   {
     result.stopReason = StopReason::Cancelled;
     result.quality.reset();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/InterruptibleExecutor.h"
 #include "base/Progress.h"
 #include "cloud/OrientationHints.h"
 #include "cloud/PointCloud.h"
@@ -92,6 +93,9 @@ private:
   RunRequest request_;
   Progress progress_;
   bool isCancelled_ = false;
+  double fraction_ = 0.; ///< last told
+  /// For what leaves no mesh half changed.
+  InterruptibleExecutor interruptible_;
   std::optional<PointCloud> cleaned_; ///< nothing: there are no clusters of outliers
 };
 

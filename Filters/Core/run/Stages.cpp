@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/Stages.h"
 
+#include "base/InterruptibleExecutor.h"
 #include "cloud/MeshBuilder.h"
 #include "cloud/RepeatedPoints.h"
 #include "fit/CreaseRefinement.h"
@@ -329,7 +330,7 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
 {
   // A run that is ended here has a mesh without a report.
   bool goesOn = progress(0.);
-  result.orientation = orientMesh(learnt.mesh, cloud, hints, executor);
+  result.orientation = orientMesh(learnt.mesh, cloud, hints, executor.uninterrupted());
   goesOn = goesOn && progress(0.);
   result.mesh = trianglesOf(learnt.mesh, cloud);
   result.normals = pointNormals(result.mesh);
@@ -349,8 +350,12 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
   }
   if (all && goesOn && progress(0.))
   {
-    result.quality =
-      measureQuality(*all, learnt.mesh, result.mesh, executor, DistanceTo::SurfaceAgain, progress);
+    result.quality = unlessInterrupted(
+      [&]
+      {
+        return measureQuality(
+          *all, learnt.mesh, result.mesh, executor, DistanceTo::SurfaceAgain, progress);
+      });
   }
   result.surface = std::move(learnt.mesh);
 }

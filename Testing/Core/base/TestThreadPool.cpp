@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/InterruptibleExecutor.h"
 #include "base/ThreadPool.h"
 #include "cloud/CloudGenerator.h"
 #include "cloud/CloudPlaces.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <stdexcept>
@@ -157,6 +159,38 @@ TEST(ThreadPool, PassesErrorsOn)
   std::atomic<int> calls = 0;
   pool.forEachPart(100, [&](std::size_t) { ++calls; });
   EXPECT_EQ(calls, 100);
+}
+
+// Promise: a run is asked for only on its own thread, and ends within its parts; what runs afterwards, as what must not
+// throw, runs to its end.
+TEST(InterruptibleExecutor, AsksOnItsThread)
+{
+  const ThreadPool pool(3);
+  const std::thread::id thread = std::this_thread::get_id();
+  std::atomic<int> asked = 0;
+  const InterruptibleExecutor executor(pool,
+    [&]
+    {
+      EXPECT_EQ(std::this_thread::get_id(), thread);
+      return ++asked < 3;
+    });
+  EXPECT_EQ(executor.threadCount(), 3u);
+  std::atomic<int> parts = 0;
+  const auto takeTime = [&](std::size_t)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ++parts;
+  };
+  executor.uninterrupted().forEachPart(30, takeTime);
+  EXPECT_EQ(parts, 30);
+  EXPECT_EQ(asked, 0);
+  EXPECT_THROW(executor.forEachPart(300, takeTime), Interrupted);
+  EXPECT_LT(parts, 330);
+  EXPECT_EQ(asked, 3);
+  parts = 0;
+  executor.forEachPart(30, takeTime);
+  EXPECT_EQ(parts, 30);
+  EXPECT_EQ(asked, 3);
 }
 
 // Promise: without a number, there are as many threads as the machine runs at once.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/Finish.h"
 
+#include "base/InterruptibleExecutor.h"
 #include "cloud/MeshBuilder.h"
 #include "fit/IntersectionRepair.h"
 #include "learn/SequentialLearner.h"
@@ -31,6 +32,36 @@ constexpr std::size_t Vertices = 1500;
 /// ... of the sphere.
 constexpr double PartOfDenseTop = 0.005;
 constexpr double NoiseOfDenseTop = 0.02;
+
+/// Is interrupted before one part.
+class ExecutorToInterrupt final : public Executor
+{
+public:
+  explicit ExecutorToInterrupt(std::size_t part)
+    : last_(part)
+  {
+  }
+  unsigned threadCount() const override { return 1; }
+  const Executor& uninterrupted() const override { return Executor::sequential(); }
+  std::size_t partCount() const { return count_; }
+
+protected:
+  void run(std::size_t count, Part part, const void* context) const override
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (count_++ == last_)
+      {
+        throw Interrupted();
+      }
+      part(context, i);
+    }
+  }
+
+private:
+  std::size_t last_;
+  mutable std::size_t count_ = 0;
+};
 
 bool isInDenseTop(const Eigen::Vector3d& point)
 {
@@ -425,5 +456,38 @@ TEST(Finish, CanBeEnded)
     expectOriginsInRange(mesh, origin);
   }
   EXPECT_GT(calls, 10);
+}
+
+// Promise: interrupted at any part, a mesh is what it was at first.
+TEST(Finish, CanBeInterrupted)
+{
+  const PointCloud cloud = noisySphere(0., 0., true);
+  const Mesh before = learnt(cloud, 300);
+  FinishPlan plan;
+  plan.vertexCount = before.vertexCount();
+  plan.gaps = GapPlan{ BridgeWidth };
+  const auto finished = [&](const Executor& executor)
+  {
+    Mesh mesh = before;
+    if (Finish(cloud, mesh, plan, executor).run([](double) { return true; }))
+    {
+      return true;
+    }
+    EXPECT_TRUE(std::ranges::equal(trianglesIn(mesh).triangles, trianglesIn(before).triangles));
+    EXPECT_TRUE(std::ranges::equal(mesh.positions(), before.positions(),
+      [](Vector4 a, Vector4 b) { return squaredNorm(a - b) == 0.f; }));
+    return false;
+  };
+  const ExecutorToInterrupt all(std::size_t(-1));
+  EXPECT_TRUE(finished(all));
+  constexpr std::size_t Times = 20;
+  // The mesh is laid aside before all else.
+  const std::size_t first = 10;
+  ASSERT_GT(all.partCount(), first + Times);
+  for (std::size_t i = 0; i < Times; ++i)
+  {
+    SCOPED_TRACE(i);
+    EXPECT_FALSE(finished(ExecutorToInterrupt(first + i * (all.partCount() - first) / Times)));
+  }
 }
 }
