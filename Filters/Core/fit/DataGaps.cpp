@@ -295,10 +295,11 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
         judge(i);
       }
     });
-  const std::vector<bool> isSideOfWeb(isSide.begin(), isSide.end());
+  const std::vector<bool> isSideOfWeb(isSide.begin(), isSide.end()),
+    isSure(isGap.begin(), isGap.end());
   points.reset();
   for (const auto& [one, other] :
-    findWebs(mesh, triangles.all(), pieces, isSideOfWeb, isGap, executor))
+    findWebs(mesh, triangles.all(), pieces, isSideOfWeb, isSure, executor))
   {
     isGap[one] = 1;
     isGap[other] = 1;
