@@ -3,6 +3,7 @@
 
 #include "fit/PlaneQuadric.h"
 #include "fit/SampleBundle.h"
+#include "mesh/EdgeFlips.h"
 #include "mesh/TriangleShape.h"
 
 #include <algorithm>
@@ -19,13 +20,18 @@ namespace
 constexpr double LeastSamplesOfPlane = 3.;
 /// A triangle is crooked if all planes around it are turned by more against it.
 constexpr float MostCosineOfCrooked = 0.9f;
-/// What is left of the crookedness, at most.
+/// What is left of the crookedness, at most: if samples get closer, and if not. What is left lies in no plane around,
+/// as a fillet between two of them does.
 constexpr double MostCrookednessLeft = 0.5;
+constexpr double MostLeftWithoutGain = 0.125;
 /// The regularisation of a quadric holds a place back a little: it is looked for again from there.
 constexpr int SearchesForCorner = 4;
 /// No triangle may turn by more, nor become worse than that, unless it was.
 constexpr float LeastCornerCosine = 0.2f;
 constexpr float LeastCornerRatio = 0.15f;
+/// An edge opposite to the vertex is flipped if no others change.
+constexpr unsigned LeastCornerValence = 4;
+constexpr unsigned MostCornerValence = 9;
 /// By so many deviations samples may be missing.
 constexpr double DeviationsOfMissing = 2.;
 /// Of the squares that the new triangles gain.
@@ -81,6 +87,10 @@ public:
       const Corner corner = cornerOf(v);
       if (corner.gain > 0.)
       {
+        if (corner.flipped[0] != NoVertex)
+        {
+          mesh_.flip(corner.flipped[0], corner.flipped[1]);
+        }
         mesh_.setPosition(v, corner.place);
         lockAround(v);
         changed_.touchAround(mesh_, v);
@@ -95,6 +105,13 @@ private:
   {
     double gain = 0.;
     Vector4 place;
+    Edge flipped{ NoVertex, NoVertex }; ///< if any, before it goes there
+  };
+  /// A triangle of the vertex: its other corners, and its normal, twice the area long, before the vertex goes.
+  struct Side
+  {
+    VertexIndex first, second;
+    Vector4 normal;
   };
 
   SampleLoad loadAt(VertexIndex v, unsigned slot) const
@@ -133,15 +150,92 @@ private:
 
   Corner cornerOf(VertexIndex v)
   {
-    const Vector4 from = mesh_.position(v);
     const Vector4 place = planesMeetNear(v);
-    const double before = crookedness(v, from), after = crookedness(v, place);
-    if (!isCrooked(v) || !(after <= MostCrookednessLeft * before) || !isNear(v, place) ||
-      !keepsShape(v, place) || !hasSamples(v, place))
+    if (!isNear(v, place))
     {
       return {};
     }
-    return { before - after, place };
+    Corner corner{ 0., place };
+    collectStar(v);
+    const unsigned spoiled = spoiledSide(v, place);
+    if (spoiled < sides_.size() && !flipSide(v, spoiled, corner))
+    {
+      return {};
+    }
+    const double after = crookednessAt(place);
+    if (!isCrooked_ || !(after <= MostCrookednessLeft * crookedBefore_) || !keepsShape(v, place) ||
+      !hasSamples(place, after <= MostLeftWithoutGain * crookedBefore_))
+    {
+      return {};
+    }
+    corner.gain = crookedBefore_ - after;
+    return corner;
+  }
+
+  /// Notes the triangles of the vertex, their samples, and how crooked they are.
+  void collectStar(VertexIndex v)
+  {
+    const Ring& ring = mesh_.ring(v);
+    sides_.clear();
+    onStar_.clear();
+    old_.clear();
+    crookedBefore_ = 0.;
+    isCrooked_ = false;
+    for (unsigned slot = 0; slot < ring.size(); ++slot)
+    {
+      const VertexIndex first = ring[slot], second = ring[ring.after(slot)];
+      sides_.push_back({ first, second, normalAt(v, slot, mesh_.position(v)) });
+      addOld(v, first, second, sides_.back().normal);
+    }
+  }
+
+  void addOld(VertexIndex a, VertexIndex b, VertexIndex c, Vector4 normal)
+  {
+    samples_.collect(a, b, c, onStar_);
+    old_.emplace_back(mesh_.position(a), mesh_.position(b), mesh_.position(c));
+    crookedBefore_ += crookedness(normal);
+    isCrooked_ =
+      isCrooked_ || alongPlane(normal) < MostCosineOfCrooked * std::sqrt(squaredNorm(normal));
+  }
+
+  /// The only triangle that would turn over or become a sliver; their number if there are more, or none.
+  unsigned spoiledSide(VertexIndex v, Vector4 place) const
+  {
+    const auto isSpoiled = [&](const Side& side)
+    {
+      return turns(side, place) ||
+        ratioOf(side, place) < std::min(LeastCornerRatio, ratioOf(side, mesh_.position(v)));
+    };
+    const auto first = std::find_if(sides_.begin(), sides_.end(), isSpoiled);
+    const bool isOnly = first != sides_.end() && std::none_of(first + 1, sides_.end(), isSpoiled);
+    return unsigned((isOnly ? first : sides_.end()) - sides_.begin());
+  }
+
+  /// Flips the edge that is opposite to the vertex, in what is noted. A vertex that goes to a crease comes between two
+  /// neighbours that lie there already: nothing is left of their triangle, and it belongs to the other face.
+  bool flipSide(VertexIndex v, unsigned index, Corner& corner)
+  {
+    const auto [a, b, normal] = sides_[index];
+    if (mesh_.isBoundaryEdge(a, b) || mesh_.valence(a) <= LeastCornerValence ||
+      mesh_.valence(b) <= LeastCornerValence || mesh_.valence(v) >= MostCornerValence ||
+      !mesh_.canFlip(a, b))
+    {
+      return false;
+    }
+    const Edge opposite = oppositeTo(mesh_, { a, b });
+    const VertexIndex beyond = opposite[0] == v ? opposite[1] : opposite[0];
+    if (isLocked_[beyond] != 0 || mesh_.isBoundary(beyond) ||
+      mesh_.valence(beyond) >= MostCornerValence)
+    {
+      return false;
+    }
+    const Vector4 start = mesh_.position(b);
+    const Vector4 other = cross(mesh_.position(a) - start, mesh_.position(beyond) - start);
+    addOld(beyond, b, a, other);
+    sides_[index] = { a, beyond, normal + other };
+    sides_.push_back({ beyond, b, normal + other });
+    corner.flipped = { a, b };
+    return true;
   }
 
   /// Notes the planes of the triangles at the neighbours, and how many samples have which area there.
@@ -198,31 +292,34 @@ private:
     return most;
   }
 
-  bool isCrooked(VertexIndex v) const
+  /// By how much, and over which area, triangles are turned against the planes.
+  double crookedness(Vector4 normal) const
   {
-    const Ring& ring = mesh_.ring(v);
-    for (unsigned slot = 0; slot < ring.size(); ++slot)
-    {
-      const Vector4 normal = normalAt(v, slot, mesh_.position(v));
-      if (alongPlane(normal) < MostCosineOfCrooked * std::sqrt(squaredNorm(normal)))
-      {
-        return true;
-      }
-    }
-    return false;
+    return double(std::sqrt(squaredNorm(normal)) - alongPlane(normal));
   }
-
-  /// By how much, and over which area, the triangles are turned against the planes.
-  double crookedness(VertexIndex v, Vector4 place) const
+  double crookednessAt(Vector4 place) const
   {
-    const Ring& ring = mesh_.ring(v);
     double sum = 0.;
-    for (unsigned slot = 0; slot < ring.size(); ++slot)
+    for (const Side& side : sides_)
     {
-      const Vector4 normal = normalAt(v, slot, place);
-      sum += double(std::sqrt(squaredNorm(normal)) - alongPlane(normal));
+      sum += crookedness(normalOf(side, place));
     }
     return sum;
+  }
+
+  Vector4 normalOf(const Side& side, Vector4 place) const
+  {
+    return cross(mesh_.position(side.first) - place, mesh_.position(side.second) - place);
+  }
+
+  float ratioOf(const Side& side, Vector4 place) const
+  {
+    return radiusRatio(place, mesh_.position(side.first), mesh_.position(side.second));
+  }
+
+  bool turns(const Side& side, Vector4 place) const
+  {
+    return cosineBetween(normalOf(side, place), side.normal) < LeastCornerCosine;
   }
 
   /// Not beyond the farthest neighbour.
@@ -238,44 +335,31 @@ private:
   /// Whether no triangle turns over or becomes a sliver.
   bool keepsShape(VertexIndex v, Vector4 place) const
   {
-    const Ring& ring = mesh_.ring(v);
     float before = 1.f, after = 1.f;
-    for (unsigned slot = 0; slot < ring.size(); ++slot)
+    for (const Side& side : sides_)
     {
-      const Vector4 a = mesh_.position(ring[slot]), b = mesh_.position(ring[ring.after(slot)]);
-      if (cosineBetween(normalAt(v, slot, place), normalAt(v, slot, mesh_.position(v))) <
-        LeastCornerCosine)
+      if (turns(side, place))
       {
         return false;
       }
-      before = std::min(before, radiusRatio(mesh_.position(v), a, b));
-      after = std::min(after, radiusRatio(place, a, b));
+      before = std::min(before, ratioOf(side, mesh_.position(v)));
+      after = std::min(after, ratioOf(side, place));
     }
     return after >= LeastCornerRatio || after >= before;
   }
 
   /// Whether the samples allow for the triangles around `place`.
-  bool hasSamples(VertexIndex v, Vector4 place)
+  bool hasSamples(Vector4 place, bool mayLose)
   {
-    const Ring& ring = mesh_.ring(v);
-    onStar_.clear();
-    old_.clear();
     new_.clear();
-    for (unsigned slot = 0; slot < ring.size(); ++slot)
-    {
-      const VertexIndex a = ring[slot], b = ring[ring.after(slot)];
-      samples_.collect(v, a, b, onStar_);
-      old_.emplace_back(mesh_.position(v), mesh_.position(a), mesh_.position(b));
-      new_.emplace_back(place, mesh_.position(a), mesh_.position(b));
-    }
     double expected = 0., gain = 0.;
-    for (unsigned slot = 0; slot < ring.size(); ++slot)
+    for (const Side& side : sides_)
     {
-      const double onTriangle = density_ * std::sqrt(double(squaredNorm(normalAt(v, slot, place))));
+      const Vector4 a = mesh_.position(side.first), b = mesh_.position(side.second);
+      new_.emplace_back(place, a, b);
+      const double onTriangle = density_ * std::sqrt(double(squaredNorm(normalOf(side, place))));
       expected += onTriangle;
-      const Vector4 middle =
-        1.f / 3.f * (place + mesh_.position(ring[slot]) + mesh_.position(ring[ring.after(slot)]));
-      gain += onTriangle * double(squaredTo(old_, middle));
+      gain += onTriangle * double(squaredTo(old_, 1.f / 3.f * (place + a + b)));
     }
     if (expected - double(onStar_.size()) > DeviationsOfMissing * std::sqrt(expected))
     {
@@ -285,7 +369,7 @@ private:
     {
       return true;
     }
-    double most = MostPartLost * gain;
+    double most = mayLose ? MostPartLost * gain : 0.;
     for (const std::uint32_t sample : onStar_)
     {
       most += double(samples_.weight(sample)) * double(samples_.squaredDistance(sample));
@@ -322,7 +406,10 @@ private:
   ChangedVertices changed_;
   std::vector<Triangle> triangles_; ///< at the neighbours
   std::vector<Vector4> planes_;     ///< unit normals of those that samples confirm
-  double density_ = 0.;             ///< of samples on all of them, by the length of normals
+  std::vector<Side> sides_;
+  double crookedBefore_ = 0.;
+  bool isCrooked_ = false;
+  double density_ = 0.; ///< of samples on all of them, by the length of normals
   std::vector<std::uint32_t> onStar_;
   SampleBundle bundle_; ///< of these
   std::vector<TriangleDistances> old_, new_;

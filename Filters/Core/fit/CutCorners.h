@@ -11,7 +11,8 @@ namespace neuralmesh
 /// there to pull: but the planes of the triangles around, as far as samples confirm these, go on until they meet. So a
 /// vertex goes there if its triangles then lie in such planes, and if no more samples are missing on them than
 /// by chance: a gap of the data is not a corner. Samples may get farther only by a part of what those on the new
-/// triangles would get closer.
+/// triangles would get closer, and not at all if a part of the triangles still lies in no plane: a fillet may be there.
+/// An edge between two neighbours is flipped if nothing but a sliver would be left of its triangle.
 ChangedVertices completeCorners(Mesh& mesh, const PlacedSamples& samples, double variance,
   const Executor& executor = Executor::sequential());
 }

@@ -259,6 +259,62 @@ TEST(CutCorners, GetSharpWherePlanesMeet)
   }
 }
 
+// Where a rim bends a little, a vertex that goes back to it comes between its neighbours there: the edge between these is
+// flipped, instead of a sliver.
+TEST(CutCorners, FlipWhatWouldBecomeASliver)
+{
+  TriangleMesh roof = makeCube(10);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : roof.points)
+  {
+    box.extend(point);
+  }
+  std::size_t corner = 0;
+  for (std::size_t i = 0; i < roof.points.size(); ++i)
+  {
+    Eigen::Vector3d part = (roof.points[i] - box.min()).cwiseQuotient(box.sizes());
+    corner = (part - Eigen::Vector3d(0.5, 1., 1.)).norm() < 1e-6 ? i : corner;
+    part.y() *= 1.1 - 0.2 * std::abs(part.x() - 0.5);
+    roof.points[i] = part;
+  }
+  CloudOptions options;
+  options.count = 20000;
+  std::vector<Eigen::Vector3d> points = generateCloud(roof, options);
+  const Eigen::Vector3d sharp = roof.points[corner];
+  std::erase_if(
+    points, [&](const Eigen::Vector3d& point) { return (point - sharp).norm() < 0.02; });
+  const PointCloud cloud(points);
+  Mesh mesh = buildMesh(roof, cloud);
+  const auto v = VertexIndex(corner);
+  const Ring before = mesh.ring(v);
+  std::vector<VertexIndex> alongRim;
+  for (const VertexIndex neighbor : before)
+  {
+    const Eigen::Vector3d& place = roof.points[neighbor];
+    if (place.z() > 1. - 1e-6 && std::abs(place.x() - 0.5) > 0.05 && place.y() > 1.05)
+    {
+      alongRim.push_back(neighbor);
+    }
+  }
+  ASSERT_EQ(alongRim.size(), 2u);
+  for (const VertexIndex neighbor : before)
+  {
+    if (roof.points[neighbor].z() > 1. - 1e-6 && neighbor != alongRim[0] && neighbor != alongRim[1])
+    {
+      ASSERT_TRUE(mesh.canFlip(v, neighbor));
+      mesh.flip(v, neighbor);
+    }
+  }
+  ASSERT_TRUE((mesh.ring(alongRim[0]).find(alongRim[1]) < mesh.valence(alongRim[0])));
+  const Vector4 place = mesh.position(v);
+  mesh.setPosition(v, place - Vector4(Eigen::Vector3d(0., 0., 0.03 / cloud.unit())));
+  const PlacedCloud placed(cloud, mesh);
+  EXPECT_TRUE(completeCorners(mesh, placed.samples, 0.).any);
+  EXPECT_EQ(defectOf(mesh), "");
+  EXPECT_FALSE((mesh.ring(alongRim[0]).find(alongRim[1]) < mesh.valence(alongRim[0])));
+  EXPECT_LT(cloud.unit() * std::sqrt(squaredNorm(mesh.position(v) - place)), 0.003);
+}
+
 // A corner that has moved can change the planes at another one. That stays where it is then: nowhere does a vertex
 // go farther than its neighbours are.
 TEST(CutCorners, StayNear)
