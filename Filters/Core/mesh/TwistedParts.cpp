@@ -24,9 +24,11 @@ constexpr std::array<std::uint32_t, 3> NeckDepths{ 1, 2, 3 };
 /// Fewer vertices beyond these are left over from a neck.
 constexpr std::size_t LeastCore = 12;
 /// The square of the length of all necks of a part is less than that many of its areas.
-constexpr double MostSquaredNeck = 0.25;
+constexpr double MostSquaredNeck = 1.;
 /// ... and that of the boundaries that speak for the turn is more.
 constexpr double LeastSquaredContradiction = 0.25;
+/// ... more than so many necks.
+constexpr double LeastPerNeck = 2.;
 constexpr std::uint32_t NoPart = std::numeric_limits<std::uint32_t>::max();
 
 /// Of two parts: the lengths that speak for their being turned against each other, less those against it.
@@ -244,7 +246,7 @@ private:
 
     bool hangsByLittle() const
     {
-      return neck * neck < MostSquaredNeck * area && contradiction > neck &&
+      return neck * neck < MostSquaredNeck * area && contradiction > LeastPerNeck * neck &&
         contradiction * contradiction > LeastSquaredContradiction * area;
     }
   };
