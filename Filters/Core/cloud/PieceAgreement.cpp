@@ -148,35 +148,21 @@ private:
     }
   }
 
-  /// Whether a gap would have a ground look down: that of a larger group than the known one, any by a guess, and
-  /// one of two pieces that are both unknown.
+  /// Whether a known group would have the ground of a larger one look down.
   bool turnsGround(const Gap& gap) const
   {
-    if (ground_.empty())
+    if (ground_.empty() || !sides_[gap.other].isKnown())
     {
       return false;
     }
     const std::vector<std::size_t>& from = groups_[groupOf_[gap.piece]];
     const std::vector<std::size_t>& to = groups_[groupOf_[gap.other]];
-    const double sign = isTurnedBy(gap) ? -1. : 1.;
-    if (!sides_[gap.other].isKnown())
-    {
-      const double one = sign * upwards(gap.piece), other = upwards(gap.other);
-      return one * other < 0. && std::abs(one) >= LeastGround * pieces_[gap.piece].area &&
-        std::abs(other) >= LeastGround * pieces_[gap.other].area;
-    }
     double up = 0.;
     for (const std::size_t piece : from)
     {
-      up += sign * upwards(piece);
+      up += sides_[piece].isTurned ? -ground_[piece] : ground_[piece];
     }
-    return up <= -LeastGround * areaOf(from) &&
-      (areaOf(to) < areaOf(from) || sides_[gap.other].isGuess);
-  }
-
-  double upwards(std::size_t piece) const
-  {
-    return sides_[piece].isTurned ? -ground_[piece] : ground_[piece];
+    return areaOf(to) < areaOf(from) && (isTurnedBy(gap) ? -up : up) <= -LeastGround * areaOf(from);
   }
 
   double areaOf(const std::vector<std::size_t>& group) const

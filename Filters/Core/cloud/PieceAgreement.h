@@ -21,9 +21,8 @@ inline constexpr double LeastGround = 0.2;
 /// the area of the larger piece says nothing, nor does one where normals and boundaries contradict each
 /// other, as between sheets one over the other.
 ///
-/// `ground` is of each piece the level area that looks up less that which looks down, or empty. A piece that is known
-/// does not decide for a larger group whose ground would look down then, nor a guess for any: a tree does not turn the
-/// terrain. Nor does a gap between two grounds say that one of them looks down.
+/// `ground` is of each piece the level area that looks up less that which looks down, or empty. A group that is known
+/// does not decide for a larger one whose ground would look down then: a tree does not turn the terrain.
 ///
 /// No vertex may be erased. Takes O(n log n) for n vertices, and nothing if all is known.
 void makePiecesAgree(const Mesh& mesh, std::span<const Piece> pieces, std::span<Side> sides,
