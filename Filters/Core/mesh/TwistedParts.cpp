@@ -27,7 +27,7 @@ constexpr std::size_t LeastCore = 12;
 constexpr double MostSquaredNeck = 1.;
 /// ... and that of the boundaries that speak for the turn is more.
 constexpr double LeastSquaredContradiction = 0.25;
-/// ... more than so many necks.
+/// These are longer than so many of its necks.
 constexpr double LeastPerNeck = 2.;
 constexpr std::uint32_t NoPart = std::numeric_limits<std::uint32_t>::max();
 
@@ -292,10 +292,10 @@ private:
     std::set<std::size_t> off;
     for (const auto& [root, side] : of)
     {
+      const std::pair own(side.area, root);
       const bool isLess = !side.others.empty() &&
         std::all_of(side.others.begin(), side.others.end(),
-          [&](std::size_t other)
-          { return std::pair(side.area, root) < std::pair(of[other].area, other); });
+          [&](std::size_t other) { return own < std::pair(of[other].area, other); });
       if (isLess && side.hangsByLittle())
       {
         off.insert(root);
