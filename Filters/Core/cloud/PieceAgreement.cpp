@@ -30,10 +30,12 @@ Vector4 unit(Vector4 vector)
 class Agreement
 {
 public:
-  Agreement(const Mesh& mesh, std::span<const Piece> pieces, std::span<Side> sides)
+  Agreement(const Mesh& mesh, std::span<const Piece> pieces, std::span<Side> sides,
+    std::span<const double> ground)
     : mesh_(mesh)
     , pieces_(pieces)
     , sides_(sides)
+    , ground_(ground)
     , isTurnedIfLargest_(pieces.size())
     , pieceOf_(mesh.indexEnd())
     , groupOf_(pieces.size())
@@ -135,7 +137,7 @@ private:
     for (const auto& [ends, ofGap] : contacts)
     {
       const std::optional<Gap> gap = gapOf(ends.first, ends.second, ofGap);
-      if (gap && (!narrowest || gap->squaredWidth < narrowest->squaredWidth))
+      if (gap && !turnsGround(*gap) && (!narrowest || gap->squaredWidth < narrowest->squaredWidth))
       {
         narrowest = gap;
       }
@@ -144,6 +146,38 @@ private:
     {
       gaps.push_back(*narrowest);
     }
+  }
+
+  /// Whether a known group would have the ground of a larger one look down.
+  bool turnsGround(const Gap& gap) const
+  {
+    if (ground_.empty() || !sides_[gap.other].isKnown())
+    {
+      return false;
+    }
+    const std::vector<std::size_t>& from = groups_[groupOf_[gap.piece]];
+    const std::vector<std::size_t>& to = groups_[groupOf_[gap.other]];
+    double up = 0.;
+    for (const std::size_t piece : from)
+    {
+      up += sides_[piece].isTurned ? -ground_[piece] : ground_[piece];
+    }
+    return areaOf(to) < areaOf(from) && (isTurnedBy(gap) ? -up : up) <= -LeastGround * areaOf(from);
+  }
+
+  double areaOf(const std::vector<std::size_t>& group) const
+  {
+    double sum = 0.;
+    for (const std::size_t piece : group)
+    {
+      sum += pieces_[piece].area;
+    }
+    return sum;
+  }
+
+  bool isTurnedBy(const Gap& gap) const
+  {
+    return (sides_[gap.piece].isTurned != sides_[gap.other].isTurned) == gap.agrees;
   }
 
   std::optional<Gap> gapOf(
@@ -186,11 +220,11 @@ private:
   bool join(const Gap& gap)
   {
     std::size_t from = groupOf_[gap.piece], to = groupOf_[gap.other];
-    if (from == to || sides_[gap.piece].isKnown())
+    if (from == to || sides_[gap.piece].isKnown() || turnsGround(gap))
     {
       return false;
     }
-    turnIf((sides_[gap.piece].isTurned != sides_[gap.other].isTurned) == gap.agrees, groups_[from]);
+    turnIf(isTurnedBy(gap), groups_[from]);
     if (sides_[gap.other].isKnown())
     {
       for (const std::size_t piece : groups_[from])
@@ -232,6 +266,7 @@ private:
   const Mesh& mesh_;
   std::span<const Piece> pieces_;
   std::span<Side> sides_;
+  std::span<const double> ground_;      ///< of the pieces as they are, or empty
   std::vector<bool> isTurnedIfLargest_; ///< of its group, if nothing decides for that
   VertexGrid grid_;                     ///< of all vertices
   std::vector<std::size_t> pieceOf_;
@@ -240,13 +275,14 @@ private:
 };
 }
 
-void makePiecesAgree(const Mesh& mesh, std::span<const Piece> pieces, std::span<Side> sides)
+void makePiecesAgree(const Mesh& mesh, std::span<const Piece> pieces, std::span<Side> sides,
+  std::span<const double> ground)
 {
   const bool areKnown =
     std::all_of(sides.begin(), sides.end(), [](const Side& side) { return side.isKnown(); });
   if (pieces.size() > 1 && !areKnown)
   {
-    Agreement(mesh, pieces, sides).run();
+    Agreement(mesh, pieces, sides, ground).run();
   }
 }
 }

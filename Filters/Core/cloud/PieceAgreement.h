@@ -8,6 +8,9 @@
 
 namespace neuralmesh
 {
+/// Of an area: so much more of it is level and looks to one side than to the other if there is a ground in it.
+inline constexpr double LeastGround = 0.2;
+
 /// Has pieces whose sides are unknown agree with those near by, as islands of one sheet do: along the
 /// minimum spanning tree of the gaps between them. A piece that is known decides for those that hang on
 /// it; of those that nothing decides for, the largest is turned if its side says so, and the others follow.
@@ -18,6 +21,10 @@ namespace neuralmesh
 /// the area of the larger piece says nothing, nor does one where normals and boundaries contradict each
 /// other, as between sheets one over the other.
 ///
+/// `ground` is of each piece the level area that looks up less that which looks down, or empty. A group that is known
+/// does not decide for a larger one whose ground would look down then: a tree does not turn the terrain.
+///
 /// No vertex may be erased. Takes O(n log n) for n vertices, and nothing if all is known.
-void makePiecesAgree(const Mesh& mesh, std::span<const Piece> pieces, std::span<Side> sides);
+void makePiecesAgree(const Mesh& mesh, std::span<const Piece> pieces, std::span<Side> sides,
+  std::span<const double> ground = {});
 }

@@ -55,11 +55,10 @@ public:
     }
   }
 
-  FacingBoundaries find() const
+  std::vector<FacingPair> pairs() const
   {
-    FacingBoundaries result;
+    std::vector<FacingPair> result;
     const double widest = WidestOpening * WidestOpening * areaOf(mesh_);
-    double closest = std::numeric_limits<double>::infinity();
     const std::size_t asked = std::min(vertices_.size(), VerticesAsked);
     for (std::size_t i = 0; i < asked; ++i)
     {
@@ -70,13 +69,11 @@ public:
         continue;
       }
       const double said = agreementOf(from.vertex, other);
-      const double length = 0.5 * lengthAt(from.vertex) * double(vertices_.size()) / double(asked);
-      result.agreeing += said > LeastSaid ? length : 0.;
-      result.contradicting += said < -LeastSaid ? length : 0.;
-      if (said < -LeastSaid && squared < closest)
+      if (std::abs(said) > LeastSaid)
       {
-        closest = squared;
-        result.place = mesh_.position(from.vertex);
+        const double length =
+          0.5 * lengthAt(from.vertex) * double(vertices_.size()) / double(asked);
+        result.push_back({ from.vertex, other, length, said < 0. });
       }
     }
     return result;
@@ -169,8 +166,25 @@ private:
 };
 }
 
+std::vector<FacingPair> facingPairs(const Mesh& mesh)
+{
+  return mesh.isOpen() ? Facing(mesh).pairs() : std::vector<FacingPair>();
+}
+
 FacingBoundaries findFacingBoundaries(const Mesh& mesh)
 {
-  return mesh.isOpen() ? Facing(mesh).find() : FacingBoundaries();
+  FacingBoundaries result;
+  float closest = std::numeric_limits<float>::infinity();
+  for (const FacingPair& pair : facingPairs(mesh))
+  {
+    (pair.contradict ? result.contradicting : result.agreeing) += pair.length;
+    const float squared = squaredNorm(mesh.position(pair.other) - mesh.position(pair.vertex));
+    if (pair.contradict && squared < closest)
+    {
+      closest = squared;
+      result.place = mesh.position(pair.vertex);
+    }
+  }
+  return result;
 }
 }

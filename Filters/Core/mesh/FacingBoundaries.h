@@ -3,6 +3,8 @@
 
 #include "mesh/Mesh.h"
 
+#include <vector>
+
 namespace neuralmesh
 {
 /// What the boundaries of a mesh that face each other across openings say of the sides to which it looks there, by
@@ -26,4 +28,16 @@ struct FacingBoundaries
 /// The boundary across is the nearest one that is no part of the same stretch, and closer than half the root of the
 /// area; it says nothing where the way to it leads back over the surface of either. At most a thousand boundary vertices are asked, evenly picked. No vertex may be erased.
 FacingBoundaries findFacingBoundaries(const Mesh& mesh);
+
+/// A boundary vertex, and the one across.
+struct FacingPair
+{
+  VertexIndex vertex;
+  VertexIndex other;
+  double length;   ///< of the boundary that it stands for
+  bool contradict; ///< whether they do, or agree
+};
+
+/// All pairs of which the above is the sum; those that say nothing are left out.
+std::vector<FacingPair> facingPairs(const Mesh& mesh);
 }

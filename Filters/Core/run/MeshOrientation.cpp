@@ -21,8 +21,6 @@ namespace
 constexpr double LeastVolume = 0.1;
 /// Of the angle between what looks up or down and z.
 constexpr double CosineOfGround = 0.9;
-/// Of the area of a piece: so much more looks to one of both than to the other if there is a ground in it.
-constexpr double LeastGround = 0.2;
 /// Of the area of a piece, projected onto the ground: with less it is upright, and has no upper side.
 constexpr double LeastUpwards = 0.05;
 
@@ -59,6 +57,15 @@ std::vector<Upwards> upwardsOf(const Mesh& mesh, std::span<const Piece> pieces)
   return result;
 }
 
+/// The area of each piece that is level and looks up, less that which looks down.
+std::vector<double> groundOf(std::span<const Piece> pieces, const std::vector<Upwards>& upwards)
+{
+  std::vector<double> result(pieces.size());
+  std::transform(pieces.begin(), pieces.end(), upwards.begin(), result.begin(),
+    [](const Piece& piece, const Upwards& up) { return up.ground * piece.area; });
+  return result;
+}
+
 /// By the volume of what is closed or large.
 std::vector<Side> sidesOfBodies(std::span<const Piece> pieces, const std::vector<Side>& byVolume)
 {
@@ -87,11 +94,11 @@ std::vector<Side> certainOf(std::vector<Side> sides)
 }
 
 /// What those that are known tell of others near by.
-std::vector<Side> sidesByNeighbors(
-  const Mesh& mesh, std::span<const Piece> pieces, const std::vector<Side>& sides)
+std::vector<Side> sidesByNeighbors(const Mesh& mesh, std::span<const Piece> pieces,
+  const std::vector<Side>& sides, const std::vector<double>& ground)
 {
   std::vector<Side> result = sides;
-  makePiecesAgree(mesh, pieces, result);
+  makePiecesAgree(mesh, pieces, result, ground);
   std::replace_if(
     result.begin(), result.end(), [](const Side& side) { return !side.isKnown(); }, Side());
   return result;
@@ -147,20 +154,24 @@ OrientationReport orientMesh(
   const bool areViewpointsMute = !hints.viewpoints.empty() && addSides(vote.byViewpoints(), sides);
   const bool isUpMute = hints.up && addSides(vote.byUpDirection(), sides);
   const bool areNormalsMute = hints.normalOf && addSides(vote.byNormals(), sides);
+  const bool isHinted =
+    std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.isKnown(); });
   std::transform(pieces.begin(), pieces.end(), byVolume.begin(), sideByVolume);
   const std::vector<Side> ofBodies = sidesOfBodies(pieces, byVolume);
   addSides(certainOf(ofBodies), sides);
   addSides(sidesByOpenings(mesh, pieces, sides), sides);
-  addSides(sidesByNeighbors(mesh, pieces, sides), sides);
   if (!areAllKnown(sides))
   {
     const std::vector<Upwards> upwards = upwardsOf(mesh, pieces);
+    // What is given counts more than that.
+    const std::vector<double> ground = isHinted ? std::vector<double>() : groundOf(pieces, upwards);
+    addSides(sidesByNeighbors(mesh, pieces, sides, ground), sides);
     addSides(withoutGroundAbove(ofBodies, upwards), sides);
     addSides(sidesByOpenings(mesh, pieces, sides), sides);
-    addSides(sidesByNeighbors(mesh, pieces, sides), sides);
+    addSides(sidesByNeighbors(mesh, pieces, sides, ground), sides);
     addSides(withoutGroundAbove(byVolume, upwards), sides);
     turnUp(upwards, sides);
-    makePiecesAgree(mesh, pieces, sides);
+    makePiecesAgree(mesh, pieces, sides, ground);
   }
   OrientationReport report = turn(mesh, pieces, sides);
   const FacingBoundaries facing = findFacingBoundaries(mesh);

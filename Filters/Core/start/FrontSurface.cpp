@@ -8,6 +8,7 @@
 #include "mesh/FanSplitting.h"
 #include "mesh/SelfIntersections.h"
 #include "mesh/TurnedParts.h"
+#include "mesh/TwistedParts.h"
 #include "start/AdvancingFront.h"
 #include "start/WideTriangles.h"
 
@@ -129,6 +130,10 @@ std::optional<FrontSurface> frontSurface(const PointCloud& cloud, PointLayers& p
   // What it has opened: a few triangles that intersect come apart in learning, a hole would stay.
   fillSmallGaps(result.mesh);
   result.mesh.dropErased();
+  if (separateTwistedParts(result.mesh) > 0)
+  {
+    result.mesh.dropErased();
+  }
   return result;
 }
 }

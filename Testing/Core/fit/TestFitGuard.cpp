@@ -95,4 +95,18 @@ TEST(FitGuard, AllowsForNoise)
   }
   EXPECT_TRUE(FitGuard(cloud, smooth).isWorse(cut, ResidualRule::MayBeNoise));
 }
+
+// Points that a mesh loses count by their distances to their neighbours alone, though a mesh that is as far from all
+// points passes for one with noise; it loses none against itself, nor does one that is closer.
+TEST(FitGuard, TellsLostPointsBelowTheNoise)
+{
+  const PointCloud cloud = sphereWithNoise(0.);
+  const Mesh good = sphereOfRadius(cloud, 1.), bad = sphereOfRadius(cloud, 0.8);
+  FitGuard guard(cloud, good);
+  EXPECT_FALSE(guard.losesPoints(bad, false));
+  EXPECT_TRUE(guard.losesDensePoints(good, bad));
+  EXPECT_FALSE(guard.losesDensePoints(bad, good));
+  EXPECT_FALSE(guard.losesDensePoints(good, good));
+  EXPECT_FALSE(guard.losesDensePoints(bad, bad));
+}
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Promise: boundaries that face each other agree on one surface, whatever its openings, and contradict each other
-// where a part is turned against the rest; the two sides of a plate say nothing.
+// where a part is turned against the rest; the two sides of a plate say nothing. A part that hangs on to the rest by a
+// narrow neck, and contradicts it, is cut off and turned; what faces the rest with its front stays as it is.
 #include "mesh/FacingBoundaries.h"
 
+#include "ManifoldCheck.h"
 #include "mesh/Pieces.h"
+#include "mesh/TwistedParts.h"
 #include "OpenShapes.h"
 #include "Shapes.h"
 #include "SphereRuns.h"
@@ -12,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace neuralmesh::testing
@@ -88,6 +92,44 @@ TriangleMesh floorBelowTable(double height, double overlap)
   return result;
 }
 
+/// Joins the two layers by a strip from edge to edge: from a boundary edge of the lower one to that above it. It is
+/// twisted where the upper one looks to the other side.
+void joinLayers(TriangleMesh& mesh, bool hasGroundBelow, bool isTwisted)
+{
+  const auto above = std::uint32_t(mesh.points.size() / 2);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const auto& [a, b, c] : mesh.triangles)
+  {
+    edges.insert({ { a, b }, { b, c }, { c, a } });
+  }
+  for (const auto& [from, to] : edges)
+  {
+    const bool isLower = from < above && to < above && edges.count({ to, from }) == 0;
+    const bool isUpper =
+      edges.count({ from + above, to + above }) + edges.count({ to + above, from + above }) == 1;
+    if (isLower && isUpper && isInMiddle(0.99 * mesh.points[from]) == hasGroundBelow)
+    {
+      const std::uint32_t near = from + above, far = to + above;
+      mesh.triangles.push_back({ to, from, isTwisted ? far : near });
+      mesh.triangles.push_back(isTwisted ? Triangle{ to, far, near } : Triangle{ to, near, far });
+      return;
+    }
+  }
+}
+
+double areaLookingUp(const Mesh& mesh)
+{
+  double sum = 0.;
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    {
+      const Vector4 from = mesh.position(a);
+      const Vector4 normal = cross(mesh.position(b) - from, mesh.position(c) - from);
+      sum += normal[2] > 0.f ? areaOf(mesh, { a, b, c }) : 0.;
+    });
+  return sum;
+}
+
 struct Said
 {
   FacingBoundaries facing;
@@ -138,5 +180,39 @@ TEST(FacingBoundaries, NothingOnWhatIsClosedOrHasOneOutline)
 {
   EXPECT_EQ(saidBy(makeSphere()).facing.contradicting, 0.);
   EXPECT_FALSE(saidBy(makeGrid(Side)).isContradiction);
+}
+
+TEST(TwistedParts, RoofThatHangsOnToItsGround)
+{
+  for (const bool isTurned : { true, false })
+  {
+    TriangleMesh triangles = groundAndRoof(0.1, isTurned);
+    const std::size_t apart = triangles.triangles.size();
+    joinLayers(triangles, true, isTurned);
+    ASSERT_EQ(triangles.triangles.size(), apart + 2);
+    Mesh mesh = meshOf(triangles);
+    ASSERT_EQ(pieceCount(mesh), 1u);
+    EXPECT_EQ(separateTwistedParts(mesh), isTurned ? 1u : 0u);
+    EXPECT_EQ(mesh.triangleCount(), isTurned ? apart : apart + 2);
+    EXPECT_EQ(pieceCount(mesh), isTurned ? 2u : 1u);
+    EXPECT_EQ(findFacingBoundaries(mesh).contradicting, 0.);
+    EXPECT_EQ(defectOf(mesh), "");
+    if (isTurned)
+    {
+      EXPECT_NEAR(areaLookingUp(mesh), areaOf(mesh), 1e-6);
+    }
+  }
+}
+
+// Floor and ceiling of a room of which a strip of one wall was seen look at each other.
+TEST(TwistedParts, FloorAndCeilingStayAsTheyAre)
+{
+  TriangleMesh triangles = plate(-0.3);
+  joinLayers(triangles, false, false);
+  Mesh mesh = meshOf(triangles);
+  const std::size_t count = mesh.triangleCount();
+  ASSERT_EQ(pieceCount(mesh), 1u);
+  EXPECT_EQ(separateTwistedParts(mesh), 0u);
+  EXPECT_EQ(mesh.triangleCount(), count);
 }
 }

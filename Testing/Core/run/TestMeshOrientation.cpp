@@ -405,6 +405,30 @@ TEST(MeshOrientation, IslandsAgree)
   }
 }
 
+// A closed body over a hole of the ground does not have the ground look down, though both look the same way there; what
+// is given does.
+TEST(MeshOrientation, ATreeDoesNotTurnTheGround)
+{
+  TriangleMesh ground = placed(makeGrid(40), Eigen::Matrix3d::Identity(), { -1., -1., 0. }, 2.);
+  std::erase_if(ground.triangles,
+    [&](const auto& triangle)
+    {
+      return std::all_of(triangle.begin(), triangle.end(),
+        [&](std::uint32_t corner) { return ground.points[corner].norm() < 0.25; });
+    });
+  TriangleMesh scene = ground;
+  append(scene, placed(makeSphere(16), Eigen::Matrix3d::Identity(), { 0., 0., 0.26 }, 0.2));
+  for (const bool isTurned : { false, true })
+  {
+    Scene seen(isTurned ? turned(scene) : scene);
+    const OrientationReport report = seen.orient();
+    EXPECT_EQ(report.unknownPieces, 1u);
+    EXPECT_GT(seen.facingUp(), 0.7);
+    seen.orient(up(-Eigen::Vector3d::UnitZ()));
+    EXPECT_LT(seen.facingUp(), 0.3);
+  }
+}
+
 // Five faces of a box, apart from each other, agree around its edges.
 TEST(MeshOrientation, FacesOfABoxAgree)
 {
