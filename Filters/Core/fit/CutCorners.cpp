@@ -4,6 +4,7 @@
 #include "fit/PlaneQuadric.h"
 #include "fit/SampleBundle.h"
 #include "mesh/EdgeFlips.h"
+#include "mesh/SelfIntersections.h"
 #include "mesh/TriangleShape.h"
 
 #include <algorithm>
