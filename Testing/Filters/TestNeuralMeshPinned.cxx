@@ -147,7 +147,7 @@ bool CheckSheet()
   filter->SetVariantToNormalBased();
   filter->SetOrderToList();
   filter->Update();
-  return Is(filter->GetOutput(), 1500, 0xaeba1c9be9131493u, "sheet");
+  return Is(filter->GetOutput(), 1500, 0x96a9ce07d3053540u, "sheet");
 }
 
 bool CheckStream(vtkPoints* torus)

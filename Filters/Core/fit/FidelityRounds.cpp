@@ -42,7 +42,6 @@ constexpr double MostDistributed = 0.1;
 constexpr double PartOnCleanClouds = 0.5;
 /// Beyond so many deviations of the usual bend it is a crease.
 constexpr double DeviationsOfCreaseIfClean = 2.;
-constexpr double DeviationsOfCreaseIfNoisy = 3.;
 /// The mesh on which places are found first is so much smoother than that of the rounds before, but its lambda is at
 /// least that, and at most the one for which each place of it follows so many samples ...
 constexpr double FirstTimesSmoother = 2.;
@@ -183,6 +182,7 @@ bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress
   }
   const double variance = fit_.noise() * fit_.noise();
   fit_.shiftAgainstNoise(variance);
+  fit_.expectBends(DeviationsOfCreaseIfNoisy);
   fit_.turnToNormals(variance);
   fit_.relaxCreases(DeviationsOfCreaseIfNoisy);
   if (!isFirst || isFixed)

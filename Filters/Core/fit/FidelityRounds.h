@@ -35,6 +35,9 @@ public:
   {
   }
 
+  /// On a noisy cloud, beyond so many deviations of the usual bend is a crease.
+  static constexpr double DeviationsOfCreaseIfNoisy = 3.;
+
   /// How many rounds there are.
   static int count(Fidelity fidelity, bool isClean);
 

@@ -159,8 +159,8 @@ float FitSystem::boundaryPart(double lambda)
 }
 
 template <typename Vectors>
-void FitSystem::apply(
-  double lambda, const Vectors& x, PackedVectors& laplacian, PackedVectors& result) const
+void FitSystem::apply(double lambda, const Vectors& x, std::span<const Vector4> bends,
+  PackedVectors& laplacian, PackedVectors& result) const
 {
   const auto smooth = float(lambda);
   const float onBoundary = boundaryPart(lambda);
@@ -170,7 +170,8 @@ void FitSystem::apply(
     {
       for (auto v = VertexIndex(begin); v < end; ++v)
       {
-        const Vector4 bend = umbrellaAt(x, v, rings_[v], rings_.isOpen(v), innerWeights_[v]);
+        Vector4 bend = umbrellaAt(x, v, rings_[v], rings_.isOpen(v), innerWeights_[v]);
+        bend = bends.empty() ? bend : bend - bends[v];
         laplacian.set(v, hasParts ? smoothnessPart(v, onBoundary) * bend : bend);
       }
     });
@@ -255,7 +256,7 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
   const SymmetricBlocks inverse = inverseDiagonal(lambda);
   PackedVectors direction(n), product(n), laplacian(n);
   const auto sumOver = [&](const auto& term) { return executor_.sum(n, RowsPerRange, term); };
-  apply(lambda, x, laplacian, product);
+  apply(lambda, x, bends_, laplacian, product);
   double squared = sumOver(
     [&](std::size_t v)
     {
@@ -275,7 +276,7 @@ bool FitSystem::solve(double lambda, double tolerance, double& scale, std::span<
     {
       return false;
     }
-    apply(lambda, direction, laplacian, product);
+    apply(lambda, direction, {}, laplacian, product);
     const double curvature = sumOver([&](std::size_t v) { return dot(direction[v], product[v]); });
     if (!(curvature > 0.))
     {

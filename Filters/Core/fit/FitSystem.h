@@ -71,6 +71,8 @@ public:
   void addBends(double lambda, std::span<const Vector4> bends);
   /// Sets the part of lambda at each vertex; empty: all 1. The parts must outlive the system.
   void setSmoothnessParts(std::span<const float> parts) { parts_ = parts; }
+  /// Smooths L x towards these values instead of 0; empty: all 0. They must outlive the system.
+  void expectBends(std::span<const Vector4> bends) { bends_ = bends; }
 
   /// Improves `x` until the residual is `tolerance` times `scale`. First raises `scale` to the
   /// residual of the given `x`. Returns false if `progress` ended it.
@@ -103,9 +105,10 @@ private:
   /// `residual` has the right side at first.
   bool solve(double lambda, double tolerance, double& scale, std::span<Vector4> x,
     const Progress& progress, PackedVectors residual) const;
+  /// `bends` are taken from L x, unless they are empty.
   template <typename Vectors>
-  void apply(
-    double lambda, const Vectors& x, PackedVectors& laplacian, PackedVectors& result) const;
+  void apply(double lambda, const Vectors& x, std::span<const Vector4> bends,
+    PackedVectors& laplacian, PackedVectors& result) const;
   /// The index of the block of an edge. It is stored once, with the vertex of the lower index.
   std::size_t entryOf(VertexIndex lower, VertexIndex higher) const;
   /// The part of lambda at a vertex.
@@ -130,6 +133,7 @@ private:
   std::optional<SymmetricBlocks> others_; ///< one for each edge
   PackedVectors rightSide_;
   std::span<const float> parts_;    ///< the part of lambda at each vertex; empty: all 1
+  std::span<const Vector4> bends_;  ///< that are expected of each vertex; empty: all 0
   std::vector<float> innerWeights_; ///< umbrella weights at inner vertices; 0 at others
 };
 }

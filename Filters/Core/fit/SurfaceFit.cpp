@@ -252,6 +252,7 @@ void SurfaceFit::fillSystem()
   // The matrix is new each time, as edges may have been flipped.
   system_.emplace(mesh_, isSettled_ ? SettledSlip : Slip, executor_);
   system_->setSmoothnessParts(smoothnessParts_);
+  system_->expectBends(bends_);
   for (VertexIndex v = 0; v < mesh_.indexEnd() && (isSettled_ || !isKept_.empty()); ++v)
   {
     const bool isKept = !isKept_.empty() && isKept_[v] != 0;
@@ -482,6 +483,7 @@ void SurfaceFit::follow(const ChangedVertices& changed)
   spacing_.reset();
   smoothnessParts_.clear();
   shifts_.clear();
+  bends_.clear();
   localParts_.clear();
 }
 

@@ -71,6 +71,11 @@ public:
   /// variance: at a bend, more of it lies on the outer side. The bends are those of the mesh as it
   /// is now.
   void shiftAgainstNoise(double variance);
+  /// From the next moveVertices() on, L x is smoothed towards what it is expected to be instead of to 0, by the mesh as
+  /// it is now: see ExpectedBends.h. Beyond so many `deviations` of the usual bend is a crease.
+  void expectBends(double deviations);
+  /// What L x is expected to be at each vertex; empty: 0.
+  std::span<const Vector4> expectedBends() const { return bends_; }
   /// From the next moveVertices() on, the surface turns to the given normals of the samples. Their
   /// weight follows from their errors and from the variance of the distances of samples.
   void turnToNormals(double variance);
@@ -248,6 +253,7 @@ private:
   const NearestTriangle* surface_ = nullptr; ///< from which the samples come; null: from a cloud
   std::vector<std::uint8_t> isKept_;   ///< for each vertex, whether it stays; empty: all may move
   std::vector<Vector4> shifts_;        ///< of the samples at each vertex; empty: none
+  std::vector<Vector4> bends_;         ///< that are expected of each vertex; empty: 0
   std::vector<float> smoothnessParts_; ///< the part of lambda at each vertex; empty: all 1
   std::vector<float> localParts_;      ///< the same as chosen by the risk
   std::optional<VertexProperty<float>> smoothnessOfVertices_;

@@ -3,6 +3,7 @@
 #include "fit/SurfaceFit.h"
 
 #include "base/Median.h"
+#include "fit/ExpectedBends.h"
 #include "fit/SmoothnessByRisk.h"
 #include "mesh/UmbrellaLaplacian.h"
 
@@ -255,6 +256,12 @@ bool SurfaceFit::chooseSmoothnessByRisk(double first, const Progress& progress)
 void SurfaceFit::turnToNormals(double variance)
 {
   normalWeight_ = normals_.any() ? normals_.weight(mesh_, placedSamples(), variance) : 0.;
+}
+
+void SurfaceFit::expectBends(double deviations)
+{
+  const double perVertex = double(samples_.size()) / double(mesh_.vertexCount());
+  bends_ = neuralmesh::expectedBends(mesh_, creaseParts(deviations), perVertex, executor_);
 }
 
 /// At the mean curvature H, the mean of isotropic noise with variance s^2 lies s^2 H on the outer

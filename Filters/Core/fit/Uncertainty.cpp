@@ -3,6 +3,7 @@
 
 #include "base/Median.h"
 #include "base/Random.h"
+#include "fit/FidelityRounds.h"
 #include "fit/FitSystem.h"
 #include "mesh/RingMeans.h"
 #include "mesh/UmbrellaLaplacian.h"
@@ -39,6 +40,8 @@ constexpr float PartOfBendsTold = 0.05f;
 constexpr float TimesOfBendsUntold = 2.f;
 /// What smoothness would take once more is less than what it took, and is a mean over so many rings.
 constexpr float TimesOfBias = 2.75f;
+/// Bends beside those that are expected were smoothed with a larger lambda.
+constexpr float TimesOfBiasIfExpected = 3.5f;
 constexpr int RingsOfBias = 3;
 
 /// Vertices on a clean cloud lie outside of a bend, so that triangles lie on either side of it, by this part of L x:
@@ -269,11 +272,20 @@ void Uncertainty::drawPulls(FitSystem& system, std::uint64_t draw) const
   system.addBends(report_.smoothness, bends);
 }
 
-/// What the equations would take from the surface once more, if it were the samples.
+/// What the equations would take from the surface once more, if it were the samples. They do not take the bends that
+/// they expect.
 bool Uncertainty::addBias(FitSystem& system, const Progress& progress)
 {
   std::vector<Vector4> laplacian(mesh_.indexEnd()), taken(mesh_.indexEnd());
   applyUmbrella<float>(mesh_, mesh_.positions(), std::span(laplacian), 0, laplacian.size());
+  if (!report_.isClean && report_.fidelityRounds > 0)
+  {
+    fit_.expectBends(FidelityRounds::DeviationsOfCreaseIfNoisy);
+    for (VertexIndex v = 0; v < laplacian.size(); ++v)
+    {
+      laplacian[v] = laplacian[v] - fit_.expectedBends()[v];
+    }
+  }
   system.clearPulls();
   system.addBends(report_.smoothness, laplacian);
   double scale = 0.;
@@ -288,20 +300,23 @@ bool Uncertainty::addBias(FitSystem& system, const Progress& progress)
     squares[v] = across * across;
   }
   averageOverRings(mesh_, squares, RingsOfBias, executor_);
+  const float times = fit_.expectedBends().empty() ? TimesOfBias : TimesOfBiasIfExpected;
   for (std::size_t v = 0; v < squares.size(); ++v)
   {
-    variances_[v] += TimesOfBias * squares[v];
+    variances_[v] += times * squares[v];
   }
   return true;
 }
 
-/// Under noise the draws have that already.
+/// Under noise what smoothness takes has that already, unless bends are expected.
 void Uncertainty::addCoarseness()
 {
-  for (VertexIndex v = 0; v < mesh_.indexEnd() && report_.isClean; ++v)
+  const std::span<const Vector4> expected = fit_.expectedBends();
+  for (VertexIndex v = 0; v < mesh_.indexEnd() && (report_.isClean || !expected.empty()); ++v)
   {
-    const float outside =
-      PartOfBendsOutside * acrossAt(v, umbrella<float>(mesh_, mesh_.positions(), v));
+    const Vector4 bend =
+      expected.empty() ? umbrella<float>(mesh_, mesh_.positions(), v) : expected[v];
+    const float outside = PartOfBendsOutside * acrossAt(v, bend);
     variances_[v] += outside * outside;
   }
 }
