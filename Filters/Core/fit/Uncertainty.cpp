@@ -41,7 +41,7 @@ constexpr float TimesOfBendsUntold = 2.f;
 /// What smoothness would take once more is less than what it took, and is a mean over so many rings.
 constexpr float TimesOfBias = 2.75f;
 /// Bends beside those that are expected were smoothed with a larger lambda.
-constexpr float TimesOfBiasIfExpected = 3.5f;
+constexpr float TimesOfBiasIfExpected = 3.1f;
 constexpr int RingsOfBias = 3;
 
 /// Vertices on a clean cloud lie outside of a bend, so that triangles lie on either side of it, by this part of L x:
