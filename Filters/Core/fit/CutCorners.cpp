@@ -21,7 +21,7 @@ namespace
 constexpr double LeastSamplesOfPlane = 3.;
 /// A triangle is crooked if all planes around it are turned by more against it.
 constexpr float MostCosineOfCrooked = 0.9f;
-/// What is left of the crookedness, at most: if samples get closer, and if not. What is left lies in no plane around,
+/// What is left of the crookedness, at most: if samples get closer or there are none, and if not. What is left lies in no plane around,
 /// as a fillet between two of them does.
 constexpr double MostCrookednessLeft = 0.5;
 constexpr double MostLeftWithoutGain = 0.125;
@@ -30,7 +30,7 @@ constexpr int SearchesForCorner = 4;
 /// No triangle may turn by more, nor become worse than that, unless it was.
 constexpr float LeastCornerCosine = 0.2f;
 constexpr float LeastCornerRatio = 0.15f;
-/// An edge opposite to the vertex is flipped if no others change.
+/// Of the vertices of an edge that is flipped: who loses it has more neighbours, who gains it fewer.
 constexpr unsigned LeastCornerValence = 4;
 constexpr unsigned MostCornerValence = 9;
 /// By so many deviations samples may be missing.

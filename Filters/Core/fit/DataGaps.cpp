@@ -145,7 +145,7 @@ public:
         {
           points.push_back(pointAt(place, mesh_.positions()));
         }
-        points_.emplace(std::move(points), executor_);
+        points_.emplace(std::move(points), executor_.uninterrupted());
       });
     const double spacing = double(spacing_.samplesAt(places_[points_->closest(point).index]));
     return spacing > least_ ? spacing : 0.;
@@ -226,7 +226,8 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   std::once_flag hasPoints;
   const auto distance = [&](std::uint32_t t)
   {
-    std::call_once(hasPoints, [&] { points.emplace(cloud, places.size(), executor); });
+    std::call_once(
+      hasPoints, [&] { points.emplace(cloud, places.size(), executor.uninterrupted()); });
     return points->distance(centerOf(mesh, triangles.all()[t]));
   };
   // Where samples are sparse, their number on average tells nothing.

@@ -79,7 +79,7 @@ Finish::Finish(const PointCloud& cloud, Mesh& mesh, const FinishPlan& plan,
 
 bool Finish::run(const Progress& progress)
 {
-  const StoredMesh before(mesh_, executor_);
+  const StoredMesh before(mesh_, executor_.uninterrupted());
   try
   {
     return runAll(before, progress);

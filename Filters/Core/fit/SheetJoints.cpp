@@ -31,9 +31,9 @@ constexpr int RingsAround = 4;
 /// Cosines between the axis of a tube and the normals of its wall, and of the sheets.
 constexpr float MostOnWall = 0.4f;
 constexpr float LeastOnSheet = 0.8f;
-/// The samples that lie on the wall of a tube within the noise, against those of as large an area of the sheets. A tube
-/// that is there has as many. Those that a sheet has at the end of one that is not there are farther from it than so many
-/// times the median distance.
+/// The samples that lie on the wall of a tube within the noise, against those of as large an area of the sheets. On a
+/// true tube there are as many. On a false one, the samples of the sheets that it pierces are closest to it. They are
+/// farther from it than so many times the median distance.
 constexpr double MostSamplesOnWall = 0.5;
 constexpr float MostMedians = 3.f;
 /// Wider tubes are seen.

@@ -170,13 +170,15 @@ std::size_t fillCracks(Mesh& mesh)
     [&](VertexIndex a, VertexIndex b, VertexIndex c)
     {
       const std::array loops{ boundaries.loopOf(a), boundaries.loopOf(b), boundaries.loopOf(c) };
-      const BoundaryManager::LoopIndex loop = *std::min_element(loops.begin(), loops.end());
-      if (loop != BoundaryManager::NoLoop)
+      const bool isAtOne = loops[0] == loops[1] && loops[1] == loops[2];
+      for (auto loop = loops.begin(); loop != loops.end(); ++loop)
       {
-        around[loop].area += areaOf(mesh, { a, b, c });
-        ++around[loop].triangles;
-        around[loop].hasOthers =
-          around[loop].hasOthers || loops[0] != loop || loops[1] != loop || loops[2] != loop;
+        if (*loop != BoundaryManager::NoLoop && std::find(loops.begin(), loop, *loop) == loop)
+        {
+          around[*loop].area += areaOf(mesh, { a, b, c });
+          ++around[*loop].triangles;
+          around[*loop].hasOthers = around[*loop].hasOthers || !isAtOne;
+        }
       }
     });
   std::size_t filled = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <condition_variable>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -18,6 +19,7 @@ constexpr std::size_t LeastInStrip = 3;
 constexpr int RingsAround = 4;
 /// For the executor.
 constexpr std::size_t VerticesOfStripPart = 4096;
+constexpr std::size_t MostSurroundings = 32;
 
 /// The vertices that lie within some edges of one.
 class Surroundings
@@ -131,38 +133,75 @@ private:
   std::vector<VertexIndex> lastCenter_; ///< of each vertex, the last one that it was around
   std::vector<VertexIndex> around_;
 };
+
+/// What was seen takes memory, and does not matter to another vertex: so threads use a few of them again.
+class SurroundingsToShare
+{
+public:
+  SurroundingsToShare(const Mesh& mesh, int longestLoop)
+    : mesh_(mesh)
+    , longestLoop_(longestLoop)
+  {
+    idle_.reserve(MostSurroundings);
+  }
+
+  /// Waits for one, and gives it back.
+  class Loan
+  {
+  public:
+    explicit Loan(SurroundingsToShare& shared)
+      : shared_(shared)
+    {
+      std::unique_lock lock(shared_.mutex_);
+      shared_.isFree_.wait(
+        lock, [&] { return !shared_.idle_.empty() || shared_.count_ < MostSurroundings; });
+      if (!shared_.idle_.empty())
+      {
+        lent_ = std::move(shared_.idle_.back());
+        shared_.idle_.pop_back();
+        return;
+      }
+      lent_ = std::make_unique<Surroundings>(shared_.mesh_, shared_.longestLoop_);
+      ++shared_.count_;
+    }
+    ~Loan()
+    {
+      const std::lock_guard lock(shared_.mutex_);
+      shared_.idle_.push_back(std::move(lent_));
+      shared_.isFree_.notify_one();
+    }
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+    Surroundings* operator->() const { return lent_.get(); }
+
+  private:
+    SurroundingsToShare& shared_;
+    std::unique_ptr<Surroundings> lent_;
+  };
+
+private:
+  const Mesh& mesh_;
+  int longestLoop_;
+  std::mutex mutex_;
+  std::condition_variable isFree_;
+  std::vector<std::unique_ptr<Surroundings>> idle_;
+  std::size_t count_ = 0;
+};
 }
 
 std::vector<NarrowStrip> findNarrowStrips(const Mesh& mesh, const Executor& executor,
   const StripLimits& limits, std::span<const std::uint8_t> isCandidate)
 {
   std::vector<std::uint8_t> isOpen(mesh.indexEnd(), 0);
-  // What was seen takes memory in each, and does not matter to another vertex: so threads use it again.
-  std::mutex mutex;
-  std::vector<std::unique_ptr<Surroundings>> idle;
+  SurroundingsToShare shared(mesh, limits.longestLoop);
   executor.forEachRange(mesh.indexEnd(), VerticesOfStripPart,
     [&](std::size_t begin, std::size_t end)
     {
-      std::unique_ptr<Surroundings> surroundings;
-      {
-        const std::lock_guard lock(mutex);
-        if (!idle.empty())
-        {
-          surroundings = std::move(idle.back());
-          idle.pop_back();
-        }
-      }
-      if (!surroundings)
-      {
-        surroundings = std::make_unique<Surroundings>(mesh, limits.longestLoop);
-      }
+      const SurroundingsToShare::Loan loan(shared);
       for (auto v = VertexIndex(begin); v < end; ++v)
       {
-        isOpen[v] =
-          (isCandidate.empty() || isCandidate[v] != 0) && surroundings->closeUp(v) ? 1 : 0;
+        isOpen[v] = (isCandidate.empty() || isCandidate[v] != 0) && loan->closeUp(v) ? 1 : 0;
       }
-      const std::lock_guard lock(mutex);
-      idle.push_back(std::move(surroundings));
     });
   std::vector<NarrowStrip> strips;
   for (VertexIndex first = 0; first < mesh.indexEnd(); ++first)

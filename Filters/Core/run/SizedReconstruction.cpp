@@ -59,8 +59,8 @@ constexpr double MostTimesForGain = 1.2, PartWithGain = 0.93;
 /// just enough, and each refined trial that misses the tolerance adds as much.
 constexpr double TimesEnough = 1.04;
 /// On a clean cloud, a mesh that is too large costs less than one that is too small: it is
-/// simplified with a short fit. So the first step to a larger mesh grows by this power of itself: no
-/// trial has shown yet how fast the error falls.
+/// simplified with a short fit. So the first step to a larger mesh is longer by its own ratio to this
+/// power: no trial has shown yet how fast the error falls.
 constexpr double ExcessIfClean = 0.25;
 /// The search ends at a mesh with up to so many times the vertices that are just enough.
 constexpr double TimesTaken = 1.06;
@@ -186,7 +186,7 @@ private:
   std::uint64_t nextSize()
   {
     double size = (1. + (TimesEnough - 1.) * double(1 + missed_)) * enough();
-    if (!enough_ && noise_ == 0. && measured_.size() == 1)
+    if (!enough_ && canMakeAgain() && noise_ == 0. && measured_.size() == 1)
     {
       size *= std::pow(size / double(tooFew_->vertices()), ExcessIfClean);
     }

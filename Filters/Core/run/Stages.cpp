@@ -389,9 +389,9 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
   {
     return false;
   }
+  // An interruption leaves neither.
+  result.gaps = spannedGaps(result.surface, *support, cloud, result.explanation->asked, executor);
   result.support = *std::move(support);
-  result.gaps =
-    spannedGaps(result.surface, result.support, cloud, result.explanation->asked, executor);
   return true;
 }
 }

@@ -472,8 +472,6 @@ TEST(GivenNormals, HelpOrAreLeftOut)
   EXPECT_EQ(errorWith([&](std::uint32_t i) { return Eigen::Vector3d(turn * points[i]); }), without);
 }
 
-// Few samples a vertex, one point a vertex, all points in one place or none that weighs anything: the mesh is a
-// manifold of finite points.
 // Spheres that run through each other are broken for good. A repair between the rounds rounds them off there, and
 // vertices that stay where they would break the mesh never get back.
 TEST(Fidelity, MayLeaveWhatIsBrokenToTheEnd)
@@ -516,6 +514,8 @@ TEST(Fidelity, MayLeaveWhatIsBrokenToTheEnd)
   EXPECT_LT(errors[1], 0.9 * errors[0]);
 }
 
+// Few samples a vertex, one point a vertex, all points in one place or none that weighs anything: the mesh is a
+// manifold of finite points.
 TEST(Fidelity, BadInput)
 {
   Random random(3);

@@ -7,6 +7,7 @@
 #include "mesh/NumberedTriangles.h"
 #include "mesh/Pieces.h"
 #include "MeshTools.h"
+#include "SphereRuns.h"
 
 #include <gtest/gtest.h>
 

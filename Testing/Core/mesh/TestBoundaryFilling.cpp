@@ -2,6 +2,7 @@
 #include "mesh/BoundaryFilling.h"
 
 #include "BoundaryTools.h"
+#include "SphereRuns.h"
 
 #include <gtest/gtest.h>
 
@@ -198,6 +199,49 @@ TEST(BoundaryFilling, CracksAreFilled)
     EXPECT_EQ(fillCracks(mesh), width < 1.f ? 1u : 0u);
     EXPECT_EQ(defectOf(mesh), "");
     EXPECT_EQ(reportOf(mesh).isClosed(), width < 1.f);
+  }
+  // All triangles around this crack touch the outline, too, which has a lower number or a higher one.
+  for (const bool isFirst : { true, false })
+  {
+    TriangleMesh ribbon;
+    for (unsigned i = 0; i < 5; ++i)
+    {
+      for (const double y : { -1., 0., 1. })
+      {
+        ribbon.points.emplace_back(double(i), y, 0.);
+      }
+    }
+    // The middle vertex is there twice, on either side of the crack.
+    ribbon.points[7].y() = -0.01;
+    ribbon.points.emplace_back(2., 0.01, 0.);
+    const auto at = [](unsigned i, unsigned row, bool isAbove) -> std::uint32_t
+    { return i == 2 && row == 1 && isAbove ? 15 : 3 * i + row; };
+    for (unsigned i = 0; i < 4; ++i)
+    {
+      for (const unsigned row : { 0u, 1u })
+      {
+        const bool isAbove = row == 1;
+        ribbon.triangles.push_back(
+          { at(i, row, isAbove), at(i + 1, row, isAbove), at(i + 1, row + 1, isAbove) });
+        ribbon.triangles.push_back(
+          { at(i, row, isAbove), at(i + 1, row + 1, isAbove), at(i, row + 1, isAbove) });
+      }
+    }
+    if (isFirst)
+    {
+      std::swap(ribbon.points[0], ribbon.points[7]);
+      for (auto& triangle : ribbon.triangles)
+      {
+        for (std::uint32_t& v : triangle)
+        {
+          v = v == 0 ? 7 : v == 7 ? 0 : v;
+        }
+      }
+    }
+    Mesh mesh = meshOf(ribbon);
+    EXPECT_EQ(reportOf(mesh).boundaryLoops, 2u);
+    EXPECT_EQ(fillCracks(mesh), 1u);
+    EXPECT_EQ(defectOf(mesh), "");
   }
   Mesh sheet = makeFan(4);
   removeTriangle(sheet, { 0, sheet.ring(0)[0], sheet.ring(0)[1] });

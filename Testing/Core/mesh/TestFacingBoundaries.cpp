@@ -7,6 +7,7 @@
 #include "ManifoldCheck.h"
 #include "mesh/Pieces.h"
 #include "mesh/TwistedParts.h"
+#include "MeshTools.h"
 #include "OpenShapes.h"
 #include "Shapes.h"
 #include "SphereRuns.h"
