@@ -170,7 +170,8 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   const auto refineAll = [&](double at)
   {
     const bool isDone = refine(mesh_, plan_.vertexCount, partOf(progress, at, at));
-    flipEdges(mesh_, EdgesToFlip::All, executor_);
+    // What was refined until a run ends is kept.
+    flipEdges(mesh_, EdgesToFlip::All, isDone ? executor_ : executor_.uninterrupted());
     return isDone;
   };
   if (rounds == 0 && mesh_.vertexCount() < plan_.vertexCount && !refineAll(0.))
