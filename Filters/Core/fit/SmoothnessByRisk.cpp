@@ -39,7 +39,7 @@ constexpr double RingsOfRisk = 12.;
 constexpr double SamplesOfRings = 9.5;
 /// How sharply the least risk is chosen, in variances of the noise; and how far from the lambda of all,
 /// in powers of two.
-constexpr double SharpnessOfRisk = 300.;
+constexpr double SharpnessOfRisk = 200.;
 constexpr double DeviationFromAll = 5.;
 }
 

@@ -101,6 +101,7 @@ TEST(Uncertainty, GrowsWithNoiseAndWithFewerPoints)
   const double low = meanBar(runOf(PointCloud(sphereWith(0.005))));
   const double high = meanBar(runOf(PointCloud(sphereWith(0.02))));
   EXPECT_GT(high, 2. * low);
+  EXPECT_GT(low, meanBar(runOf(PointCloud(sphereWith(0.001)))));
   const Reconstruction run = runOf(PointCloud(sphereWith(0.003, 10.)));
   const double sparse = meanBar(run, [](const Eigen::Vector3d& p) { return p.z() > 0.6; });
   const double dense = meanBar(run, [](const Eigen::Vector3d& p) { return p.z() < -0.6; });
