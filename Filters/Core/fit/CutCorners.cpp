@@ -8,7 +8,9 @@
 #include "mesh/TriangleShape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -33,12 +35,26 @@ constexpr float LeastCornerRatio = 0.15f;
 /// Of the vertices of an edge that is flipped: who loses it has more neighbours, who gains it fewer.
 constexpr unsigned LeastCornerValence = 4;
 constexpr unsigned MostCornerValence = 9;
-/// By so many deviations samples may be missing.
-constexpr double DeviationsOfMissing = 2.;
+/// Edges, at most, that are flipped for one vertex.
+constexpr unsigned MostCornerFlips = 3;
+/// As few samples as there are at one of all the corners must not be rarer than that.
+constexpr double LeastChanceOfMissing = 0.05;
 /// Of the squares that the new triangles gain.
 constexpr double MostPartLost = 0.1;
 /// A part for the executor.
 constexpr std::size_t VerticesPerCornerSearch = 1024;
+
+/// Of no more than `count` samples, where so many are expected.
+double chanceOfFew(double expected, std::size_t count)
+{
+  double term = std::exp(-expected), sum = term;
+  for (std::size_t i = 1; i <= count; ++i)
+  {
+    term *= expected / double(i);
+    sum += term;
+  }
+  return sum;
+}
 
 class CutCorners
 {
@@ -53,67 +69,177 @@ public:
   {
   }
 
-  ChangedVertices run()
+  ChangedVertices complete()
   {
-    std::vector<std::uint8_t> isAsked(mesh_.indexEnd());
-    executor_.forEachRange(mesh_.indexEnd(), VerticesPerCornerSearch,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (auto v = VertexIndex(begin); v < end; ++v)
-        {
-          isAsked[v] = !mesh_.isBoundary(v) && mayBeCutOff(v) ? 1 : 0;
-        }
-      });
-    std::vector<std::pair<double, VertexIndex>> order;
+    bendsAndGaps();
+    std::vector<Center> centers;
     for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
     {
-      if (isAsked[v] != 0)
+      if (isBent_[v] != 0 && isSparse_[v] != 0 && !mesh_.isBoundary(v))
       {
-        const Corner corner = cornerOf(v);
-        if (corner.gain > 0.)
-        {
-          order.emplace_back(-corner.gain, v);
-        }
+        centers.push_back({ v });
       }
     }
-    std::sort(order.begin(), order.end());
-    for (const auto& [gain, v] : order)
+    run(std::move(centers), centers.size());
+    return std::move(changed_);
+  }
+
+  /// How many vertices more corners could do with, at most `most`.
+  std::size_t wanted(std::size_t most)
+  {
+    bendsAndGaps();
+    std::size_t count = 0;
+    for (const auto& [gain, center] : inOrder(cutEdges()))
     {
-      // Samples are no longer known around what has moved.
-      if (isLocked_[v] != 0)
+      if (count == most)
       {
-        continue;
+        break;
       }
-      // What has moved farther off has changed the planes: they may no longer meet near by.
-      const Corner corner = cornerOf(v);
-      if (corner.gain > 0.)
+      if (!isAnyLocked(center))
       {
-        if (corner.flipped[0] != NoVertex)
-        {
-          mesh_.flip(corner.flipped[0], corner.flipped[1]);
-        }
-        mesh_.setPosition(v, corner.place);
-        lockAround(v);
-        changed_.touchAround(mesh_, v);
+        lockAround(center);
+        ++count;
       }
     }
+    return count;
+  }
+
+  ChangedVertices add(std::size_t most)
+  {
+    bendsAndGaps();
+    run(cutEdges(), most);
     return std::move(changed_);
   }
 
 private:
+  /// A vertex that moves, or, with another one, the middle of their edge, where a vertex is added.
+  struct Center
+  {
+    VertexIndex v;
+    VertexIndex other = NoVertex;
+
+    bool isAdded() const { return other != NoVertex; }
+    auto operator<=>(const Center&) const = default;
+  };
   /// Where a vertex goes, and how much straighter the triangles around it get.
   struct Corner
   {
     double gain = 0.;
     Vector4 place;
-    Edge flipped{ NoVertex, NoVertex }; ///< if any, before it goes there
+    std::array<Edge, MostCornerFlips> flipped; ///< in this order, before it goes there
+    unsigned flips = 0;
   };
   /// A triangle of the vertex: its other corners, and its normal, twice the area long, before the vertex goes.
   struct Side
   {
     VertexIndex first, second;
     Vector4 normal;
+    bool isFlipped = false;
   };
+
+  /// Vertices with an edge that is bent, and with triangles that samples do not confirm.
+  void bendsAndGaps()
+  {
+    isBent_.assign(mesh_.indexEnd(), 0);
+    isSparse_.assign(mesh_.indexEnd(), 0);
+    executor_.forEachRange(mesh_.indexEnd(), VerticesPerCornerSearch,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (auto v = VertexIndex(begin); v < end; ++v)
+        {
+          const Ring& ring = mesh_.ring(v);
+          for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+          {
+            const bool isBent = cosineBetween(normalAt(v, slot, mesh_.position(v)),
+                                  normalAt(v, ring.after(slot), mesh_.position(v))) <
+              MostCosineOfCrooked;
+            isBent_[v] |= isBent ? 1 : 0;
+            isSparse_[v] |= isConfirmed(loadAt(v, slot)) ? 0 : 1;
+          }
+        }
+      });
+    bentCount_ = double(std::count(isBent_.begin(), isBent_.end(), 1));
+  }
+
+  /// Edges beside which a triangle has few samples, where the surface is bent.
+  std::vector<Center> cutEdges() const
+  {
+    std::vector<Center> edges;
+    for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
+    {
+      const Ring& ring = mesh_.ring(v);
+      for (unsigned slot = 0; slot < ring.size() && !mesh_.isBoundary(v) && isSparse_[v] != 0;
+           ++slot)
+      {
+        const VertexIndex other = ring[slot];
+        if (v < other && !mesh_.isBoundary(other) && (isBent_[v] != 0 || isBent_[other] != 0) &&
+          (!isConfirmed(loadAt(v, slot)) || !isConfirmed(loadAt(v, ring.before(slot)))))
+        {
+          edges.push_back({ v, other });
+        }
+      }
+    }
+    return edges;
+  }
+
+  std::vector<std::pair<double, Center>> inOrder(std::vector<Center> centers)
+  {
+    std::vector<std::pair<double, Center>> order;
+    for (const Center& center : centers)
+    {
+      const Corner corner = cornerOf(center);
+      if (corner.gain > 0.)
+      {
+        order.emplace_back(-corner.gain, center);
+      }
+    }
+    std::sort(order.begin(), order.end());
+    return order;
+  }
+
+  void run(std::vector<Center> centers, std::size_t most)
+  {
+    std::size_t left = most;
+    for (const auto& [gain, center] : inOrder(std::move(centers)))
+    {
+      if (left == 0)
+      {
+        return;
+      }
+      // Samples are no longer known around what has moved.
+      if (isAnyLocked(center))
+      {
+        continue;
+      }
+      // What has moved farther off has changed the planes: they may no longer meet near by.
+      const Corner corner = cornerOf(center);
+      if (corner.gain > 0.)
+      {
+        apply(center, corner);
+        --left;
+      }
+    }
+  }
+
+  void apply(const Center& center, const Corner& corner)
+  {
+    VertexIndex v = center.v;
+    if (center.isAdded())
+    {
+      const Ring& ring = mesh_.ring(v);
+      const unsigned first = ring.before(ring.find(center.other));
+      v = mesh_.split(v, first, 2, corner.place);
+      changed_.add(v, center.v);
+      isLocked_.resize(mesh_.indexEnd(), 0);
+    }
+    for (unsigned i = 0; i < corner.flips; ++i)
+    {
+      mesh_.flip(corner.flipped[i][0], corner.flipped[i][1]);
+    }
+    mesh_.setPosition(v, corner.place);
+    lockAround({ v });
+    changed_.touchAround(mesh_, v);
+  }
 
   SampleLoad loadAt(VertexIndex v, unsigned slot) const
   {
@@ -134,125 +260,212 @@ private:
       mesh_.position(ring[slot]) - place, mesh_.position(ring[ring.after(slot)]) - place);
   }
 
-  /// Whether an edge at the vertex is bent, and samples do not confirm all triangles.
-  bool mayBeCutOff(VertexIndex v) const
+  Vector4 startOf(const Center& center) const
   {
-    const Ring& ring = mesh_.ring(v);
-    bool isBent = false, areConfirmed = true;
-    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
-    {
-      isBent = isBent ||
-        cosineBetween(normalAt(v, slot, mesh_.position(v)),
-          normalAt(v, ring.after(slot), mesh_.position(v))) < MostCosineOfCrooked;
-      areConfirmed = areConfirmed && isConfirmed(loadAt(v, slot));
-    }
-    return isBent && !areConfirmed;
+    const Vector4 start = mesh_.position(center.v);
+    return center.isAdded() ? 0.5f * (start + mesh_.position(center.other)) : start;
   }
 
-  Corner cornerOf(VertexIndex v)
+  Corner cornerOf(const Center& center)
   {
-    const Vector4 place = planesMeetNear(v);
-    if (!isNear(v, place))
+    start_ = startOf(center);
+    const Vector4 meeting = planesMeetNear(center);
+    collectStar(center);
+    best_ = {};
+    flips_ = 0;
+    if (isNear(meeting))
     {
-      return {};
+      search(center, meeting);
     }
-    Corner corner{ 0., place };
-    collectStar(v);
-    const unsigned spoiled = spoiledSide(v, place);
-    if (spoiled < sides_.size() && !flipSide(v, spoiled, corner))
+    if (!center.isAdded())
     {
-      return {};
+      search(center, start_);
     }
-    const double after = crookednessAt(place);
-    if (!isCrooked_ || !(after <= MostCrookednessLeft * crookedBefore_) || !keepsShape(v, place) ||
-      !hasSamples(place, after <= MostLeftWithoutGain * crookedBefore_))
-    {
-      return {};
-    }
-    corner.gain = crookedBefore_ - after;
-    return corner;
+    return best_;
   }
 
-  /// Notes the triangles of the vertex, their samples, and how crooked they are.
-  void collectStar(VertexIndex v)
+  /// Notes the triangles around, and how crooked they are.
+  void collectStar(const Center& center)
   {
-    const Ring& ring = mesh_.ring(v);
+    const Ring& ring = mesh_.ring(center.v);
     sides_.clear();
-    onStar_.clear();
-    old_.clear();
-    crookedBefore_ = 0.;
-    isCrooked_ = false;
+    oldOnes_.clear();
+    if (center.isAdded())
+    {
+      const unsigned slot = ring.find(center.other);
+      const VertexIndex a = center.v, b = center.other;
+      const VertexIndex left = ring[ring.after(slot)], right = ring[ring.before(slot)];
+      const Vector4 ofLeft = normalAt(a, slot, mesh_.position(a));
+      const Vector4 ofRight = normalAt(a, ring.before(slot), mesh_.position(a));
+      sides_ = { { b, left, ofLeft }, { left, a, ofLeft }, { a, right, ofRight },
+        { right, b, ofRight } };
+      oldOnes_.push_back({ a, b, left });
+      oldOnes_.push_back({ a, right, b });
+      return;
+    }
     for (unsigned slot = 0; slot < ring.size(); ++slot)
     {
       const VertexIndex first = ring[slot], second = ring[ring.after(slot)];
-      sides_.push_back({ first, second, normalAt(v, slot, mesh_.position(v)) });
-      addOld(v, first, second, sides_.back().normal);
+      sides_.push_back({ first, second, normalAt(center.v, slot, start_) });
+      oldOnes_.push_back({ center.v, first, second });
     }
   }
 
-  void addOld(VertexIndex a, VertexIndex b, VertexIndex c, Vector4 normal)
-  {
-    samples_.collect(a, b, c, onStar_);
-    old_.emplace_back(mesh_.position(a), mesh_.position(b), mesh_.position(c));
-    crookedBefore_ += crookedness(normal);
-    isCrooked_ =
-      isCrooked_ || alongPlane(normal) < MostCosineOfCrooked * std::sqrt(squaredNorm(normal));
-  }
-
-  /// The only triangle that would turn over or become a sliver; their number if there are more, or none.
-  unsigned spoiledSide(VertexIndex v, Vector4 place) const
+  /// Looks for the edges to flip, so that the most is gained: those beyond which a triangle would turn over or become
+  /// a sliver, or stay crooked. A vertex that goes to a crease comes between two
+  /// neighbours that lie there already: nothing is left of their triangle, and it belongs to the other face.
+  void search(const Center& center, Vector4 place)
   {
     const auto isSpoiled = [&](const Side& side)
     {
       return turns(side, place) ||
-        ratioOf(side, place) < std::min(LeastCornerRatio, ratioOf(side, mesh_.position(v)));
+        ratioOf(side, place) < std::min(LeastCornerRatio, ratioOf(side, start_));
     };
-    const auto first = std::find_if(sides_.begin(), sides_.end(), isSpoiled);
-    const bool isOnly = first != sides_.end() && std::none_of(first + 1, sides_.end(), isSpoiled);
-    return unsigned((isOnly ? first : sides_.end()) - sides_.begin());
+    const auto spoiled = std::count_if(sides_.begin(), sides_.end(), isSpoiled);
+    if (spoiled == 0)
+    {
+      judge(center, place);
+    }
+    if (flips_ + unsigned(spoiled) > MostCornerFlips - (spoiled == 0 ? 1 : 0))
+    {
+      return;
+    }
+    for (std::size_t i = 0; i < sides_.size(); ++i)
+    {
+      const Side side = sides_[i];
+      if (spoiled > 0 ? !isSpoiled(side) : !isCrooked(normalOf(side, place)))
+      {
+        continue;
+      }
+      if (flipSide(center, i))
+      {
+        search(center, place);
+        sides_.pop_back();
+        sides_[i] = side;
+        oldOnes_.pop_back();
+        --flips_;
+      }
+      // All of these have to be flipped, in any order.
+      if (spoiled > 0)
+      {
+        return;
+      }
+    }
   }
 
-  /// Flips the edge that is opposite to the vertex, in what is noted. A vertex that goes to a crease comes between two
-  /// neighbours that lie there already: nothing is left of their triangle, and it belongs to the other face.
-  bool flipSide(VertexIndex v, unsigned index, Corner& corner)
+  /// Flips the edge that is opposite to the vertex, in what is noted.
+  bool flipSide(const Center& center, std::size_t index)
   {
-    const auto [a, b, normal] = sides_[index];
-    if (mesh_.isBoundaryEdge(a, b) || mesh_.valence(a) <= LeastCornerValence ||
-      mesh_.valence(b) <= LeastCornerValence || mesh_.valence(v) >= MostCornerValence ||
-      !mesh_.canFlip(a, b))
+    const auto [a, b, normal, isFlipped] = sides_[index];
+    if (mesh_.isBoundaryEdge(a, b))
     {
       return false;
     }
     const Edge opposite = oppositeTo(mesh_, { a, b });
-    const VertexIndex beyond = opposite[0] == v ? opposite[1] : opposite[0];
-    if (isLocked_[beyond] != 0 || mesh_.isBoundary(beyond) ||
-      mesh_.valence(beyond) >= MostCornerValence)
+    // On the side of the vertex is what was noted last.
+    const auto isOld = [&](VertexIndex c)
+    {
+      return std::any_of(oldOnes_.begin(), oldOnes_.end(),
+        [&](const Triangle& old)
+        {
+          const auto has = [&](VertexIndex v)
+          { return std::find(old.begin(), old.end(), v) != old.end(); };
+          return has(a) && has(b) && has(c);
+        });
+    };
+    const VertexIndex beyond = isOld(opposite[0]) ? opposite[1] : opposite[0];
+    const auto isOnRim = [&](VertexIndex v)
+    {
+      return std::any_of(
+        sides_.begin(), sides_.end(), [v](const Side& side) { return side.first == v; });
+    };
+    if (isOld(beyond) || isOnRim(beyond) || beyond == center.v || mesh_.isBoundary(beyond) ||
+      (isLocked_[a] != 0 && isLocked_[b] != 0 && isLocked_[beyond] != 0) ||
+      valence(center, a) <= LeastCornerValence || valence(center, b) <= LeastCornerValence ||
+      valence(center, beyond) >= MostCornerValence || sides_.size() >= MostCornerValence)
     {
       return false;
     }
     const Vector4 start = mesh_.position(b);
     const Vector4 other = cross(mesh_.position(a) - start, mesh_.position(beyond) - start);
-    addOld(beyond, b, a, other);
-    sides_[index] = { a, beyond, normal + other };
-    sides_.push_back({ beyond, b, normal + other });
-    corner.flipped = { a, b };
+    oldOnes_.push_back({ beyond, b, a });
+    sides_[index] = { a, beyond, normal + other, true };
+    sides_.push_back({ beyond, b, normal + other, true });
+    flipped_[flips_++] = { a, b };
     return true;
   }
 
+  /// Once the edges that are noted are flipped.
+  unsigned valence(const Center& center, VertexIndex v) const
+  {
+    unsigned count = mesh_.valence(v);
+    if (center.isAdded() && v != center.v && v != center.other)
+    {
+      const Ring& ring = mesh_.ring(center.v);
+      const unsigned slot = ring.find(center.other);
+      count += ring[ring.after(slot)] == v || ring[ring.before(slot)] == v ? 1 : 0;
+    }
+    for (unsigned i = 0; i < flips_; ++i)
+    {
+      count -= flipped_[i][0] == v || flipped_[i][1] == v ? 1 : 0;
+      count += oldOnes_[oldOnes_.size() - flips_ + i][0] == v ? 1 : 0;
+    }
+    return count;
+  }
+
+  /// Keeps what is noted if it gains more than what was found before.
+  void judge(const Center& center, Vector4 place)
+  {
+    double before = 0., after = 0.;
+    bool wasCrooked = false;
+    const bool stays = !center.isAdded() && squaredNorm(place - start_) == 0.f;
+    for (const auto& [a, b, c] : oldOnes_)
+    {
+      const Vector4 from = mesh_.position(a);
+      const Vector4 normal = cross(mesh_.position(b) - from, mesh_.position(c) - from);
+      before += crookedness(normal);
+      wasCrooked = wasCrooked || isCrooked(normal);
+    }
+    for (const Side& side : sides_)
+    {
+      const double left = crookedness(normalOf(side, place));
+      after += left;
+      // What does not change does not count.
+      before -= stays && !side.isFlipped ? left : 0.;
+      after -= stays && !side.isFlipped ? left : 0.;
+    }
+    const double gain = before - after;
+    if (!wasCrooked || !(gain > best_.gain) || !(after <= MostCrookednessLeft * before) ||
+      !keepsShape(place) ||
+      !hasSamples(place, after <= MostLeftWithoutGain * before, center.isAdded()))
+    {
+      return;
+    }
+    best_ = { gain, place, flipped_, flips_ };
+  }
+
   /// Notes the planes of the triangles at the neighbours, and how many samples have which area there.
-  Vector4 planesMeetNear(VertexIndex v)
+  Vector4 planesMeetNear(const Center& center)
   {
     triangles_.clear();
-    for (const VertexIndex neighbor : mesh_.ring(v))
+    const auto addAround = [&](VertexIndex v)
     {
-      const Ring& ring = mesh_.ring(neighbor);
-      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+      for (const VertexIndex neighbor : mesh_.ring(v))
       {
-        Triangle triangle{ neighbor, ring[slot], ring[ring.after(slot)] };
-        std::rotate(
-          triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-        triangles_.push_back(triangle);
+        const Ring& ring = mesh_.ring(neighbor);
+        for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+        {
+          Triangle triangle{ neighbor, ring[slot], ring[ring.after(slot)] };
+          std::rotate(
+            triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+          triangles_.push_back(triangle);
+        }
       }
+    };
+    addAround(center.v);
+    if (center.isAdded())
+    {
+      addAround(center.other);
     }
     std::sort(triangles_.begin(), triangles_.end());
     triangles_.erase(std::unique(triangles_.begin(), triangles_.end()), triangles_.end());
@@ -274,7 +487,7 @@ private:
       }
     }
     density_ = area > 0. ? count / area : 0.;
-    Vector4 place = mesh_.position(v);
+    Vector4 place = start_;
     for (int i = 0; i < SearchesForCorner; ++i)
     {
       place = quadric.least(place);
@@ -298,14 +511,9 @@ private:
   {
     return double(std::sqrt(squaredNorm(normal)) - alongPlane(normal));
   }
-  double crookednessAt(Vector4 place) const
+  bool isCrooked(Vector4 normal) const
   {
-    double sum = 0.;
-    for (const Side& side : sides_)
-    {
-      sum += crookedness(normalOf(side, place));
-    }
-    return sum;
+    return alongPlane(normal) < MostCosineOfCrooked * std::sqrt(squaredNorm(normal));
   }
 
   Vector4 normalOf(const Side& side, Vector4 place) const
@@ -324,17 +532,17 @@ private:
   }
 
   /// Not beyond the farthest neighbour.
-  bool isNear(VertexIndex v, Vector4 place) const
+  bool isNear(Vector4 place) const
   {
-    const Vector4 from = mesh_.position(v);
-    const Ring& ring = mesh_.ring(v);
-    return std::any_of(ring.begin(), ring.end(),
-      [&](VertexIndex neighbor)
-      { return squaredNorm(place - from) <= squaredNorm(mesh_.position(neighbor) - from); });
+    return std::any_of(sides_.begin(), sides_.end(),
+      [&](const Side& side)
+      {
+        return squaredNorm(place - start_) <= squaredNorm(mesh_.position(side.first) - start_);
+      });
   }
 
   /// Whether no triangle turns over or becomes a sliver.
-  bool keepsShape(VertexIndex v, Vector4 place) const
+  bool keepsShape(Vector4 place) const
   {
     float before = 1.f, after = 1.f;
     for (const Side& side : sides_)
@@ -343,16 +551,24 @@ private:
       {
         return false;
       }
-      before = std::min(before, ratioOf(side, mesh_.position(v)));
+      before = std::min(before, ratioOf(side, start_));
       after = std::min(after, ratioOf(side, place));
     }
     return after >= LeastCornerRatio || after >= before;
   }
 
-  /// Whether the samples allow for the triangles around `place`.
-  bool hasSamples(Vector4 place, bool mayLose)
+  /// Whether the samples allow for the triangles around `place`, and, if so, whether these need a vertex more than
+  /// others do.
+  bool hasSamples(Vector4 place, bool mayLose, bool isAdded)
   {
+    onStar_.clear();
+    old_.clear();
     new_.clear();
+    for (const auto& [a, b, c] : oldOnes_)
+    {
+      samples_.collect(a, b, c, onStar_);
+      old_.emplace_back(mesh_.position(a), mesh_.position(b), mesh_.position(c));
+    }
     double expected = 0., gain = 0.;
     for (const Side& side : sides_)
     {
@@ -362,7 +578,9 @@ private:
       expected += onTriangle;
       gain += onTriangle * double(squaredTo(old_, 1.f / 3.f * (place + a + b)));
     }
-    if (expected - double(onStar_.size()) > DeviationsOfMissing * std::sqrt(expected))
+    // Corners that are cut off are where fewest samples are, of all.
+    if (chanceOfFew(expected, onStar_.size()) * bentCount_ < LeastChanceOfMissing ||
+      (isAdded && gain < samples_.total().squares / double(mesh_.vertexCount())))
     {
       return false;
     }
@@ -390,12 +608,23 @@ private:
     return least;
   }
 
-  void lockAround(VertexIndex v)
+  bool isAnyLocked(const Center& center) const
   {
-    isLocked_[v] = 1;
-    for (const VertexIndex neighbor : mesh_.ring(v))
+    return isLocked_[center.v] != 0 || (center.isAdded() && isLocked_[center.other] != 0);
+  }
+
+  void lockAround(const Center& center)
+  {
+    for (const VertexIndex v : { center.v, center.other })
     {
-      isLocked_[neighbor] = 1;
+      if (v != NoVertex)
+      {
+        isLocked_[v] = 1;
+        for (const VertexIndex neighbor : mesh_.ring(v))
+        {
+          isLocked_[neighbor] = 1;
+        }
+      }
     }
   }
 
@@ -403,14 +632,19 @@ private:
   const Executor& executor_;
   TriangleSamples samples_;
   double scale_; ///< of a sample's squared distance
+  std::vector<std::uint8_t> isBent_, isSparse_;
+  double bentCount_ = 0.;
   std::vector<std::uint8_t> isLocked_;
   ChangedVertices changed_;
   std::vector<Triangle> triangles_; ///< at the neighbours
   std::vector<Vector4> planes_;     ///< unit normals of those that samples confirm
-  std::vector<Side> sides_;
-  double crookedBefore_ = 0.;
-  bool isCrooked_ = false;
-  double density_ = 0.; ///< of samples on all of them, by the length of normals
+  double density_ = 0.;             ///< of samples on all of them, by the length of normals
+  Vector4 start_;                   ///< of the vertex, or the middle of the edge
+  std::vector<Side> sides_;         ///< around it
+  std::vector<Triangle> oldOnes_;   ///< that are replaced by these
+  std::array<Edge, MostCornerFlips> flipped_{};
+  unsigned flips_ = 0;
+  Corner best_;
   std::vector<std::uint32_t> onStar_;
   SampleBundle bundle_; ///< of these
   std::vector<TriangleDistances> old_, new_;
@@ -420,6 +654,18 @@ private:
 ChangedVertices completeCorners(
   Mesh& mesh, const PlacedSamples& samples, double variance, const Executor& executor)
 {
-  return CutCorners(mesh, samples, variance, executor).run();
+  return CutCorners(mesh, samples, variance, executor).complete();
+}
+
+std::size_t wantedAtCorners(Mesh& mesh, const PlacedSamples& samples, double variance,
+  std::size_t most, const Executor& executor)
+{
+  return CutCorners(mesh, samples, variance, executor).wanted(most);
+}
+
+ChangedVertices addAtCorners(Mesh& mesh, const PlacedSamples& samples, double variance,
+  std::size_t most, const Executor& executor)
+{
+  return CutCorners(mesh, samples, variance, executor).add(most);
 }
 }

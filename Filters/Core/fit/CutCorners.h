@@ -15,4 +15,12 @@ namespace neuralmesh
 /// An edge between two neighbours is flipped if nothing but a sliver would be left of its triangle.
 ChangedVertices completeCorners(Mesh& mesh, const PlacedSamples& samples, double variance,
   const Executor& executor = Executor::sequential());
+
+/// How many vertices more corners could do with, at most `most`: where no vertex can go to a corner, the middle of an edge
+/// can. Each is worth more than vertices are on average.
+std::size_t wantedAtCorners(Mesh& mesh, const PlacedSamples& samples, double variance,
+  std::size_t most, const Executor& executor = Executor::sequential());
+/// Adds at most `most` of these.
+ChangedVertices addAtCorners(Mesh& mesh, const PlacedSamples& samples, double variance,
+  std::size_t most, const Executor& executor = Executor::sequential());
 }

@@ -38,6 +38,8 @@ RoundsOf roundsOf(Fidelity fidelity)
 
 /// Vertices, at most, that a round takes to other places.
 constexpr double MostDistributed = 0.1;
+/// ... and those that corners get in the end.
+constexpr double MostAddedAtCorners = 0.05;
 /// Of lambda, on a clean cloud: creases no longer need so much of it.
 constexpr double PartOnCleanClouds = 0.5;
 /// Beyond so many deviations of the usual bend it is a crease.
@@ -160,7 +162,23 @@ bool FidelityRounds::sharpenCorners(const Progress& progress)
     fit_.follow(change(mesh_, fit_.placedSamples(), fit_.variance(), executor_));
     return true;
   };
-  return follow(completeCorners) && follow(snapToCreases) && follow(completeCorners);
+  if (!follow(completeCorners) || !follow(snapToCreases) || !follow(completeCorners) ||
+    !fit_.findPlaces(progress))
+  {
+    return false;
+  }
+  const auto most = std::size_t(MostAddedAtCorners * double(vertexCount_));
+  const std::size_t wanted =
+    wantedAtCorners(mesh_, fit_.placedSamples(), fit_.variance(), most, executor_);
+  const auto missing = [&] { return vertexCount_ - std::min(vertexCount_, mesh_.vertexCount()); };
+  if (wanted > missing())
+  {
+    fit_.follow(removeCheapest(
+      mesh_, fit_.placedSamples(), fit_.variance(), wanted - missing(), executor_));
+  }
+  fit_.follow(addAtCorners(
+    mesh_, fit_.placedSamples(), fit_.variance(), std::min(wanted, missing()), executor_));
+  return true;
 }
 
 bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress)

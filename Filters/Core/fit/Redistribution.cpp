@@ -92,7 +92,8 @@ public:
   ChangedVertices run(std::size_t most, std::size_t missing)
   {
     const std::vector<WantedSplit> splits = wantedSplits();
-    const std::vector<CheapRemoval> removals = cheapRemovals(splits);
+    const std::vector<CheapRemoval> removals =
+      cheapRemovals(splits.empty() ? 0. : MostRemovalCost * splits.front().gain);
     std::vector<WantedSplit> chosen;
     std::vector<CheapRemoval> paid;
     std::size_t next = 0;
@@ -141,6 +142,26 @@ public:
       }
       left -= halve(split) ? 1 : 0;
     }
+    return std::move(changed_);
+  }
+
+  ChangedVertices removeCheapest(std::size_t count)
+  {
+    const double most = samples_.total().squares / double(mesh_.vertexCount());
+    const std::vector<CheapRemoval> removals = cheapRemovals(most);
+    std::vector<CheapRemoval> chosen;
+    for (std::size_t i = 0; i < removals.size() && chosen.size() < count; ++i)
+    {
+      const VertexIndex v = removals[i].v;
+      const VertexIndex kept = isLocked_[v] == 0 ? bestCollapse(removals, i, most) : NoVertex;
+      if (kept != NoVertex)
+      {
+        lockAround(v);
+        chosen.push_back({ 0., v, kept });
+      }
+    }
+    std::for_each(
+      chosen.begin(), chosen.end(), [this](const CheapRemoval& removal) { remove(removal); });
     return std::move(changed_);
   }
 
@@ -206,10 +227,9 @@ private:
     return splits;
   }
 
-  /// The inner vertices that are cheap enough for any of the splits, the cheapest first.
-  std::vector<CheapRemoval> cheapRemovals(const std::vector<WantedSplit>& splits) const
+  /// The inner vertices that are expected to cost less than `most`, the cheapest first.
+  std::vector<CheapRemoval> cheapRemovals(double most) const
   {
-    const double most = splits.empty() ? 0. : MostRemovalCost * splits.front().gain;
     if (!(most > 0.))
     {
       return {};
@@ -421,5 +441,11 @@ ChangedVertices redistribute(Mesh& mesh, const PlacedSamples& samples, double va
 {
   return Redistribution(mesh, samples, variance, executor)
     .run(std::size_t(most * double(mesh.vertexCount())), missing);
+}
+
+ChangedVertices removeCheapest(Mesh& mesh, const PlacedSamples& samples, double variance,
+  std::size_t count, const Executor& executor)
+{
+  return Redistribution(mesh, samples, variance, executor).removeCheapest(count);
 }
 }

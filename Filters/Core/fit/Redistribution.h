@@ -15,4 +15,9 @@ namespace neuralmesh
 /// of the vertices. The first `missing` splits need no collapse.
 ChangedVertices redistribute(Mesh& mesh, const PlacedSamples& samples, double variance, double most,
   std::size_t missing, const Executor& executor = Executor::sequential());
+
+/// Collapses at most `count` vertices whose samples come little farther: by less than what all samples of the mesh are
+/// off, over its vertices.
+ChangedVertices removeCheapest(Mesh& mesh, const PlacedSamples& samples, double variance,
+  std::size_t count, const Executor& executor = Executor::sequential());
 }
