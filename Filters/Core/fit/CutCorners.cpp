@@ -39,8 +39,6 @@ constexpr unsigned MostCornerValence = 9;
 constexpr unsigned MostCornerFlips = 3;
 /// As few samples as there are at one of all the corners must not be rarer than that.
 constexpr double LeastChanceOfMissing = 0.05;
-/// Of the squares that the new triangles gain.
-constexpr double MostPartLost = 0.1;
 /// A part for the executor.
 constexpr std::size_t VerticesPerCornerSearch = 1024;
 
@@ -588,11 +586,13 @@ private:
     {
       return true;
     }
-    double most = mayLose ? MostPartLost * gain : 0.;
+    double before = 0., count = 0.;
     for (const std::uint32_t sample : onStar_)
     {
-      most += double(samples_.weight(sample)) * double(samples_.squaredDistance(sample));
+      before += double(samples_.weight(sample)) * double(samples_.squaredDistance(sample));
+      count += double(samples_.weight(sample));
     }
+    const double most = mayLose ? std::max(before, usualSquares(count, scale_)) : before;
     bundle_.assign(samples_, onStar_);
     return bundle_.squares(new_, most) <= most;
   }

@@ -23,9 +23,14 @@ Triangle inOrder(VertexIndex a, VertexIndex b, VertexIndex c)
 }
 }
 
+double usualSquares(double count, double variance)
+{
+  return variance * (count + ExcessDeviations * std::sqrt(2. * count));
+}
+
 double SampleLoad::excess(double variance) const
 {
-  return squares - variance * (count + ExcessDeviations * std::sqrt(2. * count));
+  return squares - usualSquares(count, variance);
 }
 
 TriangleSamples::TriangleSamples(

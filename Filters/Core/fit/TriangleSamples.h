@@ -27,6 +27,10 @@ struct PlacedSamples
   float weight(std::size_t sample) const { return weights.empty() ? 1.f : weights[sample]; }
 };
 
+/// The most that squared distances of so many samples with this variance about the surface add up to but for chance: by
+/// two deviations of it.
+double usualSquares(double count, double variance);
+
 /// The samples that lie on a triangle: how many, and the sum of their squared distances to it.
 struct SampleLoad
 {
@@ -41,8 +45,7 @@ struct SampleLoad
   }
   friend SampleLoad operator+(SampleLoad a, const SampleLoad& b) { return a += b; }
 
-  /// How much larger the squares are than those of samples with this variance about the surface are but
-  /// for chance: by two deviations of it.
+  /// How much larger the squares are than usualSquares().
   double excess(double variance) const;
 };
 
