@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/CreaseSnapping.h"
 
+#include "fit/FanFolds.h"
 #include "fit/PlaneQuadric.h"
 #include "fit/SampleBundle.h"
 #include "mesh/TriangleShape.h"
@@ -82,10 +83,10 @@ private:
     VertexIndex partner = NoVertex;
     Vector4 place;
   };
-  /// A triangle of a fan: the edge that is opposite to its centre, and where the centre was.
+  /// A triangle of a fan: the edge that is opposite to its centre, and the centre.
   struct Spoke
   {
-    VertexIndex first, second, center;
+    VertexIndex first, second, inner;
   };
 
   SampleLoad starLoad(VertexIndex v) const
@@ -234,14 +235,14 @@ private:
     return quadric.least(origin);
   }
 
-  /// Whether no triangle of the fan turns over or becomes a sliver with its centre at `place`.
+  /// Whether no triangle of the fan turns over, becomes a sliver or folds with its centre at `place`.
   bool keepsShape(Vector4 place, bool mayBeAsBad) const
   {
     float before = 1.f, after = 1.f;
     for (const Spoke& spoke : fan_)
     {
       const Vector4 a = mesh_.position(spoke.first), b = mesh_.position(spoke.second);
-      const Vector4 center = mesh_.position(spoke.center);
+      const Vector4 center = mesh_.position(spoke.inner);
       if (cosineBetween(cross(a - place, b - place), cross(a - center, b - center)) <
         LeastSnapCosine)
       {
@@ -250,7 +251,8 @@ private:
       before = std::min(before, radiusRatio(center, a, b));
       after = std::min(after, radiusRatio(place, a, b));
     }
-    return after >= LeastSnapRatio || (mayBeAsBad && after >= before);
+    return (after >= LeastSnapRatio || (mayBeAsBad && after >= before)) &&
+      !isFanFolded(mesh_, fan_, place);
   }
 
   /// Of the samples on the fan, with its centre at `place`; something above `most` if it is more than that.

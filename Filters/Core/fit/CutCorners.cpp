@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/CutCorners.h"
 
+#include "fit/FanFolds.h"
 #include "fit/PlaneQuadric.h"
 #include "fit/SampleBundle.h"
 #include "mesh/EdgeFlips.h"
@@ -35,6 +36,9 @@ constexpr float LeastCornerRatio = 0.15f;
 /// Of the vertices of an edge that is flipped: who loses it has more neighbours, who gains it fewer.
 constexpr unsigned LeastCornerValence = 4;
 constexpr unsigned MostCornerValence = 9;
+/// Planes with at least that cosine are those of one face, and as many faces, at most, meet at a corner.
+constexpr float LeastCosineOfFace = 0.95f;
+constexpr std::size_t MostFaces = 4;
 /// Edges, at most, that are flipped for one vertex.
 constexpr unsigned MostCornerFlips = 3;
 /// As few samples as there are at one of all the corners must not be rarer than that.
@@ -69,6 +73,7 @@ public:
 
   ChangedVertices complete()
   {
+
     bendsAndGaps();
     std::vector<Center> centers;
     for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
@@ -104,6 +109,7 @@ public:
 
   ChangedVertices add(std::size_t most)
   {
+
     bendsAndGaps();
     run(cutEdges(), most);
     return std::move(changed_);
@@ -131,8 +137,17 @@ private:
   struct Side
   {
     VertexIndex first, second;
+    VertexIndex inner; ///< third corner of what lies inside now
     Vector4 normal;
     bool isFlipped = false;
+  };
+
+  /// Triangles around that lie in about the same plane.
+  struct Face
+  {
+    Vector4 normal; ///< of the first one
+    double weight = 0.;
+    PlaneQuadric quadric;
   };
 
   /// Vertices with an edge that is bent, and with triangles that samples do not confirm.
@@ -267,19 +282,46 @@ private:
   Corner cornerOf(const Center& center)
   {
     start_ = startOf(center);
-    const Vector4 meeting = planesMeetNear(center);
+    collectPlanes(center);
     collectStar(center);
     best_ = {};
     flips_ = 0;
-    if (isNear(meeting))
+    if (std::none_of(oldOnes_.begin(), oldOnes_.end(),
+          [this](const Triangle& old) { return isCrooked(normalOf(old)); }))
     {
-      search(center, meeting);
+      return best_;
     }
     if (!center.isAdded())
     {
       search(center, start_);
     }
+    for (std::size_t a = 0; a < faces_.size(); ++a)
+    {
+      for (std::size_t b = 0; b < a; ++b)
+      {
+        const PlaneQuadric crease = faces_[a].quadric + faces_[b].quadric;
+        goTo(center, crease);
+        for (std::size_t c = 0; c < b; ++c)
+        {
+          goTo(center, crease + faces_[c].quadric);
+        }
+      }
+    }
     return best_;
+  }
+
+  /// Tries where planes meet, if that is near.
+  void goTo(const Center& center, const PlaneQuadric& planes)
+  {
+    Vector4 place = start_;
+    for (int i = 0; i < SearchesForCorner; ++i)
+    {
+      place = planes.least(place);
+    }
+    if (isNear(place))
+    {
+      search(center, place);
+    }
   }
 
   /// Notes the triangles around, and how crooked they are.
@@ -295,8 +337,8 @@ private:
       const VertexIndex left = ring[ring.after(slot)], right = ring[ring.before(slot)];
       const Vector4 ofLeft = normalAt(a, slot, mesh_.position(a));
       const Vector4 ofRight = normalAt(a, ring.before(slot), mesh_.position(a));
-      sides_ = { { b, left, ofLeft }, { left, a, ofLeft }, { a, right, ofRight },
-        { right, b, ofRight } };
+      sides_ = { { b, left, a, ofLeft }, { left, a, b, ofLeft }, { a, right, b, ofRight },
+        { right, b, a, ofRight } };
       oldOnes_.push_back({ a, b, left });
       oldOnes_.push_back({ a, right, b });
       return;
@@ -304,7 +346,7 @@ private:
     for (unsigned slot = 0; slot < ring.size(); ++slot)
     {
       const VertexIndex first = ring[slot], second = ring[ring.after(slot)];
-      sides_.push_back({ first, second, normalAt(center.v, slot, start_) });
+      sides_.push_back({ first, second, center.v, normalAt(center.v, slot, start_) });
       oldOnes_.push_back({ center.v, first, second });
     }
   }
@@ -354,30 +396,19 @@ private:
   /// Flips the edge that is opposite to the vertex, in what is noted.
   bool flipSide(const Center& center, std::size_t index)
   {
-    const auto [a, b, normal, isFlipped] = sides_[index];
+    const auto [a, b, inner, normal, isFlipped] = sides_[index];
     if (mesh_.isBoundaryEdge(a, b))
     {
       return false;
     }
     const Edge opposite = oppositeTo(mesh_, { a, b });
-    // On the side of the vertex is what was noted last.
-    const auto isOld = [&](VertexIndex c)
-    {
-      return std::any_of(oldOnes_.begin(), oldOnes_.end(),
-        [&](const Triangle& old)
-        {
-          const auto has = [&](VertexIndex v)
-          { return std::find(old.begin(), old.end(), v) != old.end(); };
-          return has(a) && has(b) && has(c);
-        });
-    };
-    const VertexIndex beyond = isOld(opposite[0]) ? opposite[1] : opposite[0];
+    const VertexIndex beyond = opposite[0] == inner ? opposite[1] : opposite[0];
     const auto isOnRim = [&](VertexIndex v)
     {
       return std::any_of(
         sides_.begin(), sides_.end(), [v](const Side& side) { return side.first == v; });
     };
-    if (isOld(beyond) || isOnRim(beyond) || beyond == center.v || mesh_.isBoundary(beyond) ||
+    if (isOnRim(beyond) || beyond == center.v || mesh_.isBoundary(beyond) ||
       (isLocked_[a] != 0 && isLocked_[b] != 0 && isLocked_[beyond] != 0) ||
       valence(center, a) <= LeastCornerValence || valence(center, b) <= LeastCornerValence ||
       valence(center, beyond) >= MostCornerValence || sides_.size() >= MostCornerValence)
@@ -387,8 +418,8 @@ private:
     const Vector4 start = mesh_.position(b);
     const Vector4 other = cross(mesh_.position(a) - start, mesh_.position(beyond) - start);
     oldOnes_.push_back({ beyond, b, a });
-    sides_[index] = { a, beyond, normal + other, true };
-    sides_.push_back({ beyond, b, normal + other, true });
+    sides_[index] = { a, beyond, b, normal + other, true };
+    sides_.push_back({ beyond, b, a, normal + other, true });
     flipped_[flips_++] = { a, b };
     return true;
   }
@@ -419,8 +450,7 @@ private:
     const bool stays = !center.isAdded() && squaredNorm(place - start_) == 0.f;
     for (const auto& [a, b, c] : oldOnes_)
     {
-      const Vector4 from = mesh_.position(a);
-      const Vector4 normal = cross(mesh_.position(b) - from, mesh_.position(c) - from);
+      const Vector4 normal = normalOf({ a, b, c });
       before += crookedness(normal);
       wasCrooked = wasCrooked || isCrooked(normal);
     }
@@ -433,7 +463,7 @@ private:
       after -= stays && !side.isFlipped ? left : 0.;
     }
     const double gain = before - after;
-    if (!wasCrooked || !(gain > best_.gain) || !(after <= MostCrookednessLeft * before) ||
+    if (!wasCrooked || !(gain > best_.gain) || !(after <= (center.isAdded() ? MostLeftWithoutGain : MostCrookednessLeft) * before) ||
       !keepsShape(place) ||
       !hasSamples(place, after <= MostLeftWithoutGain * before, center.isAdded()))
     {
@@ -443,7 +473,7 @@ private:
   }
 
   /// Notes the planes of the triangles at the neighbours, and how many samples have which area there.
-  Vector4 planesMeetNear(const Center& center)
+  void collectPlanes(const Center& center)
   {
     triangles_.clear();
     const auto addAround = [&](VertexIndex v)
@@ -468,7 +498,7 @@ private:
     std::sort(triangles_.begin(), triangles_.end());
     triangles_.erase(std::unique(triangles_.begin(), triangles_.end()), triangles_.end());
     planes_.clear();
-    PlaneQuadric quadric;
+    faces_.clear();
     double count = 0., area = 0.;
     for (const auto& [a, b, c] : triangles_)
     {
@@ -481,16 +511,26 @@ private:
       if (isConfirmed(load) && length > 0.f)
       {
         planes_.push_back(1.f / length * normal);
-        quadric.add(planes_.back(), 1.f / 3.f * (pa + pb + pc), load.count);
+        addToFace(planes_.back(), 1.f / 3.f * (pa + pb + pc), load.count);
       }
     }
     density_ = area > 0. ? count / area : 0.;
-    Vector4 place = start_;
-    for (int i = 0; i < SearchesForCorner; ++i)
+    std::stable_sort(faces_.begin(), faces_.end(),
+      [](const Face& one, const Face& other) { return one.weight > other.weight; });
+    faces_.resize(std::min(faces_.size(), MostFaces));
+  }
+
+  void addToFace(Vector4 plane, Vector4 middle, double weight)
+  {
+    auto face = std::find_if(faces_.begin(), faces_.end(),
+      [&](const Face& other) { return dot(other.normal, plane) > LeastCosineOfFace; });
+    if (face == faces_.end())
     {
-      place = quadric.least(place);
+      faces_.push_back({ plane, 0., {} });
+      face = faces_.end() - 1;
     }
-    return place;
+    face->weight += weight;
+    face->quadric.add(plane, middle, weight);
   }
 
   /// Cosine of the angle to the plane next to it, times the length.
@@ -519,6 +559,12 @@ private:
     return cross(mesh_.position(side.first) - place, mesh_.position(side.second) - place);
   }
 
+  Vector4 normalOf(const Triangle& triangle) const
+  {
+    const Vector4 from = mesh_.position(triangle[0]);
+    return cross(mesh_.position(triangle[1]) - from, mesh_.position(triangle[2]) - from);
+  }
+
   float ratioOf(const Side& side, Vector4 place) const
   {
     return radiusRatio(place, mesh_.position(side.first), mesh_.position(side.second));
@@ -539,7 +585,7 @@ private:
       });
   }
 
-  /// Whether no triangle turns over or becomes a sliver.
+  /// Whether no triangle turns over, becomes a sliver or folds.
   bool keepsShape(Vector4 place) const
   {
     float before = 1.f, after = 1.f;
@@ -552,7 +598,7 @@ private:
       before = std::min(before, ratioOf(side, start_));
       after = std::min(after, ratioOf(side, place));
     }
-    return after >= LeastCornerRatio || after >= before;
+    return (after >= LeastCornerRatio || after >= before) && !isFanFolded(mesh_, sides_, place);
   }
 
   /// Whether the samples allow for the triangles around `place`, and, if so, whether these need a vertex more than
@@ -586,14 +632,32 @@ private:
     {
       return true;
     }
-    double before = 0., count = 0.;
+    double count = 0.;
     for (const std::uint32_t sample : onStar_)
     {
-      before += double(samples_.weight(sample)) * double(samples_.squaredDistance(sample));
       count += double(samples_.weight(sample));
     }
-    const double most = mayLose ? std::max(before, usualSquares(count, scale_)) : before;
     bundle_.assign(samples_, onStar_);
+    const double before = bundle_.squares(old_, std::numeric_limits<double>::infinity());
+    const double most = mayLose ? std::max(before, usualSquares(count, scale_)) : before;
+    if (bundle_.squares(new_, most) <= most)
+    {
+      return true;
+    }
+    // Where much is wrong, samples lie on triangles of another face.
+    for (const Triangle& triangle : triangles_)
+    {
+      const auto isSame = [&](Triangle old)
+      {
+        std::rotate(old.begin(), std::min_element(old.begin(), old.end()), old.end());
+        return old == triangle;
+      };
+      if (std::none_of(oldOnes_.begin(), oldOnes_.end(), isSame))
+      {
+        new_.emplace_back(
+          mesh_.position(triangle[0]), mesh_.position(triangle[1]), mesh_.position(triangle[2]));
+      }
+    }
     return bundle_.squares(new_, most) <= most;
   }
 
@@ -638,6 +702,7 @@ private:
   ChangedVertices changed_;
   std::vector<Triangle> triangles_; ///< at the neighbours
   std::vector<Vector4> planes_;     ///< unit normals of those that samples confirm
+  std::vector<Face> faces_;         ///< of these
   double density_ = 0.;             ///< of samples on all of them, by the length of normals
   Vector4 start_;                   ///< of the vertex, or the middle of the edge
   std::vector<Side> sides_;         ///< around it

@@ -21,6 +21,13 @@ public:
     matrix_ += weight * normal * normal.transpose();
     pull_ += weight * normal.dot(point.toDouble()) * normal;
   }
+  friend PlaneQuadric operator+(PlaneQuadric a, const PlaneQuadric& b)
+  {
+    a.matrix_ += b.matrix_;
+    a.pull_ += b.pull_;
+    return a;
+  }
+
   /// Where it is least, but near `origin` where it does not tell.
   Vector4 least(Vector4 origin) const
   {
