@@ -35,8 +35,7 @@ bool isFanFolded(const Mesh& mesh, const Sides& sides, Vector4 place)
     const Edge opposite = oppositeTo(mesh, { side.first, side.second });
     const VertexIndex beyond = opposite[0] == side.inner ? opposite[1] : opposite[0];
     const Vector4 from = mesh.position(side.first);
-    const Vector4 outside =
-      cross(mesh.position(beyond) - from, mesh.position(side.second) - from);
+    const Vector4 outside = cross(mesh.position(beyond) - from, mesh.position(side.second) - from);
     if (cosineBetween(normal, outside) < CosineOfFanFold)
     {
       return true;

@@ -173,8 +173,8 @@ bool FidelityRounds::sharpenCorners(const Progress& progress)
   const auto missing = [&] { return vertexCount_ - std::min(vertexCount_, mesh_.vertexCount()); };
   if (wanted > missing())
   {
-    fit_.follow(removeCheapest(
-      mesh_, fit_.placedSamples(), fit_.variance(), wanted - missing(), executor_));
+    fit_.follow(
+      removeCheapest(mesh_, fit_.placedSamples(), fit_.variance(), wanted - missing(), executor_));
   }
   fit_.follow(addAtCorners(
     mesh_, fit_.placedSamples(), fit_.variance(), std::min(wanted, missing()), executor_));

@@ -28,10 +28,7 @@ double usualSquares(double count, double variance)
   return variance * (count + ExcessDeviations * std::sqrt(2. * count));
 }
 
-double SampleLoad::excess(double variance) const
-{
-  return squares - usualSquares(count, variance);
-}
+double SampleLoad::excess(double variance) const { return squares - usualSquares(count, variance); }
 
 TriangleSamples::TriangleSamples(
   const PlacedSamples& samples, std::size_t indexEnd, const Executor& executor)

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/CornerPlanes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neuralmesh
+{
+namespace
+{
+/// As many points have a plane.
+constexpr double LeastSamplesOfPlane = 3.;
+/// Planes with at least that cosine are those of one face, and as many faces, at most, meet at a corner.
+constexpr float LeastCosineOfFace = 0.95f;
+constexpr std::size_t MostFaces = 4;
+/// The regularisation of a quadric holds a place back a little: it is looked for again from there.
+constexpr int SearchesForCorner = 4;
+
+Vector4 meetingNear(Vector4 start, const PlaneQuadric& planes)
+{
+  Vector4 place = start;
+  for (int i = 0; i < SearchesForCorner; ++i)
+  {
+    place = planes.least(place);
+  }
+  return place;
+}
+}
+
+bool CornerPlanes::isConfirmed(const SampleLoad& load) const
+{
+  return load.count >= LeastSamplesOfPlane && !(load.excess(scale_) > 0.);
+}
+
+void CornerPlanes::collectAround(std::span<const VertexIndex> vertices)
+{
+  triangles_.clear();
+  for (const VertexIndex v : vertices)
+  {
+    for (const VertexIndex neighbor : mesh_.ring(v))
+    {
+      const Ring& ring = mesh_.ring(neighbor);
+      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+      {
+        Triangle triangle{ neighbor, ring[slot], ring[ring.after(slot)] };
+        std::rotate(
+          triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+        triangles_.push_back(triangle);
+      }
+    }
+  }
+  std::sort(triangles_.begin(), triangles_.end());
+  triangles_.erase(std::unique(triangles_.begin(), triangles_.end()), triangles_.end());
+  planes_.clear();
+  faces_.clear();
+  double count = 0., area = 0.;
+  for (const auto& [a, b, c] : triangles_)
+  {
+    const SampleLoad load = samples_.load(a, b, c);
+    const Vector4 pa = mesh_.position(a), pb = mesh_.position(b), pc = mesh_.position(c);
+    const Vector4 normal = cross(pb - pa, pc - pa);
+    const float length = std::sqrt(squaredNorm(normal));
+    count += load.count;
+    area += double(length);
+    if (isConfirmed(load) && length > 0.f)
+    {
+      planes_.push_back(1.f / length * normal);
+      addToFace(planes_.back(), 1.f / 3.f * (pa + pb + pc), load.count);
+    }
+  }
+  density_ = area > 0. ? count / area : 0.;
+  std::stable_sort(faces_.begin(), faces_.end(),
+    [](const Face& one, const Face& other) { return one.weight > other.weight; });
+  faces_.resize(std::min(faces_.size(), MostFaces));
+}
+
+void CornerPlanes::addToFace(Vector4 plane, Vector4 middle, double weight)
+{
+  auto face = std::find_if(faces_.begin(), faces_.end(),
+    [&](const Face& other) { return dot(other.normal, plane) > LeastCosineOfFace; });
+  if (face == faces_.end())
+  {
+    faces_.push_back({ plane, 0., {} });
+    face = faces_.end() - 1;
+  }
+  face->weight += weight;
+  face->quadric.add(plane, middle, weight);
+}
+
+std::vector<Vector4> CornerPlanes::meetingsNear(Vector4 start) const
+{
+  std::vector<Vector4> places;
+  for (std::size_t a = 0; a < faces_.size(); ++a)
+  {
+    for (std::size_t b = 0; b < a; ++b)
+    {
+      const PlaneQuadric crease = faces_[a].quadric + faces_[b].quadric;
+      places.push_back(meetingNear(start, crease));
+      for (std::size_t c = 0; c < b; ++c)
+      {
+        places.push_back(meetingNear(start, crease + faces_[c].quadric));
+      }
+    }
+  }
+  return places;
+}
+
+/// Cosine of the angle to the plane next to it, times the length.
+float CornerPlanes::alongPlane(Vector4 normal) const
+{
+  float most = -std::sqrt(squaredNorm(normal));
+  for (const Vector4& plane : planes_)
+  {
+    most = std::max(most, dot(plane, normal));
+  }
+  return most;
+}
+
+double CornerPlanes::crookedness(Vector4 normal) const
+{
+  return double(std::sqrt(squaredNorm(normal)) - alongPlane(normal));
+}
+
+bool CornerPlanes::isCrooked(Vector4 normal) const
+{
+  return alongPlane(normal) < MostCosineOfCrooked * std::sqrt(squaredNorm(normal));
+}
+}

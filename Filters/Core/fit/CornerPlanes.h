@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fit/PlaneQuadric.h"
+#include "fit/TriangleSamples.h"
+#include "mesh/Mesh.h"
+
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// The planes of the triangles near a corner that may be cut off, as far as samples confirm them.
+class CornerPlanes
+{
+public:
+  /// A triangle is crooked if all planes around are turned by more against it.
+  static constexpr float MostCosineOfCrooked = 0.9f;
+
+  /// `scale` is that of a sample's squared distance to the mesh.
+  CornerPlanes(const Mesh& mesh, const TriangleSamples& samples, double scale)
+    : mesh_(mesh)
+    , samples_(samples)
+    , scale_(scale)
+  {
+  }
+
+  bool isConfirmed(const SampleLoad& load) const;
+
+  /// Notes the planes of the triangles at the neighbours of some vertices.
+  void collectAround(std::span<const VertexIndex> vertices);
+
+  /// Where two or three of the planes meet, near `start`.
+  std::vector<Vector4> meetingsNear(Vector4 start) const;
+
+  /// By how much a triangle is turned against the plane next to it, times its area: of a normal of twice that length.
+  double crookedness(Vector4 normal) const;
+  bool isCrooked(Vector4 normal) const;
+
+  /// All triangles there, with the least corner first, and the samples on them by the length of their normals.
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  double density() const { return density_; }
+
+private:
+  /// Triangles that lie in about the same plane.
+  struct Face
+  {
+    Vector4 normal; ///< of the first one
+    double weight = 0.;
+    PlaneQuadric quadric;
+  };
+
+  float alongPlane(Vector4 normal) const;
+  void addToFace(Vector4 plane, Vector4 middle, double weight);
+
+  const Mesh& mesh_;
+  const TriangleSamples& samples_;
+  double scale_;
+  std::vector<Triangle> triangles_;
+  std::vector<Vector4> planes_; ///< unit normals
+  std::vector<Face> faces_;
+  double density_ = 0.;
+};
+}
