@@ -64,8 +64,9 @@ void CornerPlanes::collectAround(std::span<const VertexIndex> vertices)
     area += double(length);
     if (isConfirmed(load) && length > 0.f)
     {
-      planes_.push_back(1.f / length * normal);
-      addToFace(planes_.back(), 1.f / 3.f * (pa + pb + pc), load.count);
+      const Vector4 plane = 1.f / length * normal, middle = 1.f / 3.f * (pa + pb + pc);
+      planes_.push_back({ plane, dot(plane, middle) });
+      addToFace(plane, middle, load.count);
     }
   }
   density_ = area > 0. ? count / area : 0.;
@@ -105,24 +106,27 @@ std::vector<Vector4> CornerPlanes::meetingsNear(Vector4 start) const
   return places;
 }
 
-/// Cosine of the angle to the plane next to it, times the length.
-float CornerPlanes::alongPlane(Vector4 normal) const
+/// For a small angle, 1 minus its cosine is half its square. So is a distance counted, against the size of the triangle.
+float CornerPlanes::partOffPlanes(Vector4 normal, Vector4 middle) const
 {
-  float most = -std::sqrt(squaredNorm(normal));
-  for (const Vector4& plane : planes_)
+  const float length = std::sqrt(squaredNorm(normal));
+  float least = 2.f;
+  for (const Plane& plane : planes_)
   {
-    most = std::max(most, dot(plane, normal));
+    const float away = dot(plane.normal, middle) - plane.offset;
+    least = std::min(least, 1.f - (dot(plane.normal, normal) - 0.5f * away * away) / length);
   }
-  return most;
+  return length > 0.f ? least : 0.f;
 }
 
-double CornerPlanes::crookedness(Vector4 normal) const
+double CornerPlanes::crookedness(Vector4 a, Vector4 b, Vector4 c) const
 {
-  return double(std::sqrt(squaredNorm(normal)) - alongPlane(normal));
+  const Vector4 normal = cross(b - a, c - a);
+  return double(partOffPlanes(normal, 1.f / 3.f * (a + b + c)) * std::sqrt(squaredNorm(normal)));
 }
 
-bool CornerPlanes::isCrooked(Vector4 normal) const
+bool CornerPlanes::isCrooked(Vector4 a, Vector4 b, Vector4 c) const
 {
-  return alongPlane(normal) < MostCosineOfCrooked * std::sqrt(squaredNorm(normal));
+  return partOffPlanes(cross(b - a, c - a), 1.f / 3.f * (a + b + c)) > 1.f - MostCosineOfCrooked;
 }
 }

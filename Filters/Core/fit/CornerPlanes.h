@@ -14,7 +14,7 @@ namespace neuralmesh
 class CornerPlanes
 {
 public:
-  /// A triangle is crooked if all planes around are turned by more against it.
+  /// A triangle is crooked if all planes around are turned by more against it, or as far off as that turns it.
   static constexpr float MostCosineOfCrooked = 0.9f;
 
   /// `scale` is that of a sample's squared distance to the mesh.
@@ -33,9 +33,9 @@ public:
   /// Where two or three of the planes meet, near `start`.
   std::vector<Vector4> meetingsNear(Vector4 start) const;
 
-  /// By how much a triangle is turned against the plane next to it, times its area: of a normal of twice that length.
-  double crookedness(Vector4 normal) const;
-  bool isCrooked(Vector4 normal) const;
+  /// By how much a triangle is turned against the plane that it comes closest to, and off it, times twice its area.
+  double crookedness(Vector4 a, Vector4 b, Vector4 c) const;
+  bool isCrooked(Vector4 a, Vector4 b, Vector4 c) const;
 
   /// All triangles there, with the least corner first, and the samples on them by the length of their normals.
   const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -50,14 +50,20 @@ private:
     PlaneQuadric quadric;
   };
 
-  float alongPlane(Vector4 normal) const;
+  struct Plane
+  {
+    Vector4 normal; ///< unit
+    float offset;   ///< along it
+  };
+
+  float partOffPlanes(Vector4 normal, Vector4 middle) const;
   void addToFace(Vector4 plane, Vector4 middle, double weight);
 
   const Mesh& mesh_;
   const TriangleSamples& samples_;
   double scale_;
   std::vector<Triangle> triangles_;
-  std::vector<Vector4> planes_; ///< unit normals
+  std::vector<Plane> planes_;
   std::vector<Face> faces_;
   double density_ = 0.;
 };

@@ -60,7 +60,7 @@ Corner CornerSearch::find(const CornerCenter& center)
   best_ = {};
   flips_ = 0;
   if (std::none_of(replaced_.begin(), replaced_.end(),
-        [this](const Triangle& triangle) { return planes_.isCrooked(normalOf(triangle)); }))
+        [this](const Triangle& triangle) { return isCrooked(triangle); }))
   {
     return best_;
   }
@@ -125,7 +125,7 @@ void CornerSearch::search(Vector4 place)
   for (std::size_t i = 0; i < count; ++i)
   {
     const Side side = sides_[i];
-    if (spoiled > 0 ? !isSpoiled(side, place) : !planes_.isCrooked(normalOf(side, place)))
+    if (spoiled > 0 ? !isSpoiled(side, place) : !isCrooked(side, place))
     {
       continue;
     }
@@ -197,14 +197,15 @@ void CornerSearch::judge(Vector4 place)
   bool wasCrooked = false;
   for (const Triangle& triangle : replaced_)
   {
-    const Vector4 normal = normalOf(triangle);
-    before += planes_.crookedness(normal);
-    wasCrooked = wasCrooked || planes_.isCrooked(normal);
+    const auto& [a, b, c] = triangle;
+    before += planes_.crookedness(mesh_.position(a), mesh_.position(b), mesh_.position(c));
+    wasCrooked = wasCrooked || isCrooked(triangle);
   }
   const bool stays = !center_.isAdded() && squaredNorm(place - start_) == 0.f;
   for (const Side& side : sides_)
   {
-    const double left = planes_.crookedness(normalOf(side, place));
+    const double left =
+      planes_.crookedness(place, mesh_.position(side.first), mesh_.position(side.second));
     if (stays && !side.isFlipped)
     {
       // What does not change does not count.

@@ -87,6 +87,16 @@ private:
     return cross(mesh_.position(triangle[1]) - from, mesh_.position(triangle[2]) - from);
   }
 
+  bool isCrooked(const Triangle& triangle) const
+  {
+    return planes_.isCrooked(
+      mesh_.position(triangle[0]), mesh_.position(triangle[1]), mesh_.position(triangle[2]));
+  }
+  bool isCrooked(const Side& side, Vector4 place) const
+  {
+    return planes_.isCrooked(place, mesh_.position(side.first), mesh_.position(side.second));
+  }
+
   const Mesh& mesh_;
   const TriangleSamples& samples_;
   double scale_;
