@@ -88,6 +88,7 @@ public:
     , leastShape_(leastShape)
     , quadrics_(mesh.indexEnd())
   {
+    waiting_.reserve(3 * mesh.vertexCount());
     mesh.forEachTriangle(
       [this](VertexIndex a, VertexIndex b, VertexIndex c)
       {
@@ -327,6 +328,21 @@ void simplifyBy(Mesh& mesh, std::size_t count, double evenness, float leastShape
 void simplifyByQuadrics(Mesh& mesh, std::size_t count)
 {
   simplifyBy(mesh, count, UsualEvenness, 0.f);
+}
+
+void simplifyByQuadrics(
+  Mesh& mesh, std::span<const std::size_t> counts, const std::function<bool()>& reached)
+{
+  QuadricSimplifier simplifier(mesh, UsualEvenness, 0.f);
+  for (const std::size_t count : counts)
+  {
+    simplifier.simplify(count);
+    if (!reached())
+    {
+      return;
+    }
+  }
+  mesh.dropErased();
 }
 
 void simplifySurface(Mesh& mesh, std::size_t count)
