@@ -330,7 +330,7 @@ void simplifyByQuadrics(Mesh& mesh, std::size_t count)
   simplifyBy(mesh, count, UsualEvenness, 0.f);
 }
 
-void simplifyByQuadrics(
+void simplifyByQuadricsToEach(
   Mesh& mesh, std::span<const std::size_t> counts, const std::function<bool()>& reached)
 {
   QuadricSimplifier simplifier(mesh, UsualEvenness, 0.f);

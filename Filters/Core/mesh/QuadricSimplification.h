@@ -19,7 +19,7 @@ void simplifyByQuadrics(Mesh& mesh, std::size_t count);
 /// The same for several meshes, in little more time than for the smallest: the numbers of vertices
 /// descend, and `reached` is called at each. It returns false to end. Then, and while it is called,
 /// some vertices are erased.
-void simplifyByQuadrics(
+void simplifyByQuadricsToEach(
   Mesh& mesh, std::span<const std::size_t> counts, const std::function<bool()>& reached);
 
 /// The same of a surface that is not learnt afterwards: creases and tips count for more, against short edges, and where

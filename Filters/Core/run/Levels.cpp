@@ -93,7 +93,7 @@ bool simplifyTo(std::span<DoubtfulLevel> doubtful, Run& run, LearntRun& fitted,
   }
   bool isComplete = true;
   auto level = doubtful.rbegin();
-  simplifyByQuadrics(fitted.learnt.mesh, counts,
+  simplifyByQuadricsToEach(fitted.learnt.mesh, counts,
     [&]
     {
       LearntRun copy(fitted);
