@@ -88,6 +88,7 @@ public:
     , leastShape_(leastShape)
     , quadrics_(mesh.indexEnd())
   {
+    waiting_.reserve(3 * mesh.vertexCount());
     mesh.forEachTriangle(
       [this](VertexIndex a, VertexIndex b, VertexIndex c)
       {
@@ -122,10 +123,10 @@ public:
     {
       const auto [cost, removed, kept] = edges_.top();
       edges_.pop();
-      const auto waiting = waiting_.find(keyOf(removed, kept));
-      if (waiting != waiting_.end() && waiting->second == cost)
+      double& waiting = waiting_[keyOf(removed, kept)].way(removed, kept);
+      if (waiting == cost)
       {
-        waiting_.erase(waiting);
+        waiting = Never;
       }
       if (mesh_.isAlive(removed) && mesh_.ring(removed).contains(kept))
       {
@@ -135,6 +136,17 @@ public:
   }
 
 private:
+  /// What an edge has cost that was pushed last, either way; Never, if that does not wait.
+  struct WaitingCosts
+  {
+    bool isUpToDate() const { return now < Never && up == now && down == now; }
+    double& way(VertexIndex removed, VertexIndex kept) { return removed < kept ? up : down; }
+
+    double up = Never;
+    double down = Never;
+    double now = Never; ///< what it costs, if no triangle turns over
+  };
+
   Vector4 normalOf(VertexIndex a, VertexIndex b, VertexIndex c) const
   {
     const Vector4 corner = mesh_.position(a);
@@ -161,10 +173,9 @@ private:
     return sum;
   }
 
-  Vector4 placeOf(VertexIndex removed, VertexIndex kept) const
+  Vector4 placeBy(const Quadric& sum, VertexIndex removed, VertexIndex kept) const
   {
-    return quadricOf(removed, kept)
-      .leastPlace(0.5f * (mesh_.position(removed) + mesh_.position(kept)));
+    return sum.leastPlace(0.5f * (mesh_.position(removed) + mesh_.position(kept)));
   }
 
   /// Never, where it may not be, or a triangle would turn over. Either way costs as much, if it may be.
@@ -175,7 +186,8 @@ private:
 
   double costEitherWay(VertexIndex removed, VertexIndex kept) const
   {
-    const Vector4 place = placeOf(removed, kept);
+    const Quadric sum = quadricOf(removed, kept);
+    const Vector4 place = placeBy(sum, removed, kept);
     if (turnsOver(removed, kept, place) || turnsOver(kept, removed, place))
     {
       return Never;
@@ -183,7 +195,7 @@ private:
     const double squared = double(squaredNorm(mesh_.position(removed) - mesh_.position(kept)));
     const double flattened =
       leastShape_ > 0.f && flattens(removed, kept, place) ? WeightOfShape : 0.;
-    return quadricOf(removed, kept).at(place) + (evenness_ + flattened) * squared;
+    return sum.at(place) + (evenness_ + flattened) * squared;
   }
 
   /// Whether a triangle of `v` does that is not at the edge.
@@ -235,10 +247,10 @@ private:
     const double cost = costOf(removed, kept);
     if (cost > expected)
     {
-      push(cost, removed, kept);
+      push(cost, removed, kept, waiting_[keyOf(removed, kept)]);
       return;
     }
-    const Vector4 place = placeOf(removed, kept);
+    const Vector4 place = placeBy(quadricOf(removed, kept), removed, kept);
     quadrics_[kept].add(quadrics_[removed]);
     mesh_.collapse(removed, kept);
     mesh_.setPosition(kept, place);
@@ -251,6 +263,7 @@ private:
     const Ring& ring = mesh_.ring(v);
     for (const VertexIndex neighbor : ring)
     {
+      waiting_[keyOf(v, neighbor)].now = Never;
       pushBothWays(v, neighbor);
       for (const VertexIndex other : mesh_.ring(neighbor))
       {
@@ -264,31 +277,34 @@ private:
 
   void pushBothWays(VertexIndex a, VertexIndex b)
   {
+    WaitingCosts& waiting = waiting_[keyOf(a, b)];
+    // Beside a vertex that moves, a cost changes only by the shape of triangles.
+    if (leastShape_ == 0.f && waiting.isUpToDate())
+    {
+      return;
+    }
     const bool isToB = mesh_.canCollapse(a, b), isToA = mesh_.canCollapse(b, a);
     if (isToB || isToA)
     {
       const double cost = costEitherWay(a, b);
-      push(isToB ? cost : Never, a, b);
-      push(isToA ? cost : Never, b, a);
+      waiting.now = std::min(waiting.now, cost);
+      push(isToB ? cost : Never, a, b, waiting);
+      push(isToA ? cost : Never, b, a, waiting);
     }
   }
 
   /// Most edges around a collapse cost what they did before, and wait already.
-  void push(double cost, VertexIndex removed, VertexIndex kept)
+  void push(double cost, VertexIndex removed, VertexIndex kept, WaitingCosts& waiting)
   {
-    if (cost < Never)
+    if (cost < Never && std::exchange(waiting.way(removed, kept), cost) != cost)
     {
-      const auto [waiting, isNew] = waiting_.try_emplace(keyOf(removed, kept), cost);
-      if (isNew || std::exchange(waiting->second, cost) != cost)
-      {
-        edges_.push({ cost, removed, kept });
-      }
+      edges_.push({ cost, removed, kept });
     }
   }
 
-  static std::uint64_t keyOf(VertexIndex removed, VertexIndex kept)
+  static std::uint64_t keyOf(VertexIndex a, VertexIndex b)
   {
-    return std::uint64_t(removed) << 32 | kept;
+    return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
   }
 
   Mesh& mesh_;
@@ -296,8 +312,7 @@ private:
   float leastShape_;
   std::vector<Quadric> quadrics_;
   EdgeQueue<double> edges_; ///< that vanish with their first vertex
-  /// What an edge has cost that was pushed last, if that waits.
-  std::unordered_map<std::uint64_t, double> waiting_;
+  std::unordered_map<std::uint64_t, WaitingCosts> waiting_;
 };
 
 void simplifyBy(Mesh& mesh, std::size_t count, double evenness, float leastShape)
@@ -313,6 +328,21 @@ void simplifyBy(Mesh& mesh, std::size_t count, double evenness, float leastShape
 void simplifyByQuadrics(Mesh& mesh, std::size_t count)
 {
   simplifyBy(mesh, count, UsualEvenness, 0.f);
+}
+
+void simplifyByQuadricsToEach(
+  Mesh& mesh, std::span<const std::size_t> counts, const std::function<bool()>& reached)
+{
+  QuadricSimplifier simplifier(mesh, UsualEvenness, 0.f);
+  for (const std::size_t count : counts)
+  {
+    simplifier.simplify(count);
+    if (!reached())
+    {
+      return;
+    }
+  }
+  mesh.dropErased();
 }
 
 void simplifySurface(Mesh& mesh, std::size_t count)

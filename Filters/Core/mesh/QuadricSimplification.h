@@ -4,6 +4,8 @@
 #include "mesh/Mesh.h"
 
 #include <cstddef>
+#include <functional>
+#include <span>
 
 namespace neuralmesh
 {
@@ -13,6 +15,12 @@ namespace neuralmesh
 /// P. Heckbert, *Surface simplification using quadric error metrics*, 1997). Handles, boundaries and pieces
 /// stay. In the end, no vertex is erased.
 void simplifyByQuadrics(Mesh& mesh, std::size_t count);
+
+/// The same for several meshes, in little more time than for the smallest: the numbers of vertices
+/// descend, and `reached` is called at each. It returns false to end. Then, and while it is called,
+/// some vertices are erased.
+void simplifyByQuadricsToEach(
+  Mesh& mesh, std::span<const std::size_t> counts, const std::function<bool()>& reached);
 
 /// The same of a surface that is not learnt afterwards: creases and tips count for more, against short edges, and where
 /// a triangle would be nearly a line, an edge goes late.

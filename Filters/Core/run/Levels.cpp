@@ -18,6 +18,8 @@ namespace
 {
 /// The part of growth in the progress of a level.
 constexpr double PartOfGrowth = 0.5;
+/// The part of the levels that grow in the whole progress, if others are simplified.
+constexpr double EndOfGrownLevels = 0.7;
 
 /// The levels [first, last) through which one mesh grows.
 struct Chain
@@ -57,39 +59,98 @@ Beginning simplified(Beginning beginning, std::uint64_t vertices, std::uint64_t 
   return beginning;
 }
 
-/// A level that may have lost thin parts.
+/// The number of levels below a first surface that has more vertices than planned. Only a front has
+/// more, as thin parts need them: a coarser mesh that grows would lose these.
+std::size_t levelsBelowFront(
+  const Beginning& beginning, std::span<const std::uint64_t> levels, const Parameters& parameters)
+{
+  const std::size_t there = beginning.mesh ? beginning.mesh->vertexCount() : 0;
+  if (parameters.fitRounds == 0 || there <= firstVertices(levels.back()))
+  {
+    return 0;
+  }
+  const auto end = std::lower_bound(levels.begin(), levels.end() - 1, there);
+  return std::size_t(end - levels.begin());
+}
+
+/// A level that is simplified from the last one.
 struct DoubtfulLevel
 {
   std::size_t number;
-  Reconstruction mesh;
+  std::uint64_t vertices;
+  std::optional<Reconstruction> mesh; ///< that has grown, but may have lost thin parts
 };
 
-/// Gives the doubtful levels to `take`. A level is replaced by a simplification of the last level,
-/// `learnt`, if that holds more of the cloud. If the last level has lost thin parts itself,
-/// `learnt` is nothing, and each level is checked by a run of its own.
-void takeDoubtful(Run& run, const std::optional<LearntRun>& learnt, const RunRequest& request,
-  Reconstruction& last, std::vector<DoubtfulLevel>& doubtful, const LevelTaker& take,
+/// Simplifies a fitted mesh to the doubtful levels, and fits each. Keeps those that have grown and
+/// hold more of the cloud. Returns false if that was ended.
+bool simplifyTo(std::span<DoubtfulLevel> doubtful, Run& run, LearntRun& fitted,
+  const RunRequest& request, ProgressPart part, const Progress& progress)
+{
+  std::vector<std::size_t> counts;
+  for (const DoubtfulLevel& level : doubtful)
+  {
+    counts.insert(counts.begin(), std::size_t(level.vertices));
+  }
+  bool isComplete = true;
+  auto level = doubtful.rbegin();
+  simplifyByQuadricsToEach(fitted.learnt.mesh, counts,
+    [&]
+    {
+      LearntRun copy(fitted);
+      copy.learnt.mesh.dropErased();
+      copy.result.times = {};
+      copy.result.times.enter(Phase::Finish);
+      run.makeSimplified(copy, level->vertices, part);
+      copy.result.times.leave();
+      Reconstruction mesh = run.describe(std::move(copy), level->vertices, part);
+      Parameters parameters = request.parameters;
+      parameters.numberOfVertices = level->vertices;
+      mesh = level->mesh ? betterOf(*level->mesh, std::move(mesh), holdsMore)
+                         : betterRun(std::move(mesh), requestWith(request, parameters), progress);
+      isComplete = mesh.isComplete();
+      if (isComplete)
+      {
+        level->mesh = std::move(mesh);
+      }
+      ++level;
+      return isComplete;
+    });
+  return isComplete;
+}
+
+/// Makes the doubtful levels from the last one, `learnt`. If `last` has lost thin parts itself, each
+/// level is checked by a run of its own. Levels stay as they were if that is ended: then `last` is
+/// cancelled.
+void makeDoubtful(std::vector<DoubtfulLevel>& doubtful, Run& run, LearntRun learnt,
+  const RunRequest& request, bool isLastSound, Reconstruction& last, ProgressPart part,
   const Progress& progress)
 {
-  for (auto& [number, mesh] : doubtful)
+  PhaseTimes times;
+  times.enter(Phase::Finish);
+  const double middle = (part.begin + part.end) / 2.;
+  bool isComplete = run.makeToSimplify(learnt, { part.begin, middle });
+  times.leave();
+  last.times.add(times);
+  isComplete =
+    isComplete && simplifyTo(doubtful, run, learnt, request, { middle, part.end }, progress);
+  for (DoubtfulLevel& level : doubtful)
   {
-    Parameters parameters = request.parameters;
-    parameters.numberOfVertices = mesh.surface.vertexCount();
-    if (last.isComplete())
+    if (isComplete && !isLastSound)
     {
-      Reconstruction other = learnt
-        ? betterOf(mesh, run.finish(*learnt, parameters.numberOfVertices, { 1., 1. }), holdsMore)
-        : runWithThinParts(mesh, requestWith(request, parameters), progress);
-      if (other.stopReason == StopReason::Cancelled)
+      Parameters parameters = request.parameters;
+      parameters.numberOfVertices = level.vertices;
+      Reconstruction mesh =
+        runWithThinParts(*level.mesh, requestWith(request, parameters), progress);
+      isComplete = mesh.stopReason != StopReason::Cancelled;
+      if (isComplete)
       {
-        last.stopReason = StopReason::Cancelled;
-      }
-      else
-      {
-        mesh = std::move(other);
+        level.mesh = std::move(mesh);
       }
     }
-    take(number, std::move(mesh));
+  }
+  if (!isComplete)
+  {
+    last.stopReason = StopReason::Cancelled;
   }
 }
 }
@@ -125,24 +186,31 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
   std::vector<DoubtfulLevel> doubtful;
   // Those from the first doubtful one on wait for it.
   std::map<std::size_t, Reconstruction> waiting;
-  const LevelTaker keep = [&waiting](std::size_t level, Reconstruction mesh)
-  { waiting.emplace(level, std::move(mesh)); };
-  const double all = std::accumulate(levels.begin(), levels.end(), 0.);
+  const std::size_t firstGrown = levelsBelowFront(beginning, levels, request.parameters);
+  for (std::size_t level = 0; level < firstGrown; ++level)
+  {
+    doubtful.push_back({ level, levels[level], {} });
+  }
+  const double endOfGrown = firstGrown > 0 ? EndOfGrownLevels : 1.;
+  const double all = std::accumulate(levels.begin() + std::ptrdiff_t(firstGrown), levels.end(), 0.);
   double done = StartOfLearning;
   for (const Chain& chain : chainsOf(levels))
   {
+    if (chain.last <= firstGrown)
+    {
+      continue;
+    }
     Beginning next = simplified(beginning, levels.back(), levels[chain.last - 1]);
-    for (std::size_t level = chain.first; level < chain.last; ++level)
+    for (std::size_t level = std::max(chain.first, firstGrown); level < chain.last; ++level)
     {
       Parameters parameters = request.parameters;
       parameters.numberOfVertices = levels[level];
       const RunRequest own = requestWith(request, parameters);
-      const double end = done + (1. - StartOfLearning) * double(levels[level]) / all;
+      const double end = done + (endOfGrown - StartOfLearning) * double(levels[level]) / all;
       const double endOfGrowth = done + PartOfGrowth * (end - done);
       LearntRun learnt =
         run.learn(verticesToLearn(own), std::move(next), { done, endOfGrowth }, none);
-      // A first surface that is larger than its level learns nothing. It is finished and simplified
-      // all the same.
+      // A first surface that is larger than its level learns nothing. It is finished all the same.
       learnt.isLearnt = true;
       next = { learnt.learnt.mesh, beginning.gaps, beginning.weights };
       const bool isLast = level + 1 == levels.size();
@@ -152,31 +220,42 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
         betterRun(run.finish(std::move(learnt), levels[level], { endOfGrowth, end }), own,
           partOf(progress, end, end));
       result.times.add(std::exchange(times, {}));
-      if (mayHaveLostThinParts(result, own))
-      {
-        learntForDoubtful.reset();
-      }
+      const bool isDoubtful = mayHaveLostThinParts(result, own);
       if (isLast)
       {
         result = runWithThinParts(std::move(result), own, partOf(progress, end, end));
+        if (learntForDoubtful && result.isComplete())
+        {
+          makeDoubtful(doubtful, run, *std::move(learntForDoubtful), request, !isDoubtful, result,
+            { end, 1. }, partOf(progress, 1., 1.));
+        }
       }
       if (isLast || !result.isComplete())
       {
-        takeDoubtful(
-          run, learntForDoubtful, request, result, doubtful, keep, partOf(progress, end, end));
+        for (DoubtfulLevel& smaller : doubtful)
+        {
+          if (smaller.mesh)
+          {
+            waiting.emplace(smaller.number, *std::move(smaller.mesh));
+          }
+        }
         for (auto& [number, mesh] : waiting)
         {
           take(number, std::move(mesh));
         }
         return result;
       }
-      if (mayHaveLostThinParts(result, own))
+      if (isDoubtful)
       {
-        doubtful.push_back({ level, std::move(result) });
+        doubtful.push_back({ level, levels[level], std::move(result) });
+      }
+      else if (doubtful.empty())
+      {
+        take(level, std::move(result));
       }
       else
       {
-        (doubtful.empty() ? take : keep)(level, std::move(result));
+        waiting.emplace(level, std::move(result));
       }
       done = end;
     }

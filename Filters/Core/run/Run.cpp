@@ -191,6 +191,40 @@ bool Run::makeAgain(LearntRun& run, std::uint64_t asked, ProgressPart part)
   return result.isComplete();
 }
 
+bool Run::makeToSimplify(LearntRun& run, ProgressPart part)
+{
+  Reconstruction& result = run.result;
+  result.finish = unlessInterrupted(
+    [&]
+    {
+      return finishToSimplify(run.learnt, cloud(), parametersFor(run.vertices, request_), run.gaps,
+        inTime(run, partOf(progress_, part.begin, part.end)), interruptible_, request_.hints);
+    });
+  if (!result.finish)
+  {
+    result.stopReason = whyEnded();
+  }
+  return result.isComplete();
+}
+
+bool Run::makeSimplified(LearntRun& run, std::uint64_t asked, ProgressPart part)
+{
+  Reconstruction& result = run.result;
+  result.finish = unlessInterrupted(
+    [&]
+    {
+      return finishSimplified(run.learnt, *result.finish, cloud(), parametersFor(asked, request_),
+        std::size_t(asked), inTime(run, partOf(progress_, part.begin, part.end)), interruptible_,
+        request_.hints);
+    });
+  result.curve.endWith(run.learnt.mesh);
+  if (!result.finish)
+  {
+    result.stopReason = whyEnded();
+  }
+  return result.isComplete();
+}
+
 Reconstruction Run::describe(LearntRun run, std::uint64_t asked, ProgressPart part)
 {
   Reconstruction& result = run.result;

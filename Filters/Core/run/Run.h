@@ -79,6 +79,10 @@ public:
   bool make(LearntRun& run, std::uint64_t asked, ProgressPart part);
   /// Makes of a mesh that is made and fitted one of a few more or of fewer vertices, and fits that. Returns likewise.
   bool makeAgain(LearntRun& run, std::uint64_t asked, ProgressPart part);
+  /// Fits what is learnt so far that makeSimplified() can go on from copies of it. Returns likewise.
+  bool makeToSimplify(LearntRun& run, ProgressPart part);
+  /// Simplifies such a mesh to `asked` vertices, and fits that. Returns likewise.
+  bool makeSimplified(LearntRun& run, std::uint64_t asked, ProgressPart part);
   /// Tells error bars, if they are wanted, and describes what is made.
   Reconstruction describe(LearntRun run, std::uint64_t asked, ProgressPart part);
 

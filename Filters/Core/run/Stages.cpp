@@ -129,6 +129,19 @@ FinishPlan finishPlan(const Parameters& parameters)
     .gaps = {} };
 }
 
+/// If no round of the fidelity moves vertices to creases, one more plain round brings those near a
+/// crease closer to it.
+void addPlainRound(FinishPlan& plan) { plan.rounds += plan.rounds > 0 ? 1 : 0; }
+
+/// For a mesh that is simplified afterwards, or was before: rounds of the fidelity would fit the
+/// larger mesh.
+void leaveOutFidelity(FinishPlan& plan)
+{
+  plan.fidelity = Fidelity::Draft;
+  plan.residualTo = DistanceTo::TrianglesAtClosestVertex;
+  addPlainRound(plan);
+}
+
 /// A vector with length 1; 0 if the given one is zero or not finite.
 Vector4 givenDirection(const Eigen::Vector3d& vector)
 {
@@ -142,6 +155,24 @@ PointNormals normalsOf(const PointCloud& cloud, const OrientationHints& hints)
   return hints.normalOf && !cloud.origins().empty() ? [&](std::size_t point)
   { return givenDirection(hints.normalOf(cloud.origins()[point])); }
                                                     : PointNormals();
+}
+
+/// The first finish of a learnt mesh: without odd pieces, and with gaps opened and holes closed.
+std::optional<FinishReport> finishFirst(LearntMesh& learnt, FinishPlan plan,
+  const PointCloud& cloud, const Parameters& parameters, const std::optional<GapPlan>& gaps,
+  const Progress& progress, const Executor& executor, const OrientationHints& hints)
+{
+  plan.gaps = gaps;
+  plan.closedOutline = parameters.closeHolesBelow / cloud.unit();
+  dropPieces(learnt.mesh,
+    withoutNeeded(findOddPieces(learnt.mesh, parameters.keepPieces,
+                    VerticesOfDensePiece * parameters.keepPieces, executor),
+      learnt.mesh, cloud, parameters.keepPieces, executor));
+  const std::optional<PointCloud> once = withoutRepetitions(cloud);
+  const PointCloud& fitted = once ? *once : cloud;
+  Finish finish(
+    fitted, learnt.mesh, plan, executor, normalsOf(fitted, hints), viewsOf(fitted, hints));
+  return progress(0.) && finish.run(progress) ? std::optional(finish.report()) : std::nullopt;
 }
 }
 
@@ -206,53 +237,56 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Parameters& parameters, const std::optional<GapPlan>& gaps, std::size_t vertexCount,
   const Progress& progress, const Executor& executor, const OrientationHints& hints)
 {
-  FinishPlan plan = finishPlan(parameters);
-  plan.gaps = gaps;
-  plan.closedOutline = parameters.closeHolesBelow / cloud.unit();
-  plan.vertexCount = std::max(vertexCount, learnt.mesh.vertexCount());
-  dropPieces(learnt.mesh,
-    withoutNeeded(findOddPieces(learnt.mesh, parameters.keepPieces,
-                    VerticesOfDensePiece * parameters.keepPieces, executor),
-      learnt.mesh, cloud, parameters.keepPieces, executor));
-  const bool isSimplified = plan.vertexCount > vertexCount;
-  if (isSimplified)
+  if (learnt.mesh.vertexCount() > vertexCount)
   {
-    // Rounds of the fidelity would fit the larger mesh, which is simplified afterwards.
-    plan.fidelity = Fidelity::Draft;
-    plan.residualTo = DistanceTo::TrianglesAtClosestVertex;
+    constexpr double EndOfFirst = 0.5;
+    const std::optional<FinishReport> report = finishToSimplify(
+      learnt, cloud, parameters, gaps, partOf(progress, 0., EndOfFirst), executor, hints);
+    return report ? finishSimplified(learnt, *report, cloud, parameters, vertexCount,
+                      partOf(progress, EndOfFirst, 1.), executor, hints)
+                  : std::nullopt;
   }
-  // If no round of the fidelity moves vertices to creases, one more plain round brings those near a
-  // crease closer to it.
-  plan.rounds += plan.rounds > 0 && (isSimplified || plan.keepsPlaces) ? 1 : 0;
-  const double endOfFirst = isSimplified ? 0.5 : 1.;
+  FinishPlan plan = finishPlan(parameters);
+  plan.vertexCount = vertexCount;
+  if (plan.keepsPlaces)
+  {
+    addPlainRound(plan);
+  }
+  return finishFirst(learnt, plan, cloud, parameters, gaps, progress, executor, hints);
+}
+
+std::optional<FinishReport> finishToSimplify(LearntMesh& learnt, const PointCloud& cloud,
+  const Parameters& parameters, const std::optional<GapPlan>& gaps, const Progress& progress,
+  const Executor& executor, const OrientationHints& hints)
+{
+  FinishPlan plan = finishPlan(parameters);
+  plan.vertexCount = learnt.mesh.vertexCount();
+  leaveOutFidelity(plan);
+  return finishFirst(learnt, plan, cloud, parameters, gaps, progress, executor, hints);
+}
+
+std::optional<FinishReport> finishSimplified(LearntMesh& learnt, const FinishReport& before,
+  const PointCloud& cloud, const Parameters& parameters, std::size_t vertexCount,
+  const Progress& progress, const Executor& executor, const OrientationHints& hints)
+{
+  simplifyByQuadrics(learnt.mesh, vertexCount);
+  FinishPlan plan = finishPlan(parameters);
+  leaveOutFidelity(plan);
+  plan.vertexCount = learnt.mesh.vertexCount();
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
   const PointCloud& fitted = once ? *once : cloud;
-  const PointNormals normalOf = normalsOf(fitted, hints);
-  const PointViews viewOf = viewsOf(fitted, hints);
-  Finish finish(fitted, learnt.mesh, plan, executor, normalOf, viewOf);
-  if (!progress(0.) || !finish.run(partOf(progress, 0., endOfFirst)))
-  {
-    return {};
-  }
-  if (!isSimplified)
-  {
-    return finish.report();
-  }
-  simplifyByQuadrics(learnt.mesh, vertexCount);
-  plan.gaps.reset();
-  plan.closedOutline = 0.;
-  plan.vertexCount = learnt.mesh.vertexCount();
-  Finish finishSimplified(fitted, learnt.mesh, plan, executor, normalOf, viewOf);
-  if (!finishSimplified.run(partOf(progress, endOfFirst, 1.)))
+  Finish finish(
+    fitted, learnt.mesh, plan, executor, normalsOf(fitted, hints), viewsOf(fitted, hints));
+  if (!finish.run(progress))
   {
     return {};
   }
   // The figures of the fit are those of the larger mesh.
-  FinishReport report = finish.report();
-  report.repaired = finishSimplified.report().repaired;
-  report.left = finishSimplified.report().left;
-  report.heldVertices = finishSimplified.report().heldVertices;
-  report.smoothnessOfVertices = finishSimplified.report().smoothnessOfVertices;
+  FinishReport report = before;
+  report.repaired = finish.report().repaired;
+  report.left = finish.report().left;
+  report.heldVertices = finish.report().heldVertices;
+  report.smoothnessOfVertices = finish.report().smoothnessOfVertices;
   return report;
 }
 

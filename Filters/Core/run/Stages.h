@@ -56,6 +56,19 @@ std::optional<FinishReport> finish(LearntMesh& learnt, const PointCloud& cloud,
   const Progress& progress, const Executor& executor = Executor::sequential(),
   const OrientationHints& hints = {});
 
+/// Finishes a learnt mesh so far that finishSimplified() can go on from it, or from copies.
+std::optional<FinishReport> finishToSimplify(LearntMesh& learnt, const PointCloud& cloud,
+  const Parameters& parameters, const std::optional<GapPlan>& gaps, const Progress& progress,
+  const Executor& executor = Executor::sequential(), const OrientationHints& hints = {});
+
+/// Simplifies a finished mesh to `vertexCount` vertices, or as few as its handles and pieces allow,
+/// and finishes it again; `before` is the report of the first finish. Returns nothing if `progress`
+/// ended it.
+std::optional<FinishReport> finishSimplified(LearntMesh& learnt, const FinishReport& before,
+  const PointCloud& cloud, const Parameters& parameters, std::size_t vertexCount,
+  const Progress& progress, const Executor& executor = Executor::sequential(),
+  const OrientationHints& hints = {});
+
 /// Finishes a mesh once more with another number of vertices; `before` is the report of the first
 /// finish. The mesh is simplified, or its long edges are halved. Fewer rounds fit it, as it is
 /// close to its points already. Returns nothing if `progress` ended it.

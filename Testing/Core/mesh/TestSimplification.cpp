@@ -12,6 +12,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace neuralmesh::testing
 {
@@ -124,5 +126,37 @@ TEST(Simplification, QuadricsKeepWhatIsThin)
   const double area = reportSurface(trianglesOf(grid, cleanSphere())).area;
   simplifyByQuadrics(grid, 30);
   EXPECT_NEAR(reportSurface(trianglesOf(grid, cleanSphere())).area, area, 1e-3 * area);
+}
+
+// Promise: simplified to several numbers in one go, a mesh is each time what it is alone, and ends when asked to.
+TEST(Simplification, ToEachNumberGivesWhatOneGives)
+{
+  const Mesh original = buildMesh(makeTorus(0.4, 24), cleanSphere());
+  const std::vector<std::size_t> counts{ 400, 100, 30 };
+  std::vector<TriangleMesh> meshes;
+  Mesh mesh = original;
+  simplifyByQuadricsToEach(mesh, counts,
+    [&]
+    {
+      Mesh copy = mesh;
+      copy.dropErased();
+      meshes.push_back(trianglesOf(copy, cleanSphere()));
+      return true;
+    });
+  ASSERT_EQ(meshes.size(), counts.size());
+  EXPECT_EQ(mesh.indexEnd(), counts.back());
+  for (std::size_t i = 0; i < counts.size(); ++i)
+  {
+    Mesh alone = original;
+    simplifyByQuadrics(alone, counts[i]);
+    const TriangleMesh triangles = trianglesOf(alone, cleanSphere());
+    EXPECT_EQ(meshes[i].points, triangles.points);
+    EXPECT_EQ(meshes[i].triangles, triangles.triangles);
+  }
+  int calls = 0;
+  Mesh ended = original;
+  simplifyByQuadricsToEach(ended, counts, [&calls] { return ++calls < 2; });
+  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(ended.vertexCount(), counts[1]);
 }
 }
