@@ -12,6 +12,7 @@
 #include "mesh/Refinement.h"
 #include "mesh/SurfaceReport.h"
 #include "MeshTools.h"
+#include "PlacedCloud.h"
 #include "run/Reconstruction.h"
 #include "SphereRuns.h"
 #include "TrueSurfaces.h"
@@ -69,25 +70,6 @@ double squaresOf(const PointCloud& cloud, const Mesh& mesh)
   }
   return sum;
 }
-
-/// All points of a cloud, with their places on a mesh.
-struct PlacedCloud
-{
-  PlacedCloud(const PointCloud& cloud, const Mesh& mesh)
-    : isUsed(cloud.points().size(), 1)
-  {
-    const VertexGrid grid = gridOf(mesh, cloud);
-    for (const Vector4& point : cloud.points())
-    {
-      places.push_back(closestPlaceAround(point, mesh, grid.closest(point, mesh.positions())));
-    }
-    samples = { cloud.points(), places, isUsed, {} };
-  }
-
-  std::vector<PlaceOnMesh> places;
-  std::vector<std::uint8_t> isUsed;
-  PlacedSamples samples;
-};
 
 /// A sphere of the cloud whose points are moved at random.
 Mesh roughSphere(const PointCloud& cloud)
