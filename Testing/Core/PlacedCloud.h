@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "cloud/MeshBuilder.h"
+#include "cloud/PlaceOnMesh.h"
 #include "cloud/PointCloud.h"
 #include "fit/TriangleSamples.h"
 #include "mesh/Mesh.h"
-#include "MeshTools.h"
 
 #include <cstdint>
 #include <vector>

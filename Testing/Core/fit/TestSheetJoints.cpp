@@ -11,6 +11,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <utility>
+
 namespace neuralmesh::testing
 {
 namespace
@@ -24,6 +29,19 @@ struct CutRun
   Mesh mesh;
   std::size_t cut = 0;
 };
+
+/// Without what stands between the two sheets.
+TriangleMesh withoutTubes(TriangleMesh sheets)
+{
+  const auto isUpper = [&](std::uint32_t v) { return sheets.points[v].z() > 0.5; };
+  std::erase_if(sheets.triangles,
+    [&](const auto& triangle)
+    {
+      return isUpper(triangle[0]) != isUpper(triangle[1]) ||
+        isUpper(triangle[1]) != isUpper(triangle[2]);
+    });
+  return sheets;
+}
 
 CutRun cutAt(const TriangleMesh& surface, const TriangleMesh& truth)
 {
@@ -78,5 +96,50 @@ TEST(SheetJoints, ScrapsStay)
     return sheets;
   };
   EXPECT_EQ(cutAt(withScrap(joinedSheets({ { 12, 12 } })), withScrap(joinedSheets({}))).cut, 0u);
+}
+
+// A true neck widens as a funnel does, and is no end of a sheet: it stays even if none of its points was seen.
+TEST(SheetJoints, FunnelsStay)
+{
+  constexpr double Begin = 2., End = 8., Steepness = 2.;
+  TriangleMesh funnel = joinedSheets({ { 12, 12 } });
+  for (Eigen::Vector3d& point : funnel.points)
+  {
+    const double radius = (point.head<2>() - Eigen::Vector2d(12.5, 12.5)).norm();
+    point.z() += point.z() > 0.5 ? Steepness * (std::clamp(radius, Begin, End) - Begin) : 0.;
+  }
+  EXPECT_EQ(cutAt(funnel, withoutTubes(funnel)).cut, 0u);
+}
+
+// A body hides where it stands, and is no sheet: it does not come off its ground.
+TEST(SheetJoints, BodiesStayOnTheirGround)
+{
+  TriangleMesh body = joinedSheets({ { 12, 12 } });
+  const auto isUpper = [&](std::uint32_t v) { return body.points[v].z() > 0.5; };
+  const auto all = std::uint32_t(body.points.size());
+  const TriangleMesh joined = body;
+  for (Eigen::Vector3d point : joined.points)
+  {
+    point.z() += SideOfSheets / 4.;
+    body.points.push_back(point);
+  }
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const auto& [a, b, c] : joinedSheets({}).triangles)
+  {
+    if (isUpper(a))
+    {
+      body.triangles.push_back({ all + a, all + c, all + b });
+      edges.insert({ { a, b }, { b, c }, { c, a } });
+    }
+  }
+  for (const auto& [from, to] : edges)
+  {
+    if (edges.count({ to, from }) == 0)
+    {
+      body.triangles.push_back({ to, from, all + from });
+      body.triangles.push_back({ to, all + from, all + to });
+    }
+  }
+  EXPECT_EQ(cutAt(body, withoutTubes(body)).cut, 0u);
 }
 }

@@ -16,8 +16,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace neuralmesh::testing
 {
@@ -118,6 +120,66 @@ void joinLayers(TriangleMesh& mesh, bool hasGroundBelow, bool isTwisted)
   }
 }
 
+enum class Sheet
+{
+  None,
+  First,
+  Second
+};
+
+/// Leads from the first sheet over a gap of one cell to the second one.
+struct Neck
+{
+  Eigen::Vector2i first;  ///< of its corners
+  Eigen::Vector2i across; ///< the gap
+};
+
+/// Two sheets in a plane, of the cells for which `sheetAt` says so. The second one is turned, and they hang together by
+/// twisted necks of so many edges.
+template <typename SheetAt>
+TriangleMesh twistedSheets(
+  unsigned columns, unsigned rows, SheetAt sheetAt, const std::vector<Neck>& necks, int width)
+{
+  TriangleMesh result;
+  const auto at = [&](Eigen::Vector2i place)
+  { return std::uint32_t(place.x()) * (rows + 1) + std::uint32_t(place.y()); };
+  for (unsigned i = 0; i <= columns; ++i)
+  {
+    for (unsigned j = 0; j <= rows; ++j)
+    {
+      result.points.emplace_back(i, j, 0.);
+    }
+  }
+  for (unsigned i = 0; i < columns; ++i)
+  {
+    for (unsigned j = 0; j < rows; ++j)
+    {
+      const Sheet sheet = sheetAt(i, j);
+      const std::uint32_t a = at({ i, j }), b = at({ i + 1, j }), c = b + 1, d = a + 1;
+      if (sheet == Sheet::First)
+      {
+        result.triangles.insert(result.triangles.end(), { { a, b, c }, { a, c, d } });
+      }
+      else if (sheet == Sheet::Second)
+      {
+        result.triangles.insert(result.triangles.end(), { { a, c, b }, { a, d, c } });
+      }
+    }
+  }
+  for (const Neck& neck : necks)
+  {
+    const Eigen::Vector2i along(-neck.across.y(), neck.across.x());
+    for (int k = 0; k < width; ++k)
+    {
+      const std::uint32_t from = at(neck.first + k * along), to = at(neck.first + (k + 1) * along);
+      const Eigen::Vector2i opposite = neck.first + neck.across + (width - k) * along;
+      const std::uint32_t near = at(opposite), far = at(opposite - along);
+      result.triangles.insert(result.triangles.end(), { { from, near, to }, { near, far, to } });
+    }
+  }
+  return result;
+}
+
 double areaLookingUp(const Mesh& mesh)
 {
   double sum = 0.;
@@ -215,5 +277,69 @@ TEST(TwistedParts, FloorAndCeilingStayAsTheyAre)
   ASSERT_EQ(pieceCount(mesh), 1u);
   EXPECT_EQ(separateTwistedParts(mesh), 0u);
   EXPECT_EQ(mesh.triangleCount(), count);
+}
+
+// No chance twists what hangs together by necks as wide as the part.
+TEST(TwistedParts, BroadNecksStay)
+{
+  constexpr int Low = 12, High = 28, Width = 4, From = 18, To = From + Width;
+  const auto isWithin = [](unsigned i, unsigned low, unsigned high)
+  { return i >= low && i < high; };
+  const auto sheetAt = [&](unsigned i, unsigned j)
+  {
+    return isWithin(i, Low, High) && isWithin(j, Low, High)              ? Sheet::Second
+      : isWithin(i, Low - 1, High + 1) && isWithin(j, Low - 1, High + 1) ? Sheet::None
+                                                                         : Sheet::First;
+  };
+  std::vector<Neck> necks{ { { Low - 1, From }, { 1, 0 } } };
+  Mesh mesh = meshOf(twistedSheets(Side, Side, sheetAt, necks, Width));
+  ASSERT_EQ(pieceCount(mesh), 1u);
+  EXPECT_EQ(separateTwistedParts(mesh), 1u);
+  necks.push_back({ { High + 1, To }, { -1, 0 } });
+  necks.push_back({ { To, Low - 1 }, { 0, 1 } });
+  necks.push_back({ { From, High + 1 }, { 0, -1 } });
+  mesh = meshOf(twistedSheets(Side, Side, sheetAt, necks, Width));
+  EXPECT_EQ(defectOf(mesh), "");
+  ASSERT_GT(findFacingBoundaries(mesh).contradicting, 0.);
+  EXPECT_EQ(separateTwistedParts(mesh), 0u);
+}
+
+// A neck that is nearly as long as the boundaries beside it which speak against it says as much as these.
+TEST(TwistedParts, NecksWithShortGapsBesideThemStay)
+{
+  constexpr unsigned Gap = 40, Deep = 12;
+  for (const unsigned rows : { 9u, 13u })
+  {
+    SCOPED_TRACE(rows);
+    const auto sheetAt = [](unsigned i, unsigned) {
+      return i < Gap ? Sheet::First : i > Gap ? Sheet::Second : Sheet::None;
+    };
+    Mesh mesh = meshOf(
+      twistedSheets(Gap + Deep + 1, rows, sheetAt, { { { Gap, rows / 2 - 2 }, { 1, 0 } } }, 4));
+    EXPECT_EQ(defectOf(mesh), "");
+    ASSERT_GT(findFacingBoundaries(mesh).contradicting, 0.);
+    EXPECT_EQ(separateTwistedParts(mesh), rows > 9 ? 1u : 0u);
+  }
+}
+
+// Where only the tips of two long tongues meet, the boundaries there are too short to tell how the sheets beyond lie.
+TEST(TwistedParts, LargePartsAreNotTurnedByTips)
+{
+  constexpr unsigned Tongue = 8, Length = 20, Gap = Side + Length - 1;
+  for (const bool areTongues : { true, false })
+  {
+    SCOPED_TRACE(areTongues);
+    const auto sheetAt = [&](unsigned i, unsigned j)
+    {
+      const bool isOfTongue = j >= (Side - Tongue) / 2 && j < (Side + Tongue) / 2;
+      const bool isSheet = !areTongues || isOfTongue || i < Side || i >= Side + 2 * Length;
+      return !isSheet || i == Gap ? Sheet::None : i < Gap ? Sheet::First : Sheet::Second;
+    };
+    Mesh mesh = meshOf(
+      twistedSheets(2 * Side + 2 * Length, Side, sheetAt, { { { Gap, Side / 2 }, { 1, 0 } } }, 1));
+    EXPECT_EQ(defectOf(mesh), "");
+    ASSERT_GT(findFacingBoundaries(mesh).contradicting, 0.);
+    EXPECT_EQ(separateTwistedParts(mesh), areTongues ? 0u : 1u);
+  }
 }
 }
