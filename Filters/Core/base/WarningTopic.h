@@ -27,6 +27,7 @@ enum class WarningTopic
   Slivers,
   InsideOut,
   NarrowHandles,
+  FinerThanNoise,
   GrowthStopped,
   MeshIsUnfinished,
   FinerThanData,

@@ -14,6 +14,7 @@
 #include "mesh/TriangleMesh.h"
 #include "run/Checkpoint.h"
 #include "run/Explanation.h"
+#include "run/NoiseWebs.h"
 #include "run/SizeChoice.h"
 #include "run/SpannedGaps.h"
 
@@ -55,6 +56,7 @@ struct Reconstruction
   /// An explanation of some points, or of all on demand. Nothing if the run was cancelled.
   std::optional<Explanation> explanation;
   std::vector<SpannedGap> gaps;      ///< that the mesh spans; empty if the run was cancelled
+  std::vector<NoiseWeb> noiseWebs;   ///< empty if the cloud is clean, or the run was cancelled
   std::vector<std::string> warnings; ///< see Warnings.h
   std::optional<SizeChoice> size;    ///< if the program chose the number of vertices
   PhaseTimes times;                  ///< of start, learning and finish

@@ -11,6 +11,7 @@
 #include "mesh/QuadricSimplification.h"
 #include "mesh/SmallPieces.h"
 #include "run/MeshOrientation.h"
+#include "run/NoiseWebs.h"
 #include "run/ScatteredPoints.h"
 #include "run/SpannedGaps.h"
 #include "start/CurvatureDensity.h"
@@ -425,6 +426,10 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
   }
   // An interruption leaves neither.
   result.gaps = spannedGaps(result.surface, *support, cloud, result.explanation->asked, executor);
+  if (result.finish && !result.finish->isClean)
+  {
+    result.noiseWebs = findNoiseWebs(result.surface, *support, cloud, executor);
+  }
   result.support = *std::move(support);
   return true;
 }

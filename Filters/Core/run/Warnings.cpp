@@ -36,6 +36,8 @@ constexpr double WholeArea = 0.999;
 constexpr double MostDisagreeing = 0.02;
 /// With less points a vertex, the mesh follows single points.
 constexpr std::size_t LeastPointsPerVertex = 2;
+/// On both sides of noise webs: less is chance.
+constexpr std::size_t FewestOnWebs = 2;
 /// A closed mesh needs at least four vertices.
 constexpr std::size_t FewestVertices = 4;
 
@@ -253,6 +255,30 @@ void warnOfHandles(const NarrowHandles& handles, const PointCloud& cloud, Warnin
       "denser scan or fewer vertices.");
 }
 
+void warnOfNoiseWebs(
+  const std::vector<NoiseWeb>& webs, const PointCloud& cloud, WarningList& warnings)
+{
+  std::size_t vertices = 0;
+  double points = 0.;
+  std::string where;
+  for (std::size_t i = 0; i < webs.size(); ++i)
+  {
+    vertices += webs[i].vertices;
+    points += webs[i].points;
+    where += i < MostPlacesNamed ? (i == 0 ? "" : ", ") + placeText(webs[i].place, cloud) : "";
+  }
+  if (vertices >= FewestOnWebs)
+  {
+    warnings.add(WarningTopic::FinerThanNoise,
+      "The noise hides holes, gaps or thin parts: the mesh has membranes that are thinner than the "
+      "noise can tell around " +
+        where + otherPlaces(webs.size(), MostPlacesNamed) + ", on " +
+        counted(std::size_t(points) + 1, "point", "points") +
+        " or less. A hole may be closed there, or parts grown together or torn. Scan these places "
+        "with less noise, or average repeated scans.");
+  }
+}
+
 void warnOfVertices(const Reconstruction& result, const PointCloud& cloud, WarningList& warnings)
 {
   const std::size_t vertices = result.mesh.points.size(), points = cloud.differentCount();
@@ -358,6 +384,7 @@ std::vector<std::string> warningsOf(
     warnOfHandles(result.quality->narrowHandles, cloud, warnings);
     warnOfVertices(result, cloud, warnings);
   }
+  warnOfNoiseWebs(result.noiseWebs, cloud, warnings);
   if (parameters.computeUncertainty && result.stopReason != StopReason::Cancelled)
   {
     warnOfMissingBars(result, warnings);

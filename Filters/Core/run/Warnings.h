@@ -19,6 +19,7 @@ namespace neuralmesh
 /// - surface without points: more than 4 % of the area, or a piece, unless gaps were to be closed;
 /// - a gap is spanned: by more than 0.02 % of the area, unless gaps were to be closed;
 /// - between layers: more than 10 % of the vertices;
+/// - finer than the noise: two vertices on noise webs;
 /// - slivers: more than 0.2 % of the triangles;
 /// - finer than data: more vertices than half of the different points;
 /// - error bars too short: views lie apart around more than 2 % of the vertices;
