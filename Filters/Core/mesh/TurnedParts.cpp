@@ -2,6 +2,7 @@
 #include "mesh/TurnedParts.h"
 
 #include "base/DisjointSets.h"
+#include "mesh/LeastCut.h"
 #include "mesh/WindingNumber.h"
 
 #include <Eigen/Geometry>
@@ -10,10 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
-#include <queue>
 #include <set>
 #include <utility>
 #include <vector>
@@ -41,7 +40,6 @@ constexpr double WindingIfClosed = 0.45;
 constexpr std::size_t LeastTrianglesOfPiece = 100;
 /// Of each piece, whether anything is turned.
 constexpr std::size_t TrianglesAsked = 500;
-constexpr std::uint32_t NoTriangle = std::numeric_limits<std::uint32_t>::max();
 
 double areaOf(const TriangleMesh& mesh, std::uint32_t triangle)
 {
@@ -96,88 +94,6 @@ SidesShown sidesShown(const TriangleMesh& mesh, const std::vector<std::uint32_t>
     result.inner += number <= -LeastWinding ? area : 0.;
   }
   return result;
-}
-
-/// The triangles across the three sides of each, or NoTriangle.
-using TriangleNeighbors = std::vector<std::array<std::uint32_t, 3>>;
-
-TriangleNeighbors neighborsIn(const TriangleMesh& mesh)
-{
-  struct HalfEdge
-  {
-    std::uint64_t key;
-    std::uint32_t triangle;
-    std::uint32_t side;
-  };
-  std::vector<HalfEdge> halfEdges;
-  halfEdges.reserve(3 * mesh.triangles.size());
-  const auto keyOf = [](std::uint32_t from, std::uint32_t to)
-  { return std::uint64_t(from) << 32 | to; };
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-  {
-    for (std::uint32_t side = 0; side < 3; ++side)
-    {
-      const auto& triangle = mesh.triangles[t];
-      halfEdges.push_back({ keyOf(triangle[side], triangle[(side + 1) % 3]), t, side });
-    }
-  }
-  std::sort(halfEdges.begin(), halfEdges.end(),
-    [](const HalfEdge& a, const HalfEdge& b) { return a.key < b.key; });
-  TriangleNeighbors result(mesh.triangles.size(), { NoTriangle, NoTriangle, NoTriangle });
-  for (const HalfEdge& edge : halfEdges)
-  {
-    const std::uint64_t back = edge.key << 32 | edge.key >> 32;
-    const auto other = std::lower_bound(halfEdges.begin(), halfEdges.end(), back,
-      [](const HalfEdge& a, std::uint64_t key) { return a.key < key; });
-    if (other != halfEdges.end() && other->key == back)
-    {
-      result[edge.triangle][edge.side] = other->triangle;
-    }
-  }
-  return result;
-}
-
-/// Which side each triangle of a piece shows, 1 or -1: those that tell, and what is nearer to these than to
-/// others. From the clearest ones on, so that they meet where nothing tells.
-void spreadSides(const std::vector<std::uint32_t>& piece, const std::vector<double>& winding,
-  const TriangleNeighbors& neighbors, std::vector<std::int8_t>& sides)
-{
-  struct Step
-  {
-    double clearness;
-    std::uint32_t triangle;
-    std::int8_t side;
-
-    bool operator<(const Step& other) const
-    {
-      return clearness != other.clearness ? clearness < other.clearness : triangle > other.triangle;
-    }
-  };
-  std::priority_queue<Step> steps;
-  for (const std::uint32_t t : piece)
-  {
-    if (std::abs(winding[t]) >= LeastWinding)
-    {
-      steps.push({ 1., t, std::int8_t(winding[t] > 0. ? 1 : -1) });
-    }
-  }
-  while (!steps.empty())
-  {
-    const Step step = steps.top();
-    steps.pop();
-    if (sides[step.triangle] != 0)
-    {
-      continue;
-    }
-    sides[step.triangle] = step.side;
-    for (const std::uint32_t other : neighbors[step.triangle])
-    {
-      if (other != NoTriangle && sides[other] == 0)
-      {
-        steps.push({ std::min(std::abs(winding[other]), LeastWinding), other, step.side });
-      }
-    }
-  }
 }
 
 /// The boundary loops of a mesh, each with its length.
@@ -261,8 +177,12 @@ public:
     for (const std::uint32_t t : piece)
     {
       numbers_[t] = winding.atTriangle(t);
+      sides_[t] = std::int8_t(numbers_[t] >= LeastWinding ? 1
+          : numbers_[t] <= -LeastWinding                  ? -1
+                                                          : 0);
     }
-    spreadSides(piece, numbers_, neighbors_, sides_);
+    // What tells nothing, as a table does, belongs to either: what stands on it is cut off where it is narrow.
+    divideByLeastCut(mesh_, neighbors_, piece, sides_);
     DisjointSets sets(mesh_.triangles.size());
     for (const std::uint32_t t : piece)
     {
