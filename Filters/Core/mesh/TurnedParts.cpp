@@ -23,8 +23,13 @@ namespace
 {
 /// A triangle has a side beyond that winding number, see WindingNumber::atTriangle().
 constexpr double LeastWinding = 0.35;
+/// What bounds a body has 1/2 at most, unless what is missing of it hides the body from itself. A part that hangs on
+/// to a table by the wrong side has more: the table is seen from its front there, as the part is from within.
+constexpr double MostWinding = 0.6;
 /// So large a part of its piece is one.
 constexpr double LeastTurnedPart = 0.03;
+/// The same of those that have more than MostWinding. Hardly anything else has.
+constexpr double LeastPartBeyond = 0.01;
 /// What a part hangs by is narrow if the square of its length is less than that many of its areas; more of what
 /// is closed but for that.
 constexpr double MostSquaredSeam = 0.25;
@@ -77,9 +82,11 @@ struct SidesShown
 {
   double outer = 0.;
   double inner = 0.;
+  double beyond = 0.; ///< that has more than MostWinding
   double asked = 0.;
 
-  double less() const { return std::min(outer, inner); }
+  bool areBothShown() const { return std::min(outer, inner) > LeastTurnedPart * asked; }
+  bool isAnyBeyond() const { return beyond > LeastPartBeyond * asked; }
 };
 
 SidesShown sidesShown(const TriangleMesh& mesh, const std::vector<std::uint32_t>& piece,
@@ -92,6 +99,7 @@ SidesShown sidesShown(const TriangleMesh& mesh, const std::vector<std::uint32_t>
     result.asked += area;
     result.outer += number >= LeastWinding ? area : 0.;
     result.inner += number <= -LeastWinding ? area : 0.;
+    result.beyond += std::abs(number) >= MostWinding ? area : 0.;
   }
   return result;
 }
@@ -157,6 +165,13 @@ struct Part
   }
 };
 
+/// What tells a part from the rest of its piece.
+enum class Sign
+{
+  Side,  ///< it shows the side that less of the piece does
+  Beyond ///< see MostWinding
+};
+
 /// Parts of all pieces that are to be cut off.
 class TurnedParts
 {
@@ -172,14 +187,12 @@ public:
   }
 
   /// Returns how many there are in a piece.
-  std::size_t add(const std::vector<std::uint32_t>& piece, const WindingNumber& winding)
+  std::size_t add(const std::vector<std::uint32_t>& piece, const WindingNumber& winding, Sign sign)
   {
     for (const std::uint32_t t : piece)
     {
       numbers_[t] = winding.atTriangle(t);
-      sides_[t] = std::int8_t(numbers_[t] >= LeastWinding ? 1
-          : numbers_[t] <= -LeastWinding                  ? -1
-                                                          : 0);
+      sides_[t] = sign == Sign::Side ? sideShown(numbers_[t]) : sideOfBeyond(numbers_[t]);
     }
     // What tells nothing, as a table does, belongs to either: what stands on it is cut off where it is narrow.
     divideByLeastCut(mesh_, neighbors_, piece, sides_);
@@ -211,10 +224,14 @@ public:
         }
       }
     }
-    const std::int8_t turned = areaOfSide[0] < areaOfSide[1] ? 1 : -1;
-    const double least = LeastTurnedPart * (areaOfSide[0] + areaOfSide[1]);
-    const auto isTurned = [&](const Part& part)
-    { return part.side == turned && part.area >= least; };
+    const bool isLess = areaOfSide[0] < areaOfSide[1];
+    const std::int8_t turned = sign == Sign::Beyond || isLess ? 1 : -1;
+    const double least =
+      (sign == Sign::Side ? LeastTurnedPart : LeastPartBeyond) * (areaOfSide[0] + areaOfSide[1]);
+    const double leastWinding = sign == Sign::Side ? 0. : MostWinding;
+    const auto isTurned = [&](const Part& part) {
+      return part.side == turned && part.area >= least && part.winding >= leastWinding * part.area;
+    };
     const auto isCutOff = [&](const Part& part) { return isTurned(part) && part.hangsByLittle(); };
     const bool isNoSheet = handlesOf(piece) >= HandlesOfNoSheet;
     for (const auto& [root, part] : parts)
@@ -265,6 +282,17 @@ public:
   }
 
 private:
+  static std::int8_t sideShown(double number)
+  {
+    return std::int8_t(number >= LeastWinding ? 1 : number <= -LeastWinding ? -1 : 0);
+  }
+
+  static std::int8_t sideOfBeyond(double number)
+  {
+    const double size = std::abs(number);
+    return std::int8_t(size >= MostWinding ? 1 : size < LeastWinding ? -1 : 0);
+  }
+
   bool isSeam(std::uint32_t triangle, std::size_t side) const
   {
     const std::uint32_t other = neighbors_[triangle][side];
@@ -328,13 +356,13 @@ std::size_t addParts(const TriangleMesh& mesh, std::optional<TurnedParts>& parts
     const WindingNumber winding(mesh, piece);
     const std::size_t step = std::max<std::size_t>(1, piece.size() / TrianglesAsked);
     const SidesShown sides = sidesShown(mesh, piece, winding, step);
-    if (sides.less() > LeastTurnedPart * sides.asked)
+    if (sides.areBothShown() || sides.isAnyBeyond())
     {
       if (!parts)
       {
         parts.emplace(mesh);
       }
-      count += parts->add(piece, winding);
+      count += parts->add(piece, winding, sides.areBothShown() ? Sign::Side : Sign::Beyond);
     }
   }
   return count;

@@ -126,8 +126,8 @@ TriangleMesh joinedSpheres(bool isTurned)
 {
   TriangleMesh mesh = makeSphere(16);
   const TriangleMesh other = sphereAt({ 2.1, 0., 0. }, 1., isTurned);
-  join(mesh, farthest(mesh, Eigen::Vector3d::UnitX(), 4), other,
-    farthest(other, -Eigen::Vector3d::UnitX(), 4));
+  join(mesh, farthest(mesh, Eigen::Vector3d::UnitX(), 6), other,
+    farthest(other, -Eigen::Vector3d::UnitX(), 6));
   return mesh;
 }
 
