@@ -321,9 +321,8 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   float medianDistance, const GapPlan& plan, const Executor& executor)
 {
   OpenedGaps result;
-  const std::vector<Triangle> gaps = plan.mayOpen
-    ? findDataGaps(cloud, mesh, places, medianDistance, plan.mustBeFar, executor)
-    : std::vector<Triangle>();
+  const std::vector<Triangle> gaps =
+    findDataGaps(cloud, mesh, places, medianDistance, plan.mustBeFar, executor);
   result.triangles = gaps.size();
   if (!gaps.empty())
   {

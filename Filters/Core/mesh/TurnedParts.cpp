@@ -2,6 +2,7 @@
 #include "mesh/TurnedParts.h"
 
 #include "base/DisjointSets.h"
+#include "mesh/LeastCut.h"
 #include "mesh/WindingNumber.h"
 
 #include <Eigen/Geometry>
@@ -10,10 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
-#include <queue>
 #include <set>
 #include <utility>
 #include <vector>
@@ -24,8 +23,13 @@ namespace
 {
 /// A triangle has a side beyond that winding number, see WindingNumber::atTriangle().
 constexpr double LeastWinding = 0.35;
+/// What bounds a body has 1/2 at most, unless what is missing of it hides the body from itself. A part that hangs on
+/// to a table by the wrong side has more: the table is seen from its front there, as the part is from within.
+constexpr double MostWinding = 0.6;
 /// So large a part of its piece is one.
 constexpr double LeastTurnedPart = 0.03;
+/// The same of those that have more than MostWinding. Hardly anything else has.
+constexpr double LeastPartBeyond = 0.01;
 /// What a part hangs by is narrow if the square of its length is less than that many of its areas; more of what
 /// is closed but for that.
 constexpr double MostSquaredSeam = 0.25;
@@ -41,7 +45,6 @@ constexpr double WindingIfClosed = 0.45;
 constexpr std::size_t LeastTrianglesOfPiece = 100;
 /// Of each piece, whether anything is turned.
 constexpr std::size_t TrianglesAsked = 500;
-constexpr std::uint32_t NoTriangle = std::numeric_limits<std::uint32_t>::max();
 
 double areaOf(const TriangleMesh& mesh, std::uint32_t triangle)
 {
@@ -79,9 +82,11 @@ struct SidesShown
 {
   double outer = 0.;
   double inner = 0.;
+  double beyond = 0.; ///< that has more than MostWinding
   double asked = 0.;
 
-  double less() const { return std::min(outer, inner); }
+  bool areBothShown() const { return std::min(outer, inner) > LeastTurnedPart * asked; }
+  bool isAnyBeyond() const { return beyond > LeastPartBeyond * asked; }
 };
 
 SidesShown sidesShown(const TriangleMesh& mesh, const std::vector<std::uint32_t>& piece,
@@ -94,90 +99,9 @@ SidesShown sidesShown(const TriangleMesh& mesh, const std::vector<std::uint32_t>
     result.asked += area;
     result.outer += number >= LeastWinding ? area : 0.;
     result.inner += number <= -LeastWinding ? area : 0.;
+    result.beyond += std::abs(number) >= MostWinding ? area : 0.;
   }
   return result;
-}
-
-/// The triangles across the three sides of each, or NoTriangle.
-using TriangleNeighbors = std::vector<std::array<std::uint32_t, 3>>;
-
-TriangleNeighbors neighborsIn(const TriangleMesh& mesh)
-{
-  struct HalfEdge
-  {
-    std::uint64_t key;
-    std::uint32_t triangle;
-    std::uint32_t side;
-  };
-  std::vector<HalfEdge> halfEdges;
-  halfEdges.reserve(3 * mesh.triangles.size());
-  const auto keyOf = [](std::uint32_t from, std::uint32_t to)
-  { return std::uint64_t(from) << 32 | to; };
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-  {
-    for (std::uint32_t side = 0; side < 3; ++side)
-    {
-      const auto& triangle = mesh.triangles[t];
-      halfEdges.push_back({ keyOf(triangle[side], triangle[(side + 1) % 3]), t, side });
-    }
-  }
-  std::sort(halfEdges.begin(), halfEdges.end(),
-    [](const HalfEdge& a, const HalfEdge& b) { return a.key < b.key; });
-  TriangleNeighbors result(mesh.triangles.size(), { NoTriangle, NoTriangle, NoTriangle });
-  for (const HalfEdge& edge : halfEdges)
-  {
-    const std::uint64_t back = edge.key << 32 | edge.key >> 32;
-    const auto other = std::lower_bound(halfEdges.begin(), halfEdges.end(), back,
-      [](const HalfEdge& a, std::uint64_t key) { return a.key < key; });
-    if (other != halfEdges.end() && other->key == back)
-    {
-      result[edge.triangle][edge.side] = other->triangle;
-    }
-  }
-  return result;
-}
-
-/// Which side each triangle of a piece shows, 1 or -1: those that tell, and what is nearer to these than to
-/// others. From the clearest ones on, so that they meet where nothing tells.
-void spreadSides(const std::vector<std::uint32_t>& piece, const std::vector<double>& winding,
-  const TriangleNeighbors& neighbors, std::vector<std::int8_t>& sides)
-{
-  struct Step
-  {
-    double clearness;
-    std::uint32_t triangle;
-    std::int8_t side;
-
-    bool operator<(const Step& other) const
-    {
-      return clearness != other.clearness ? clearness < other.clearness : triangle > other.triangle;
-    }
-  };
-  std::priority_queue<Step> steps;
-  for (const std::uint32_t t : piece)
-  {
-    if (std::abs(winding[t]) >= LeastWinding)
-    {
-      steps.push({ 1., t, std::int8_t(winding[t] > 0. ? 1 : -1) });
-    }
-  }
-  while (!steps.empty())
-  {
-    const Step step = steps.top();
-    steps.pop();
-    if (sides[step.triangle] != 0)
-    {
-      continue;
-    }
-    sides[step.triangle] = step.side;
-    for (const std::uint32_t other : neighbors[step.triangle])
-    {
-      if (other != NoTriangle && sides[other] == 0)
-      {
-        steps.push({ std::min(std::abs(winding[other]), LeastWinding), other, step.side });
-      }
-    }
-  }
 }
 
 /// The boundary loops of a mesh, each with its length.
@@ -241,6 +165,13 @@ struct Part
   }
 };
 
+/// What tells a part from the rest of its piece.
+enum class Sign
+{
+  Side,  ///< it shows the side that less of the piece does
+  Beyond ///< see MostWinding
+};
+
 /// Parts of all pieces that are to be cut off.
 class TurnedParts
 {
@@ -256,13 +187,15 @@ public:
   }
 
   /// Returns how many there are in a piece.
-  std::size_t add(const std::vector<std::uint32_t>& piece, const WindingNumber& winding)
+  std::size_t add(const std::vector<std::uint32_t>& piece, const WindingNumber& winding, Sign sign)
   {
     for (const std::uint32_t t : piece)
     {
       numbers_[t] = winding.atTriangle(t);
+      sides_[t] = sign == Sign::Side ? sideShown(numbers_[t]) : sideOfBeyond(numbers_[t]);
     }
-    spreadSides(piece, numbers_, neighbors_, sides_);
+    // What tells nothing, as a table does, belongs to either: what stands on it is cut off where it is narrow.
+    divideByLeastCut(mesh_, neighbors_, piece, sides_);
     DisjointSets sets(mesh_.triangles.size());
     for (const std::uint32_t t : piece)
     {
@@ -291,10 +224,14 @@ public:
         }
       }
     }
-    const std::int8_t turned = areaOfSide[0] < areaOfSide[1] ? 1 : -1;
-    const double least = LeastTurnedPart * (areaOfSide[0] + areaOfSide[1]);
-    const auto isTurned = [&](const Part& part)
-    { return part.side == turned && part.area >= least; };
+    const bool isLess = areaOfSide[0] < areaOfSide[1];
+    const std::int8_t turned = sign == Sign::Beyond || isLess ? 1 : -1;
+    const double least =
+      (sign == Sign::Side ? LeastTurnedPart : LeastPartBeyond) * (areaOfSide[0] + areaOfSide[1]);
+    const double leastWinding = sign == Sign::Side ? 0. : MostWinding;
+    const auto isTurned = [&](const Part& part) {
+      return part.side == turned && part.area >= least && part.winding >= leastWinding * part.area;
+    };
     const auto isCutOff = [&](const Part& part) { return isTurned(part) && part.hangsByLittle(); };
     const bool isNoSheet = handlesOf(piece) >= HandlesOfNoSheet;
     for (const auto& [root, part] : parts)
@@ -345,6 +282,17 @@ public:
   }
 
 private:
+  static std::int8_t sideShown(double number)
+  {
+    return std::int8_t(number >= LeastWinding ? 1 : number <= -LeastWinding ? -1 : 0);
+  }
+
+  static std::int8_t sideOfBeyond(double number)
+  {
+    const double size = std::abs(number);
+    return std::int8_t(size >= MostWinding ? 1 : size < LeastWinding ? -1 : 0);
+  }
+
   bool isSeam(std::uint32_t triangle, std::size_t side) const
   {
     const std::uint32_t other = neighbors_[triangle][side];
@@ -408,13 +356,13 @@ std::size_t addParts(const TriangleMesh& mesh, std::optional<TurnedParts>& parts
     const WindingNumber winding(mesh, piece);
     const std::size_t step = std::max<std::size_t>(1, piece.size() / TrianglesAsked);
     const SidesShown sides = sidesShown(mesh, piece, winding, step);
-    if (sides.less() > LeastTurnedPart * sides.asked)
+    if (sides.areBothShown() || sides.isAnyBeyond())
     {
       if (!parts)
       {
         parts.emplace(mesh);
       }
-      count += parts->add(piece, winding);
+      count += parts->add(piece, winding, sides.areBothShown() ? Sign::Side : Sign::Beyond);
     }
   }
   return count;

@@ -37,65 +37,61 @@ std::vector<double> windingOf(const TriangleMesh& mesh)
   return result;
 }
 
-/// The points of the boundary loop, along the sides that are missing there.
-std::vector<std::uint32_t> missingSides(const TriangleMesh& mesh)
+/// Takes away the triangles around a point. Returns the points around the hole, against its sides that are left.
+std::vector<std::uint32_t> takeOut(TriangleMesh& mesh, std::uint32_t point)
 {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
-  for (const auto& [a, b, c] : mesh.triangles)
-  {
-    for (const auto& side : { std::pair(a, b), std::pair(b, c), std::pair(c, a) })
-    {
-      sides[side] = 1;
-    }
-  }
   std::map<std::uint32_t, std::uint32_t> next;
-  for (const auto& [side, one] : sides)
-  {
-    if (sides.count({ side.second, side.first }) == 0)
+  std::erase_if(mesh.triangles,
+    [&](const auto& triangle)
     {
-      next[side.second] = side.first;
-    }
-  }
-  std::vector<std::uint32_t> loop{ next.begin()->first };
-  while (next.at(loop.back()) != loop.front())
+      const auto corner =
+        std::size_t(std::find(triangle.begin(), triangle.end(), point) - triangle.begin());
+      if (corner < 3)
+      {
+        next[triangle[(corner + 1) % 3]] = triangle[(corner + 2) % 3];
+      }
+      return corner < 3;
+    });
+  std::vector<std::uint32_t> around{ next.begin()->first };
+  while (next.at(around.back()) != around.front())
   {
-    loop.push_back(next.at(loop.back()));
+    around.push_back(next.at(around.back()));
   }
-  return loop;
+  return around;
 }
 
-/// Two spheres side by side that hang together by the triangles around one point each; the second one looks
-/// inwards if that is to be.
-TriangleMesh joinedSpheres(bool isTurned)
+/// The farthest one along a direction with so many triangles around it.
+std::uint32_t farthest(
+  const TriangleMesh& mesh, const Eigen::Vector3d& direction, std::size_t triangles)
 {
-  TriangleMesh mesh = makeSphere(16);
-  const auto leftOut = [&](const TriangleMesh& sphere, double side)
+  std::vector<std::size_t> counts(mesh.points.size(), 0);
+  for (const auto& triangle : mesh.triangles)
   {
-    return std::uint32_t(
-      std::max_element(sphere.points.begin(), sphere.points.end(),
-        [side](const auto& a, const auto& b) { return side * a.x() < side * b.x(); }) -
-      sphere.points.begin());
-  };
-  const auto without = [](TriangleMesh sphere, std::uint32_t point)
-  {
-    std::erase_if(sphere.triangles,
-      [point](const auto& triangle)
-      { return std::find(triangle.begin(), triangle.end(), point) != triangle.end(); });
-    return sphere;
-  };
-  TriangleMesh other = without(mesh, leftOut(mesh, -1.));
-  mesh = without(mesh, leftOut(mesh, 1.));
-  if (isTurned)
-  {
-    turn(other);
+    for (const std::uint32_t corner : triangle)
+    {
+      ++counts[corner];
+    }
   }
-  const std::vector<std::uint32_t> one = missingSides(mesh), two = missingSides(other);
-  EXPECT_EQ(one.size(), two.size());
+  std::uint32_t result = 0;
+  double most = -1e9;
+  for (std::uint32_t i = 0; i < counts.size(); ++i)
+  {
+    if (counts[i] == triangles && mesh.points[i].dot(direction) > most)
+    {
+      most = mesh.points[i].dot(direction);
+      result = i;
+    }
+  }
+  return result;
+}
+
+/// Joins two meshes by the triangles around one point each, which have to be as many.
+void join(TriangleMesh& mesh, std::uint32_t point, TriangleMesh other, std::uint32_t otherPoint)
+{
+  const std::vector<std::uint32_t> one = takeOut(mesh, point), two = takeOut(other, otherPoint);
+  ASSERT_EQ(one.size(), two.size());
   const auto first = std::uint32_t(mesh.points.size());
-  for (const Eigen::Vector3d& point : other.points)
-  {
-    mesh.points.emplace_back(point + Eigen::Vector3d(2.1, 0., 0.));
-  }
+  mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
   for (const auto& [a, b, c] : other.triangles)
   {
     mesh.triangles.push_back({ a + first, b + first, c + first });
@@ -108,6 +104,50 @@ TriangleMesh joinedSpheres(bool isTurned)
                         after = first + two[(2 * count - i - 1) % count];
     mesh.triangles.push_back({ from, to, near });
     mesh.triangles.push_back({ after, near, to });
+  }
+}
+
+TriangleMesh sphereAt(const Eigen::Vector3d& center, double radius, bool isTurned)
+{
+  TriangleMesh sphere = makeSphere(16);
+  for (Eigen::Vector3d& point : sphere.points)
+  {
+    point = center + radius * point;
+  }
+  if (isTurned)
+  {
+    turn(sphere);
+  }
+  return sphere;
+}
+
+/// Two spheres side by side that hang together; the second one looks inwards if that is to be.
+TriangleMesh joinedSpheres(bool isTurned)
+{
+  TriangleMesh mesh = makeSphere(16);
+  const TriangleMesh other = sphereAt({ 2.1, 0., 0. }, 1., isTurned);
+  join(mesh, farthest(mesh, Eigen::Vector3d::UnitX(), 6), other,
+    farthest(other, -Eigen::Vector3d::UnitX(), 6));
+  return mesh;
+}
+
+/// Two spheres far from each other on a table, and joined to it; the second one looks inwards.
+TriangleMesh ballsOnTable()
+{
+  TriangleMesh mesh = makeGrid(60);
+  for (Eigen::Vector3d& point : mesh.points)
+  {
+    point = 6. * (point - Eigen::Vector3d(0.5, 0.5, 0.));
+  }
+  for (const double side : { -1., 1. })
+  {
+    const Eigen::Vector3d place(1.5 * side, 0., 0.);
+    const TriangleMesh ball = sphereAt(place + Eigen::Vector3d(0., 0., 0.55), 0.5, side > 0.);
+    const auto below = std::min_element(mesh.points.begin(), mesh.points.end(),
+      [&](const auto& a, const auto& b)
+      { return (a - place).squaredNorm() < (b - place).squaredNorm(); });
+    join(mesh, std::uint32_t(below - mesh.points.begin()), ball,
+      farthest(ball, -Eigen::Vector3d::UnitZ(), 6));
   }
   return mesh;
 }
@@ -153,6 +193,27 @@ TEST(TurnedParts, AreCutOffAndTurned)
                           normal = (mesh.points[b] - from).cross(mesh.points[c] - from);
     const Eigen::Vector3d center(from.x() < 1.05 ? 0. : 2.1, 0., 0.);
     ASSERT_GT(normal.dot(from - center), 0.);
+  }
+}
+
+// What stands on a table and hangs on to it by the wrong side is cut off where it stands, not in the middle between
+// it and another one: the table itself tells no side.
+TEST(TurnedParts, AreCutOffFromATable)
+{
+  TriangleMesh mesh = ballsOnTable();
+  ASSERT_EQ(checkManifold(mesh.points.size(), mesh.triangles).defect, "");
+  const std::size_t before = mesh.triangles.size();
+  EXPECT_EQ(separateTurnedParts(mesh), 1u);
+  EXPECT_GT(mesh.triangles.size(), before - 60);
+  const ManifoldReport report = checkManifold(mesh.points.size(), mesh.triangles);
+  EXPECT_EQ(report.defect, "");
+  EXPECT_EQ(report.components, 2u);
+  for (const auto& [a, b, c] : mesh.triangles)
+  {
+    const Eigen::Vector3d from = mesh.points[a],
+                          normal = (mesh.points[b] - from).cross(mesh.points[c] - from);
+    const Eigen::Vector3d center(from.x() < 0. ? -1.5 : 1.5, 0., 0.55);
+    ASSERT_GT(from.z() < 0.2 ? normal.z() + 1. : normal.dot(from - center), 0.);
   }
 }
 
