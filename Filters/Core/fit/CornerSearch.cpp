@@ -13,9 +13,10 @@ namespace neuralmesh
 namespace
 {
 /// What is left of the crookedness, at most: if no sample gets farther, and if some do, or a vertex is added. What is
-/// left lies in no plane around, as a fillet between two of them does.
+/// left lies in no plane around, as a fillet between two of them does. Beside a corner that a fillet does not have,
+/// triangles are turned by half as much as there: a quarter of the crookedness.
 constexpr double MostCrookednessLeft = 0.5;
-constexpr double LittleCrookednessLeft = 0.125;
+constexpr double LittleCrookednessLeft = 0.2;
 /// No triangle may turn by more, nor become worse than that, unless it was.
 constexpr float LeastCornerCosine = 0.2f;
 constexpr float LeastCornerRatio = 0.15f;
