@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/PieceAgreement.h"
 
+#include "base/UnitVector.h"
 #include "cloud/VertexGrid.h"
 #include "mesh/BoxTree.h"
 
@@ -20,12 +21,6 @@ constexpr float WidthsOfGap = 2.f;
 /// Of the mean of what the vertices at a gap say, from -2 to 2.
 constexpr double LeastAgreement = 0.5;
 constexpr float EdgesPerCellOfPieces = 2.f;
-
-Vector4 unit(Vector4 vector)
-{
-  const float squared = squaredNorm(vector);
-  return squared > 0.f ? 1.f / std::sqrt(squared) * vector : Vector4();
-}
 
 class Agreement
 {

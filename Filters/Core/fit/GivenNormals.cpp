@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/GivenNormals.h"
 
+#include "base/UnitVector.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -42,9 +43,7 @@ std::vector<Vector4> unitNormals(const Mesh& mesh)
   std::vector<Vector4> result(mesh.indexEnd());
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
-    const Vector4 normal = mesh.normal(v);
-    const float squared = squaredNorm(normal);
-    result[v] = squared > 0.f ? 1.f / std::sqrt(squared) * normal : Vector4();
+    result[v] = unit(mesh.normal(v));
   }
   return result;
 }
@@ -91,8 +90,7 @@ GivenNormals::GivenNormals(std::vector<Vector4> normals)
 {
   for (Vector4& normal : normals_)
   {
-    const float squared = squaredNorm(normal);
-    normal = squared > 0.f ? 1.f / std::sqrt(squared) * normal : Vector4();
+    normal = unit(normal);
   }
 }
 

@@ -2,6 +2,7 @@
 #include "fit/LocalSpacing.h"
 
 #include "fit/PlacesByRows.h"
+#include "mesh/EachVertex.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,18 +34,7 @@ LocalSpacing::LocalSpacing(
         }
       }
     });
-  const auto forEachVertex = [&](const auto& body)
-  {
-    executor.forEachRange(mesh.indexEnd(), SpacingsPerRange,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (auto v = VertexIndex(begin); v < end; ++v)
-        {
-          body(v);
-        }
-      });
-  };
-  forEachVertex(
+  forEachVertex(mesh, executor, SpacingsPerRange,
     [&](VertexIndex v)
     {
       const Ring& ring = mesh.ring(v);
@@ -60,7 +50,7 @@ LocalSpacing::LocalSpacing(
         before = side;
       }
     });
-  forEachVertex(
+  forEachVertex(mesh, executor, SpacingsPerRange,
     [&](VertexIndex v)
     {
       float area = areas[v], count = samples[v];

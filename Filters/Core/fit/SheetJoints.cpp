@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/SheetJoints.h"
 
+#include "base/UnitVector.h"
 #include "mesh/BoundaryFilling.h"
 #include "mesh/BoundaryManager.h"
+#include "mesh/EachVertex.h"
 #include "mesh/NarrowStrips.h"
 #include "mesh/Pieces.h"
 
@@ -22,12 +24,9 @@ namespace
 {
 /// What is smaller, against the other part, is no sheet of its own.
 constexpr double LeastPartOfOther = 0.05;
-/// Of a sheet around the end of a tube: the length of the mean normal, and the cosine between those of both sheets. It
-/// is lower where a true neck widens as a funnel does.
+/// The length of the mean normal of a sheet around the end of a tube. It is lower where a true neck widens as a funnel
+/// does.
 constexpr float LeastFlatness = 0.8f;
-constexpr float MostCosine = -0.5f;
-/// Edges around the end of a tube in which a sheet is looked at.
-constexpr int RingsAround = 4;
 /// Cosines between the axis of a tube and the normals of its wall, and of the sheets.
 constexpr float MostOnWall = 0.4f;
 constexpr float LeastOnSheet = 0.8f;
@@ -50,12 +49,6 @@ struct TubeEnd
   std::vector<VertexIndex> rim;
   std::vector<VertexIndex> around; ///< of the rim, too
 };
-
-Vector4 unit(Vector4 direction)
-{
-  const float squared = squaredNorm(direction);
-  return squared > 0.f ? (1.f / std::sqrt(squared)) * direction : Vector4{};
-}
 
 Vector4 meanNormal(const Mesh& mesh, const std::vector<VertexIndex>& vertices)
 {
@@ -95,19 +88,9 @@ bool isBent(const Mesh& mesh, VertexIndex v)
 std::vector<std::uint8_t> verticesAtBends(const Mesh& mesh, const Executor& executor)
 {
   std::vector<std::uint8_t> isAtBend(mesh.indexEnd(), 0), isCandidate(mesh.indexEnd(), 0);
-  const auto forEachVertex = [&](const auto& visit)
-  {
-    executor.forEachRange(mesh.indexEnd(), VerticesPerRange,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (auto v = VertexIndex(begin); v < end; ++v)
-        {
-          visit(v);
-        }
-      });
-  };
-  forEachVertex([&](VertexIndex v) { isAtBend[v] = isBent(mesh, v) ? 1 : 0; });
-  forEachVertex(
+  forEachVertex(mesh, executor, VerticesPerRange,
+    [&](VertexIndex v) { isAtBend[v] = isBent(mesh, v) ? 1 : 0; });
+  forEachVertex(mesh, executor, VerticesPerRange,
     [&](VertexIndex v)
     {
       const Ring& ring = mesh.ring(v);
@@ -145,8 +128,8 @@ public:
     }
   }
 
-  /// Whether two large open parts hang together by this strip, which are flat there and which it turns contrary, and
-  /// whether hardly any samples lie on it.
+  /// Whether two large open parts hang together by this strip, which are flat there, and whether it turns them contrary
+  /// and hardly any samples lie on it.
   bool areJoinedBy(
     const NarrowStrip& strip, std::span<const PlaceOnMesh> places, float medianDistance) const
   {
@@ -164,8 +147,7 @@ public:
     }
     const Vector4 a = meanNormal(mesh_, endOfOne.around), b = meanNormal(mesh_, endOfOther.around);
     const float least = LeastFlatness * LeastFlatness;
-    if (squaredNorm(a) < least || squaredNorm(b) < least ||
-      dot(a, b) > MostCosine * std::sqrt(squaredNorm(a) * squaredNorm(b)))
+    if (squaredNorm(a) < least || squaredNorm(b) < least)
     {
       return false;
     }
@@ -210,7 +192,8 @@ public:
 private:
   static constexpr std::uint32_t NoPart = std::numeric_limits<std::uint32_t>::max();
 
-  /// Of a tube that consists of some of the triangles between these vertices.
+  /// Of a tube that consists of some of the triangles between these vertices. The axis is that between sheets which it
+  /// turns contrary: no others lie across it.
   bool isWallBare(std::vector<VertexIndex> vertices, Vector4 axis,
     std::span<const PlaceOnMesh> places, float medianDistance) const
   {

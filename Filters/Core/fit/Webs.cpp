@@ -2,6 +2,7 @@
 #include "fit/Webs.h"
 
 #include "base/Morton.h"
+#include "base/UnitVector.h"
 #include "cloud/NearestPoints.h"
 #include "mesh/Pieces.h"
 
@@ -137,10 +138,8 @@ private:
   Vector4 normalOf(std::uint32_t t) const
   {
     const auto& [a, b, c] = triangles_[t];
-    const Vector4 normal =
-      cross(mesh_.position(b) - mesh_.position(a), mesh_.position(c) - mesh_.position(a));
-    const float squared = squaredNorm(normal);
-    return squared > 0.f ? 1.f / std::sqrt(squared) * normal : Vector4();
+    return unit(
+      cross(mesh_.position(b) - mesh_.position(a), mesh_.position(c) - mesh_.position(a)));
   }
 
   /// The nearest triangle behind another one that looks the other way.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/FacingBoundaries.h"
 
+#include "base/UnitVector.h"
 #include "mesh/Pieces.h"
 
 #include <algorithm>
@@ -24,12 +25,6 @@ constexpr double LeastSaid = 1.;
 /// Of the angle between the way across and the direction in which the surface ends: with less, the way leads over the
 /// surface itself, as from one side of a table's leg to the other.
 constexpr float LeastOutwards = -0.3f;
-
-Vector4 directionOf(Vector4 vector)
-{
-  const float squared = squaredNorm(vector);
-  return squared > 0.f ? 1.f / std::sqrt(squared) * vector : Vector4();
-}
 
 struct BoundaryVertex
 {
@@ -129,7 +124,7 @@ private:
 
   bool isOpenBetween(VertexIndex one, VertexIndex other) const
   {
-    const Vector4 way = directionOf(mesh_.position(other) - mesh_.position(one));
+    const Vector4 way = unit(mesh_.position(other) - mesh_.position(one));
     return dot(way, outwardsAt(one)) >= LeastOutwards &&
       -dot(way, outwardsAt(other)) >= LeastOutwards;
   }
@@ -142,7 +137,7 @@ private:
     {
       sum += mesh_.position(v) - mesh_.position(neighbor);
     }
-    return directionOf(sum);
+    return unit(sum);
   }
 
   Vector4 alongAt(VertexIndex v) const
@@ -154,9 +149,8 @@ private:
 
   double agreementOf(VertexIndex v, VertexIndex other) const
   {
-    const auto normalAt = [this](VertexIndex at) { return directionOf(mesh_.normal(at)); };
-    return double(dot(normalAt(v), normalAt(other)) -
-      dot(directionOf(alongAt(v)), directionOf(alongAt(other))));
+    const auto normalAt = [this](VertexIndex at) { return unit(mesh_.normal(at)); };
+    return double(dot(normalAt(v), normalAt(other)) - dot(unit(alongAt(v)), unit(alongAt(other))));
   }
 
   const Mesh& mesh_;

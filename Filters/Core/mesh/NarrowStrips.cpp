@@ -15,8 +15,6 @@ namespace
 {
 /// Vertices of a strip through which narrow loops lead.
 constexpr std::size_t LeastInStrip = 3;
-/// Edges around a strip in which its sides are looked at.
-constexpr int RingsAround = 4;
 /// For the executor.
 constexpr std::size_t VerticesOfStripPart = 4096;
 constexpr std::size_t MostSurroundings = 32;

@@ -14,6 +14,9 @@ namespace neuralmesh
 /// Edges of the longest loop that is narrow.
 constexpr int NarrowLoop = 5;
 
+/// Edges around a strip in which its sides are looked at.
+constexpr int RingsAround = 4;
+
 /// Vertices, one behind a neighbour, through which narrow loops lead.
 using NarrowStrip = std::vector<VertexIndex>;
 

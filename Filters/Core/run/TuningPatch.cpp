@@ -3,6 +3,7 @@
 
 #include "base/Median.h"
 #include "base/Random.h"
+#include "base/UnitVector.h"
 #include "cloud/PlaceOnMesh.h"
 #include "learn/StoppingRules.h"
 #include "start/OutlierClusters.h"
@@ -39,12 +40,6 @@ float radiusOf(const PointCloud& cloud, Vector4 center, double share)
   return std::sqrt(*rank);
 }
 
-Vector4 unitVector(Vector4 vector)
-{
-  const float squared = squaredNorm(vector);
-  return squared > 0.f ? (1.f / std::sqrt(squared)) * vector : vector;
-}
-
 /// Unit normals of the vertices, averaged over a few rings: they follow the large shape, not the
 /// roughness, which differs between fits.
 std::vector<Vector4> normalsAtLarge(const Mesh& mesh)
@@ -53,7 +48,7 @@ std::vector<Vector4> normalsAtLarge(const Mesh& mesh)
   std::vector<Vector4> normals(mesh.indexEnd());
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
-    normals[v] = unitVector(mesh.normal(v));
+    normals[v] = unit(mesh.normal(v));
   }
   for (int round = 0; round < Rounds; ++round)
   {
@@ -65,7 +60,7 @@ std::vector<Vector4> normalsAtLarge(const Mesh& mesh)
       {
         next[v] += normals[ring[slot]];
       }
-      next[v] = unitVector(next[v]);
+      next[v] = unit(next[v]);
     }
     normals.swap(next);
   }
@@ -232,7 +227,7 @@ void TuningPatch::aim(const Mesh& mesh)
     {
       direction += place.weights()[corner] * normals[place.triangle[std::size_t(corner)]];
     }
-    probes_.push_back({ point, unitVector(direction), pointAt(place, mesh.positions()), farthest });
+    probes_.push_back({ point, unit(direction), pointAt(place, mesh.positions()), farthest });
   }
 }
 
@@ -259,7 +254,7 @@ std::vector<double> TuningPatch::squaredDistances(const Mesh& mesh) const
         break;
       }
       const Vector4 corner = mesh.position(closest.triangle[0]);
-      const Vector4 normal = unitVector(cross(
+      const Vector4 normal = unit(cross(
         mesh.position(closest.triangle[1]) - corner, mesh.position(closest.triangle[2]) - corner));
       const float cosine = std::max(LeastCosine, dot(normal, probe.direction));
       const float distance =

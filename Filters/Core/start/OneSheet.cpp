@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/OneSheet.h"
 
+#include "base/UnitVector.h"
 #include "mesh/BoundaryFilling.h"
+#include "mesh/Pieces.h"
 #include "mesh/SmallPieces.h"
 #include "start/VoxelNeighbors.h"
 
@@ -134,8 +136,7 @@ std::vector<Vector4> normalsOf(const Mesh& mesh)
     });
   for (Vector4& normal : normals)
   {
-    const float length = std::sqrt(squaredNorm(normal));
-    normal = length > 0.f ? 1.f / length * normal : Vector4();
+    normal = unit(normal);
   }
   return normals;
 }
@@ -300,14 +301,63 @@ private:
   std::vector<float> steepness_;
   std::vector<Side> sides_;
 };
+
+/// To which skin each vertex belongs.
+std::vector<std::uint32_t> skinsOfVertices(const Mesh& mesh)
+{
+  std::vector<std::uint32_t> result(mesh.indexEnd());
+  std::uint32_t number = 0;
+  for (const Piece& skin : findPieces(mesh))
+  {
+    for (const VertexIndex v : skin.vertices)
+    {
+      result[v] = number;
+    }
+    ++number;
+  }
+  return result;
+}
+
+/// Where a sheet is folded as narrowly as its skin is thick, the flood does not get through, and a patch beyond it is
+/// left over, of either side. Filled like a hole, it is shut, and shows no sheet. But if nothing else is left of a skin,
+/// that is all there is of a small sheet.
+void dropShutPatches(Mesh& sheets, const std::vector<std::uint32_t>& skinOf)
+{
+  const std::vector<Piece> patches = findPieces(sheets);
+  const auto skin = [&](const Piece& patch) { return skinOf[patch.vertices.front()]; };
+  std::vector<std::uint8_t> hasSheet(skinOf.size(), 0), isDropped(sheets.indexEnd(), 0);
+  for (const Piece& patch : patches)
+  {
+    hasSheet[skin(patch)] = hasSheet[skin(patch)] != 0 || !patch.isClosed ? 1 : 0;
+  }
+  for (const Piece& patch : patches)
+  {
+    for (const VertexIndex v : patch.vertices)
+    {
+      isDropped[v] = patch.isClosed ? hasSheet[skin(patch)] : 0;
+    }
+  }
+  std::vector<Triangle> triangles;
+  sheets.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c)
+    {
+      if (isDropped[a] != 0)
+      {
+        triangles.push_back({ a, b, c });
+      }
+    });
+  sheets.removeTriangles(triangles);
+}
 }
 
 bool keepOneSheet(Mesh& skin, float thickness)
 {
+  const std::vector<std::uint32_t> skinOf = skinsOfVertices(skin);
   skin.removeTriangles(SheetFlood(skin, thickness).otherSide());
   skin.removeTriangles(findSmallPieces(skin));
   BoundaryManager boundaries(skin);
   fillBoundaries(skin, boundaries, LongestFilledEdge * double(thickness));
+  dropShutPatches(skin, skinOf);
   skin.dropErased();
   return skin.vertexCount() > 3;
 }

@@ -12,7 +12,7 @@ namespace neuralmesh
 /// first: rims, where a skin turns to its other side, are the highest. All that lies behind what is
 /// reached belongs to the other side, so that the flood finds nothing left when it gets over a rim.
 ///
-/// Small holes that the cut leaves are filled. In the end, no vertex is erased. Returns whether
-/// something is left.
+/// Small holes that the cut leaves are filled. A patch beside a sheet that is shut by this goes. In the
+/// end, no vertex is erased. Returns whether something is left.
 bool keepOneSheet(Mesh& skin, float thickness);
 }

@@ -3,6 +3,7 @@
 
 #include "cloud/MeshBuilder.h"
 #include "ManifoldCheck.h"
+#include "mesh/Pieces.h"
 #include "mesh/SurfaceReport.h"
 #include "MeshTools.h"
 #include "OpenShapes.h"
@@ -11,6 +12,11 @@
 #include "start/VoxelSurface.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
 
 namespace neuralmesh::testing
 {
@@ -226,5 +232,52 @@ TEST(OneSheet, HalfOfACurvedSkin)
   EXPECT_EQ(report.components, 1u);
   EXPECT_EQ(report.boundaryLoops, 1u);
   EXPECT_NEAR(areaOf(skin, cloud), 0.5 * before, 0.1 * before);
+}
+
+// Where a noisy sheet is folded as narrowly as its skin is thick, nothing stays beside it that is closed: neither side of
+// what is left over there.
+TEST(OneSheet, NothingClosedBesideAFoldedSheet)
+{
+  TriangleMesh wavy = makeGrid(96);
+  for (Eigen::Vector3d& point : wavy.points)
+  {
+    point.z() = 0.08 * std::sin(6. * std::numbers::pi * point.x()) *
+      std::cos(4. * std::numbers::pi * point.y());
+  }
+  for (const unsigned resolution : { 17u, 18u })
+  {
+    SCOPED_TRACE(resolution);
+    CloudOptions options;
+    options.count = 30000;
+    options.noise = 0.01;
+    const PointCloud cloud(generateCloud(wavy, options));
+    const OccupiedSolid solid = occupiedSolid(cloud, resolution);
+    Mesh skin = skinOf(solid, cloud);
+    ASSERT_TRUE(keepOneSheet(skin, float(1.5 * solid.grid.width)));
+    EXPECT_EQ(defectOf(skin), "");
+    EXPECT_EQ(pieceCount(skin), 1u);
+  }
+}
+
+// A small sheet with a skin of its own stays, shut or not.
+TEST(OneSheet, SmallSheetsOfTheirOwnStay)
+{
+  TriangleMesh sheets = makeGrid(4);
+  const TriangleMesh large = sheets;
+  for (const Eigen::Vector3d& point : large.points)
+  {
+    sheets.points.emplace_back(0.15 * point + Eigen::Vector3d(0.4, 0.4, 0.3));
+  }
+  const auto all = std::uint32_t(large.points.size());
+  for (const auto& [a, b, c] : large.triangles)
+  {
+    sheets.triangles.push_back({ all + a, all + b, all + c });
+  }
+  const PointCloud cloud = solidCloud(sheets);
+  const OccupiedSolid solid = occupiedSolid(cloud, 20);
+  Mesh skin = skinOf(solid, cloud);
+  ASSERT_EQ(pieceCount(skin), 2u);
+  ASSERT_TRUE(keepOneSheet(skin, float(1.5 * solid.grid.width)));
+  EXPECT_EQ(pieceCount(skin), 2u);
 }
 }
