@@ -70,10 +70,10 @@ public:
   }
 
   /// How many of the centers can become corners, at most `most`.
-  std::size_t count(std::vector<CornerCenter> centers, std::size_t most)
+  std::size_t count(const std::vector<CornerCenter>& centers, std::size_t most)
   {
     std::size_t number = 0;
-    for (const auto& [gain, center] : inOrder(std::move(centers)))
+    for (const auto& [gain, center] : inOrder(centers))
     {
       if (number < most && !isAnyLocked(center))
       {
@@ -85,10 +85,10 @@ public:
   }
 
   /// Makes corners of at most `most` of the centers.
-  ChangedVertices complete(Mesh& mesh, std::vector<CornerCenter> centers, std::size_t most)
+  ChangedVertices complete(Mesh& mesh, const std::vector<CornerCenter>& centers, std::size_t most)
   {
     std::size_t left = most;
-    for (const auto& [gain, center] : inOrder(std::move(centers)))
+    for (const auto& [gain, center] : inOrder(centers))
     {
       // Samples are no longer known around what has moved.
       if (left == 0 || isAnyLocked(center))
@@ -144,7 +144,7 @@ private:
     return double(std::count(isBent_.begin(), isBent_.end(), 1));
   }
 
-  std::vector<std::pair<double, CornerCenter>> inOrder(std::vector<CornerCenter> centers)
+  std::vector<std::pair<double, CornerCenter>> inOrder(const std::vector<CornerCenter>& centers)
   {
     std::vector<std::pair<double, CornerCenter>> order;
     for (const CornerCenter& center : centers)
@@ -213,7 +213,7 @@ ChangedVertices completeCorners(
   Mesh& mesh, const PlacedSamples& samples, double variance, const Executor& executor)
 {
   CutCorners corners(mesh, samples, variance, executor);
-  std::vector<CornerCenter> vertices = corners.vertices();
+  const std::vector<CornerCenter> vertices = corners.vertices();
   return corners.complete(mesh, vertices, vertices.size());
 }
 
