@@ -83,6 +83,21 @@ struct LargePageAllocator
 #endif
   }
 
+  /// The same for the first `done` values of `count`, but for those on a page with others.
+  static void releaseFirst(T* memory, std::size_t count, std::size_t done)
+  {
+#ifdef __linux__
+    if (isLarge(count))
+    {
+      madvise(memory, done * sizeof(T) / PageSize * PageSize, MADV_DONTNEED);
+    }
+#else
+    static_cast<void>(memory);
+    static_cast<void>(count);
+    static_cast<void>(done);
+#endif
+  }
+
   /// Whether so many values are 0 when they come.
   static bool comesZeroed(std::size_t count)
   {

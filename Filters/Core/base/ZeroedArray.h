@@ -36,6 +36,12 @@ public:
   auto end() { return values_.end(); }
   auto end() const { return values_.end(); }
 
+  /// Gives memory of the first `count` values back to the system. They must not be read any more.
+  void releaseFirst(std::size_t count)
+  {
+    LargePageAllocator<T>::releaseFirst(values_.data(), values_.size(), count);
+  }
+
 private:
   /// What it allocates is 0 already, so that nothing is constructed without a value.
   struct Allocator : LargePageAllocator<T>

@@ -217,18 +217,4 @@ VertexGrid gridOf(const Mesh& mesh, const PointCloud& cloud, const Executor& exe
   }
   return grid;
 }
-
-bool isOnBoundary(const PlaceOnMesh& place, const Mesh& mesh)
-{
-  const Vector4 weights = place.weights();
-  for (unsigned i = 0; i < 3; ++i)
-  {
-    if (weights[int(i)] == 0.f &&
-      mesh.isBoundaryEdge(place.triangle[(i + 1) % 3], place.triangle[(i + 2) % 3]))
-    {
-      return true;
-    }
-  }
-  return false;
-}
 }

@@ -42,8 +42,21 @@ PlaceOnMesh closestPlaceAt(Vector4 point, const Mesh& mesh, VertexIndex v);
 /// The same, and on those of its neighbours where the closest may be there.
 PlaceOnMesh closestPlaceAround(Vector4 point, const Mesh& mesh, VertexIndex v);
 
-/// Whether the place lies on the boundary.
-bool isOnBoundary(const PlaceOnMesh& place, const Mesh& mesh);
+/// Whether the place lies on the boundary, by a mesh or its rings.
+template <typename Rings>
+bool isOnBoundary(const PlaceOnMesh& place, const Rings& rings)
+{
+  const Vector4 weights = place.weights();
+  for (unsigned i = 0; i < 3; ++i)
+  {
+    if (weights[int(i)] == 0.f &&
+      rings.isBoundaryEdge(place.triangle[(i + 1) % 3], place.triangle[(i + 2) % 3]))
+    {
+      return true;
+    }
+  }
+  return false;
+}
 
 /// All vertices, for closestPlace(), in a grid over the bulk of the cloud.
 VertexGrid gridOf(

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/CreaseRefinement.h"
 
+#include "base/InterruptibleExecutor.h"
 #include "mesh/BrokenMoves.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/Refinement.h"
 #include "mesh/SelfIntersections.h"
+#include "mesh/StoredMesh.h"
 #include "mesh/TriangleShape.h"
 
 #include <cmath>
@@ -70,23 +72,15 @@ std::vector<std::uint8_t> atEdgesThatAreNotFlat(const Mesh& mesh)
     });
   return result;
 }
-}
 
-bool hasCreases(const Mesh& mesh)
-{
-  double count = 0.;
-  forEachEdge(
-    mesh, [&](VertexIndex a, VertexIndex b) { count += isOfCrease(mesh, a, b) ? 1. : 0.; });
-  return count > TimesAcross * std::sqrt(double(mesh.vertexCount()));
-}
-
-bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
+bool refineAndFit(const PointCloud& cloud, const StoredMesh& before, Mesh& mesh, std::size_t count,
   double samplesPerVertex, FinishReport& report, const Executor& executor, const Progress& progress)
 {
-  const auto defects = [&mesh] {
-    return DefectCount{ intersectingTriangles(mesh).size(), foldedEdges(mesh).size() };
+  const auto defects = [&]
+  {
+    return DefectCount{ intersectingTriangles(mesh, executor).size(),
+      foldedEdges(mesh, executor).size() };
   };
-  const Mesh before = mesh;
   if (!refine(mesh, count, partOf(progress, 0., 0.2), EdgesAfterSplit::FlipFlat))
   {
     return false;
@@ -100,9 +94,9 @@ bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
   for (int round = 0; round < Rounds; ++round)
   {
     const Progress part = partOf(progress, 0.2 + 0.4 * round, 0.6 + 0.4 * round);
-    const std::vector<Vector4> places(mesh.positions().begin(), mesh.positions().end());
+    PackedVectors places;
     if (!fit.findPlaces(partOf(part, 0., 0.5)) ||
-      !fit.moveVertices(report.smoothness, partOf(part, 0.5, 1.)) ||
+      !fit.moveVertices(report.smoothness, partOf(part, 0.5, 1.), places) ||
       takeBackBrokenMoves(mesh, places, partOf(part, 1., 1.), executor) ==
         AfterBrokenMoves::Cancelled)
     {
@@ -117,9 +111,33 @@ bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
     return true;
   }
   // The fallback is the same surface with more vertices.
-  mesh = before;
+  mesh = before.mesh(executor);
   const bool isDone = refine(mesh, count, partOf(progress, 1., 1.), EdgesAfterSplit::Keep);
   report.left = defects();
   return isDone;
+}
+}
+
+bool hasCreases(const Mesh& mesh)
+{
+  double count = 0.;
+  forEachEdge(
+    mesh, [&](VertexIndex a, VertexIndex b) { count += isOfCrease(mesh, a, b) ? 1. : 0.; });
+  return count > TimesAcross * std::sqrt(double(mesh.vertexCount()));
+}
+
+bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,
+  double samplesPerVertex, FinishReport& report, const Executor& executor, const Progress& progress)
+{
+  const StoredMesh before(mesh, executor.uninterrupted());
+  try
+  {
+    return refineAndFit(cloud, before, mesh, count, samplesPerVertex, report, executor, progress);
+  }
+  catch (const Interrupted&)
+  {
+    mesh = before.mesh(executor);
+    return false;
+  }
 }
 }

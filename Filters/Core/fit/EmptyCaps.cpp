@@ -106,16 +106,20 @@ void EmptyCaps::lookAround()
 void EmptyCaps::expect()
 {
   std::vector<float> counts(caps_.size()), areas(caps_.size());
-  for (VertexIndex v = 0; v < caps_.size(); ++v)
-  {
-    counts[v] = caps_[v].count;
-    const Ring& ring = mesh_.ring(v);
-    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+  executor_.forEachRange(caps_.size(), CapsPerRange,
+    [&](std::size_t begin, std::size_t end)
     {
-      areas[v] += triangleArea(
-        mesh_.position(v), mesh_.position(ring[slot]), mesh_.position(ring[ring.after(slot)]));
-    }
-  }
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        counts[v] = caps_[v].count;
+        const Ring& ring = mesh_.ring(v);
+        for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+        {
+          areas[v] += triangleArea(
+            mesh_.position(v), mesh_.position(ring[slot]), mesh_.position(ring[ring.after(slot)]));
+        }
+      }
+    });
   const std::vector<float> own = areas;
   averageOverRings(mesh_, counts, RingsOfExpected, executor_);
   averageOverRings(mesh_, areas, RingsOfExpected, executor_);

@@ -137,8 +137,8 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
     // Before, creases are not sharp yet, and tips may come to have more vertices.
     fit_.endWithSamples();
   }
-  const std::vector<Vector4> before(mesh_.positions().begin(), mesh_.positions().end());
-  if (!move(lambda_, partOf(progress, 0.7, 1.)))
+  PackedVectors before;
+  if (!move(lambda_, partOf(progress, 0.7, 1.), before))
   {
     return false;
   }
@@ -218,7 +218,13 @@ bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress
 
 bool FidelityRounds::move(double lambda, const Progress& progress)
 {
-  if (!fit_.moveVertices(lambda, progress))
+  PackedVectors before;
+  return move(lambda, progress, before);
+}
+
+bool FidelityRounds::move(double lambda, const Progress& progress, PackedVectors& before)
+{
+  if (!fit_.moveVertices(lambda, progress, before))
   {
     return false;
   }

@@ -60,6 +60,7 @@ private:
   bool sharpenCorners(const Progress& progress);
   bool smooth(bool isFirst, bool isFixed, const Progress& progress);
   bool move(double lambda, const Progress& progress);
+  bool move(double lambda, const Progress& progress, PackedVectors& before);
 
   Mesh& mesh_;
   SurfaceFit& fit_;

@@ -432,8 +432,8 @@ bool Finish::isMuchFolded() const
 /// rounds are taken back because of one place.
 bool Finish::move(SurfaceFit& surfaceFit, double smoothness, const Progress& progress)
 {
-  const std::vector<Vector4> before(mesh_.positions().begin(), mesh_.positions().end());
-  if (!surfaceFit.moveVertices(smoothness, progress))
+  PackedVectors before;
+  if (!surfaceFit.moveVertices(smoothness, progress, before))
   {
     return false;
   }

@@ -3,13 +3,25 @@
 
 #include "base/DifferenceBytes.h"
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 namespace neuralmesh
 {
 namespace
 {
 using Weights = std::array<float, 2>;
+
+/// While places are packed, memory is freed after each of some stages, if these have enough work for all threads.
+constexpr std::size_t MostStages = 16;
+constexpr std::size_t LeastBlocksOfStage = 64;
+
+std::size_t stagesOf(std::size_t places)
+{
+  return std::clamp<std::size_t>(
+    places / (LeastBlocksOfStage * ByteBlocks::ItemsOfBlock), 1, MostStages);
+}
 
 std::size_t sizeOfPlaces(std::span<const PlaceOnMesh> places)
 {
@@ -57,23 +69,26 @@ void readPlaces(const std::uint8_t* bytes, std::span<PlaceOnMesh> places)
 }
 }
 
-StoredPlaces::StoredPlaces(std::span<const PlaceOnMesh> places, const Executor& executor)
+StoredPlaces::StoredPlaces(ZeroedArray<PlaceOnMesh> places, const Executor& executor)
   : count_(places.size())
   , bytes_(
       places.size(), executor,
       [&](std::size_t begin, std::size_t end)
-      { return sizeOfPlaces(places.subspan(begin, end - begin)); },
+      { return sizeOfPlaces(std::span(places).subspan(begin, end - begin)); },
       [&](std::uint8_t* bytes, std::size_t begin, std::size_t end)
-      { writePlaces(bytes, places.subspan(begin, end - begin)); })
+      { writePlaces(bytes, std::span(places).subspan(begin, end - begin)); },
+      stagesOf(places.size()), [&](std::size_t end) { places.releaseFirst(end); })
 {
 }
 
-ZeroedArray<PlaceOnMesh> StoredPlaces::places(const Executor& executor) const
+ZeroedArray<PlaceOnMesh> StoredPlaces::takePlaces(const Executor& executor)
 {
   ZeroedArray<PlaceOnMesh> result(count_);
-  executor.forEachRange(count_, ByteBlocks::ItemsOfBlock,
-    [&](std::size_t begin, std::size_t end)
-    { readPlaces(bytes_.from(begin), std::span(result).subspan(begin, end - begin)); });
+  bytes_.takeOut(
+    count_, executor,
+    [&](const std::uint8_t* bytes, std::size_t begin, std::size_t end)
+    { readPlaces(bytes, std::span(result).subspan(begin, end - begin)); },
+    stagesOf(count_));
   return result;
 }
 }

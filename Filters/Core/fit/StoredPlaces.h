@@ -7,7 +7,6 @@
 #include "cloud/PlaceOnMesh.h"
 
 #include <cstddef>
-#include <span>
 
 namespace neuralmesh
 {
@@ -16,10 +15,11 @@ namespace neuralmesh
 class StoredPlaces
 {
 public:
-  StoredPlaces(std::span<const PlaceOnMesh> places, const Executor& executor);
+  /// Frees the memory of the places as they are packed.
+  StoredPlaces(ZeroedArray<PlaceOnMesh> places, const Executor& executor);
 
-  /// The places, with a distance of 0.
-  ZeroedArray<PlaceOnMesh> places(const Executor& executor) const;
+  /// The places, with a distance of 0. Frees the packed ones as they come back.
+  ZeroedArray<PlaceOnMesh> takePlaces(const Executor& executor);
 
 private:
   std::size_t count_;

@@ -4,7 +4,6 @@
 #include "base/Median.h"
 #include "cloud/OppositeLayer.h"
 #include "cloud/VertexGrid.h"
-#include "fit/EmptyCaps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -249,29 +248,44 @@ void SurfaceFit::keep(std::span<const std::uint8_t> vertices)
 
 void SurfaceFit::fillSystem()
 {
+  // What takes memory itself comes before the equations.
+  const std::vector<Tip> tips = endsWithSamples_ ? findTips() : std::vector<Tip>();
+  const bool isOpen = mesh_.isOpen();
   // The matrix is new each time, as edges may have been flipped.
+  dropSystem();
   system_.emplace(mesh_, isSettled_ ? SettledSlip : Slip, executor_);
+  released_ = std::make_unique<RingsReleased>(mesh_, system_->rings(), executor_);
   system_->setSmoothnessParts(smoothnessParts_);
   system_->expectBends(bends_);
-  for (VertexIndex v = 0; v < mesh_.indexEnd() && (isSettled_ || !isKept_.empty()); ++v)
+  if (isSettled_ || !isKept_.empty())
   {
-    const bool isKept = !isKept_.empty() && isKept_[v] != 0;
-    system_->addAnchor(v, mesh_.position(v),
-      isKept         ? WeightOfKept
-        : isSettled_ ? AnchorWeight
-                     : 0.f);
+    forEachVertex(
+      [&](VertexIndex v)
+      {
+        const bool isKept = !isKept_.empty() && isKept_[v] != 0;
+        system_->addAnchor(v, mesh_.position(v),
+          isKept         ? WeightOfKept
+            : isSettled_ ? AnchorWeight
+                         : 0.f);
+      });
   }
   forEachUsed([this](const FitSystem::Rows& rows, std::size_t sample) { fillRows(rows, sample); });
   usedCount_ = std::size_t(executor_.sum(
     places_.size(), SamplesPerRange, [this](std::size_t i) { return isUsed(i) ? 1. : 0.; }));
-  if (mesh_.isOpen())
+  if (isOpen)
   {
     pullBoundariesIn();
   }
-  if (endsWithSamples_)
+  for (const Tip& tip : tips)
   {
-    pullTipsIn();
+    system_->add(tip.place, tip.end.position, tip.normal, tip.end.weight);
   }
+}
+
+void SurfaceFit::dropSystem()
+{
+  released_.reset();
+  system_.reset();
 }
 
 /// Samples beyond a boundary are on average half as far from it as the end of the data. So a step
@@ -293,7 +307,7 @@ void SurfaceFit::fillRows(const FitSystem::Rows& rows, std::size_t sample)
 {
   const PlaceOnMesh& place = places_[sample];
   const Vector4 normal = normalAt(place, mesh_.positions());
-  if (isOnBoundary(place, mesh_))
+  if (isOnBoundary(place, system_->rings()))
   {
     // Beyond a boundary, the distance along the surface counts in full: the sample has no closer
     // place.
@@ -319,8 +333,8 @@ void SurfaceFit::pullBoundariesIn()
     std::uint32_t samples = 0;
     float width = 1.f; ///< without samples, against the height of the triangle
   };
-  const Mesh& mesh = mesh_;
-  std::vector<Strip> strips(mesh.indexEnd()); // of the edges to the first neighbour
+  const CompactRings& rings = system_->rings();
+  std::vector<Strip> strips(rings.size()); // of the edges to the first neighbour
   forEachUsed(
     [&](const FitSystem::Rows& rows, std::size_t sample)
     {
@@ -328,7 +342,7 @@ void SurfaceFit::pullBoundariesIn()
       for (unsigned i = 0; i < 3; ++i)
       {
         const VertexIndex from = place.triangle[(i + 1) % 3], to = place.triangle[(i + 2) % 3];
-        if (rows.has(from) && mesh.isBoundary(from) && mesh.ring(from).front() == to)
+        if (rows.has(from) && rings.isOpen(from) && rings[from].front() == to)
         {
           Strip& strip = strips[from];
           ++strip.samples;
@@ -336,11 +350,11 @@ void SurfaceFit::pullBoundariesIn()
         }
       }
     });
-  const double samplesPerTriangle = double(usedCount_) / (2. * double(mesh.vertexCount()));
+  const double samplesPerTriangle = double(usedCount_) / (2. * double(mesh_.vertexCount()));
   const double logarithm = std::log(ChanceOfEmptyStrip);
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  for (VertexIndex v = 0; v < rings.size(); ++v)
   {
-    if (!mesh.isBoundary(v))
+    if (!rings.isOpen(v))
     {
       continue;
     }
@@ -357,30 +371,39 @@ void SurfaceFit::pullBoundariesIn()
     }
     if (retreat > 0.)
     {
-      const Ring& ring = mesh.ring(v);
+      const std::span<const VertexIndex> ring = rings[v];
       const PlaceOnMesh place{ { v, ring[0], ring[1] }, 0.5f, 0.f, 0.f };
-      const Vector4 edge = pointAt(place, mesh.positions());
-      system_->add(place, edge + float(retreat) * (mesh.position(ring[1]) - edge), Vector4(),
+      const Vector4 edge = pointAt(place, mesh_.positions());
+      system_->add(place, edge + float(retreat) * (mesh_.position(ring[1]) - edge), Vector4(),
         float(std::max(1., samples)));
     }
   }
 }
 
-/// ... and from each vertex beyond the samples one is added, where they end.
-void SurfaceFit::pullTipsIn()
+/// From each vertex beyond the samples one is added, where they end.
+std::vector<SurfaceFit::Tip> SurfaceFit::findTips() const
 {
   const EmptyCaps caps(mesh_, placedSamples(), variance(), executor_);
-  for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
-  {
-    if (const std::optional<EmptyCaps::End> end = caps.endAt(v))
+  std::vector<std::vector<Tip>> ranges(
+    (mesh_.indexEnd() + VerticesPerRange - 1) / VerticesPerRange);
+  forEachVertex(
+    [&](VertexIndex v)
     {
-      const PlaceOnMesh place{ { v, mesh_.ring(v)[0], mesh_.ring(v)[1] }, 0.f, 0.f, 0.f };
-      system_->add(place, end->position, mesh_.normal(v), end->weight);
-    }
+      if (const std::optional<EmptyCaps::End> end = caps.endAt(v))
+      {
+        const PlaceOnMesh place{ { v, mesh_.ring(v)[0], mesh_.ring(v)[1] }, 0.f, 0.f, 0.f };
+        ranges[v / VerticesPerRange].push_back({ place, mesh_.normal(v), *end });
+      }
+    });
+  std::vector<Tip> tips;
+  for (const std::vector<Tip>& range : ranges)
+  {
+    tips.insert(tips.end(), range.begin(), range.end());
   }
+  return tips;
 }
 
-bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
+bool SurfaceFit::moveVertices(double lambda, const Progress& progress, PackedVectors& before)
 {
   // Before the equations, beside which there is least memory left.
   if (!spacing_)
@@ -390,17 +413,18 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
   fillSystem();
   if (!progress(0.))
   {
-    system_.reset();
+    dropSystem();
     return false;
   }
   smoothness_ = lambda;
   const double choice = lambda > 0. ? 0. : PartOfChoice;
   if (lambda <= 0. && !chooseSmoothness(partOf(progress, 0., choice)))
   {
+    dropSystem();
     return false;
   }
   const std::span<Vector4> positions = mesh_.movablePositions();
-  PackedVectors before(positions.size());
+  before = PackedVectors(positions.size());
   forEachVertex([&](VertexIndex v) { before.set(v, positions[v]); });
   const bool isSolved = laidAside(before,
     [&]
@@ -408,7 +432,7 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress)
       return system_->solveLast(
         smoothness_, Tolerance, scale_, positions, partOf(progress, choice, 1.));
     });
-  system_.reset();
+  dropSystem();
   const double variance = isSolved ? residualVariance(positions, smoothness_) : 0.;
   const bool goesOn = isSolved && progress(1.);
   heldCount_ = 0;

@@ -8,6 +8,7 @@
 #include "cloud/PlaceOnMesh.h"
 #include "cloud/PointCloud.h"
 #include "fit/ChangedVertices.h"
+#include "fit/EmptyCaps.h"
 #include "fit/FitSystem.h"
 #include "fit/GivenNormals.h"
 #include "fit/HeldOutPoints.h"
@@ -16,12 +17,15 @@
 #include "fit/SharedNoise.h"
 #include "fit/StoredPlaces.h"
 #include "fit/TriangleSamples.h"
+#include "mesh/CompactRings.h"
 #include "mesh/Mesh.h"
 #include "mesh/NearestTriangle.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace neuralmesh
@@ -60,7 +64,13 @@ public:
   /// Moves the vertices. If `lambda` is 0, chooses it first. A vertex stays where it is if samples
   /// around it would be lost: farther from the mesh than some distances between samples, although
   /// they were closer. Returns false and moves no vertex if `progress` ended it.
-  bool moveVertices(double lambda, const Progress& progress);
+  bool moveVertices(double lambda, const Progress& progress)
+  {
+    PackedVectors before;
+    return moveVertices(lambda, progress, before);
+  }
+  /// The same. Gives the positions from which the vertices have moved.
+  bool moveVertices(double lambda, const Progress& progress, PackedVectors& before);
   /// Follows a change of the mesh since findPlaces(): drops erased vertices, and finds new places
   /// for the samples on triangles that have changed.
   void follow(const ChangedVertices& changed);
@@ -148,28 +158,43 @@ private:
   /// Samples that are so many times farther from each other than usual are sparse.
   static constexpr float SparseSpacings = 2.f;
 
+  /// A vertex beyond the samples, and where these end.
+  struct Tip
+  {
+    PlaceOnMesh place;
+    Vector4 normal;
+    EmptyCaps::End end;
+  };
+
   bool isUsed(std::size_t sample) const { return isUsed_[sample] != 0; }
   float weight(std::size_t sample) const { return weights_.empty() ? 1.f : weights_[sample]; }
   void findPlace(std::size_t sample, const VertexGrid& grid);
   void findNearerPlaces();
   /// Finds outliers by the distance between samples around their places.
   void chooseUsed(float edges);
+  /// Until dropSystem(), the rings of the mesh are released: the equations have them, too.
   void fillSystem();
-  /// Calls `solve()` and returns its answer. Meanwhile the rings of the mesh and the places are
-  /// packed, as the equations take most of the memory. `positions` are those to which the places
-  /// belong.
+  void dropSystem();
+  std::span<const VertexIndex> ringOf(VertexIndex v) const
+  {
+    return released_ ? system_->rings()[v] : std::span(mesh_.ring(v).begin(), mesh_.ring(v).end());
+  }
+  bool isOpenAt(VertexIndex v) const
+  {
+    return released_ ? system_->rings().isOpen(v) : mesh_.isBoundary(v);
+  }
+  /// Calls `solve()` and returns its answer. Meanwhile the places are packed, as the equations take most of the
+  /// memory. `positions` are those to which the places belong.
   template <typename Positions, typename Solve>
   bool laidAside(const Positions& positions, const Solve& solve)
   {
-    const RingsReleased released(mesh_, system_->rings(), executor_);
     if (!hasDistances_ || places_.size() < LeastLaidAside)
     {
       return solve();
     }
-    const StoredPlaces stored(places_, executor_);
-    places_ = ZeroedArray<PlaceOnMesh>();
+    StoredPlaces stored(std::exchange(places_, {}), executor_);
     const bool isDone = solve();
-    places_ = stored.places(executor_);
+    places_ = stored.takePlaces(executor_);
     executor_.forEachRange(places_.size(), SamplesPerRange,
       [&](std::size_t begin, std::size_t end)
       {
@@ -206,7 +231,7 @@ private:
   Vector4 beyondBoundary(
     const Vector4& sample, const PlaceOnMesh& place, const Vector4& normal) const;
   void pullBoundariesIn();
-  void pullTipsIn();
+  std::vector<Tip> findTips() const;
   // In SurfaceFitHold.cpp
   bool isLost(std::size_t sample, float squaredBefore) const;
   template <typename Distance>
@@ -235,6 +260,7 @@ private:
   Mesh& mesh_;
   const Executor& executor_;
   std::optional<FitSystem> system_;
+  std::unique_ptr<RingsReleased> released_; ///< of the mesh; those of the system stand for them
   SamplePoints samples_;
   GivenNormals normals_;
   double normalWeight_ = 0.;

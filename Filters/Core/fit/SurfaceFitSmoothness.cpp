@@ -148,14 +148,15 @@ std::vector<float> SurfaceFit::squaredBends(std::span<const Vector4> positions) 
   std::vector<float> result(positions.size());
   const auto bendAt = [&](VertexIndex v)
   {
-    const Ring& ring = mesh_.ring(v);
+    const std::span<const VertexIndex> ring = ringOf(v);
+    const bool isOpen = isOpenAt(v);
     Vector4 normal;
-    for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+    for (std::size_t slot = 0; slot + (isOpen ? 1 : 0) < ring.size(); ++slot)
     {
-      normal += cross(
-        positions[ring[slot]] - positions[v], positions[ring[ring.after(slot)]] - positions[v]);
+      const std::size_t next = slot + 1 < ring.size() ? slot + 1 : 0;
+      normal += cross(positions[ring[slot]] - positions[v], positions[ring[next]] - positions[v]);
     }
-    const float across = dot(umbrella<float>(mesh_, positions, v), normal);
+    const float across = dot(umbrella<float>(ring, isOpen, positions, v), normal);
     const float squared = squaredNorm(normal);
     return squared > 0.f ? across * across / squared : 0.f;
   };
@@ -241,6 +242,7 @@ NoiseParts SurfaceFit::noiseParts() const
 bool SurfaceFit::chooseSmoothnessByRisk(double first, const Progress& progress)
 {
   fillSystem();
+  released_.reset();
   SmoothnessByRisk choice(mesh_, *system_, placedSamples(), shifts_, smoothnessParts_, executor_);
   const bool isDone = choice.run(first, progress);
   system_.reset();

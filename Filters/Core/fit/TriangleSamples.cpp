@@ -14,6 +14,15 @@ constexpr double ExcessDeviations = 2.;
 /// A part for the executor.
 constexpr std::size_t LoadsPerRange = 16384;
 
+/// For the triangles of a part: a closed mesh has two a vertex, and lower corners have more of them. Memory is taken
+/// only for those that are there.
+std::size_t roomOfPart(const RowParts& parts)
+{
+  const VertexRows rows = parts.rows(0);
+  const std::size_t vertices = rows.end - rows.begin;
+  return 2 * vertices + vertices / 16;
+}
+
 /// Corners in rising order.
 Triangle inOrder(VertexIndex a, VertexIndex b, VertexIndex c)
 {
@@ -35,13 +44,14 @@ TriangleSamples::TriangleSamples(
   : samples_(samples)
   , parts_(RowParts::byWork(indexEnd))
   , entries_(indexEnd, None)
-  , triangles_(parts_.count())
+  , pieces_(parts_.count() * roomOfPart(parts_))
+  , stores_(parts_.count())
   , next_(std::make_unique_for_overwrite<std::uint32_t[]>(samples.points.size()))
-  , squaredDistances_(std::make_unique_for_overwrite<float[]>(samples.points.size()))
 {
-  for (std::vector<Entry>& triangles : triangles_)
+  for (std::size_t part = 0; part < stores_.size(); ++part)
   {
-    triangles.reserve(2 * indexEnd / triangles_.size());
+    stores_[part].room = roomOfPart(parts_);
+    stores_[part].piece = pieces_.data() + part * stores_[part].room;
   }
   const auto isUsed = [&](std::size_t i) { return samples.isUsed[i] != 0; };
   forEachPlaceByRows(samples.places, parts_, executor, isUsed,
@@ -57,7 +67,8 @@ TriangleSamples::TriangleSamples(
   const auto weightOf = [&](std::size_t i) { return isUsed(i) ? double(samples.weight(i)) : 0.; };
   total_ = { executor.sum(samples.points.size(), LoadsPerRange, weightOf),
     executor.sum(samples.points.size(), LoadsPerRange,
-      [&](std::size_t i) { return isUsed(i) ? weightOf(i) * double(squaredDistances_[i]) : 0.; }) };
+      [&](std::size_t i)
+      { return isUsed(i) ? weightOf(i) * double(squaredDistance(std::uint32_t(i))) : 0.; }) };
 }
 
 const TriangleSamples::Entry* TriangleSamples::find(const Triangle& corners) const
@@ -113,16 +124,14 @@ void TriangleSamples::putInto(
   Entry* entry = find(corners);
   if (!entry)
   {
-    std::vector<Entry>& triangles = triangles_[store];
     std::uint32_t& first = entries_[corners[0]];
-    triangles.push_back({ corners[1], corners[2], first, None, None, {} });
-    first = std::uint32_t(store) << BitsOfPlace | std::uint32_t(triangles.size() - 1);
-    entry = &triangles.back();
+    const std::size_t place = stores_[store].add({ corners[1], corners[2], first, None, None, {} });
+    first = std::uint32_t(store) << BitsOfPlace | std::uint32_t(place);
+    entry = find(corners);
   }
   (entry->last == None ? entry->first : next_[entry->last]) = sample;
   entry->last = sample;
   next_[sample] = None;
-  squaredDistances_[sample] = squaredDistance;
   const double weight = double(samples_.weight(sample));
   entry->load += { weight, weight * double(squaredDistance) };
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/ZeroedArray.h"
 #include "cloud/PlaceOnMesh.h"
 #include "fit/PlacesByRows.h"
 #include "fit/SamplePoints.h"
@@ -66,14 +67,18 @@ public:
   /// The same, and takes them from there.
   void take(VertexIndex a, VertexIndex b, VertexIndex c, std::vector<std::uint32_t>& found);
   /// So many are at work.
-  void setWriters(std::size_t count) { triangles_.resize(parts_.count() + count); }
+  void setWriters(std::size_t count) { stores_.resize(parts_.count() + count); }
   /// Puts a sample that was taken on a triangle.
   void put(std::uint32_t sample, VertexIndex a, VertexIndex b, VertexIndex c, float squaredDistance,
     std::size_t writer);
 
   Vector4 point(std::uint32_t sample) const { return samples_.points[sample]; }
   float weight(std::uint32_t sample) const { return samples_.weight(sample); }
-  float squaredDistance(std::uint32_t sample) const { return squaredDistances_[sample]; }
+  /// To the place at which it was found, wherever it was put.
+  float squaredDistance(std::uint32_t sample) const
+  {
+    return samples_.places[sample].squaredDistance;
+  }
 
   /// Of all samples in use.
   const SampleLoad& total() const { return total_; }
@@ -94,6 +99,34 @@ private:
     SampleLoad load;
   };
 
+  /// Those of a part of the vertices lie in a piece of an array for all, as far as they have room there: arrays of
+  /// their own would be too small to go back to the system. What a writer adds has no such piece.
+  struct alignas(64) Store
+  {
+    Entry* piece = nullptr;
+    std::size_t room = 0; ///< of it
+    std::size_t count = 0;
+    std::vector<Entry> others;
+
+    const Entry& operator[](std::size_t place) const
+    {
+      return place < this->room ? this->piece[place] : this->others[place - this->room];
+    }
+    /// Returns its place.
+    std::size_t add(const Entry& entry)
+    {
+      if (this->count < this->room)
+      {
+        this->piece[this->count] = entry;
+      }
+      else
+      {
+        this->others.push_back(entry);
+      }
+      return this->count++;
+    }
+  };
+
   const Entry* find(const Triangle& corners) const;
   Entry* find(const Triangle& corners)
   {
@@ -101,7 +134,7 @@ private:
   }
   const Entry& entry(std::uint32_t number) const
   {
-    return triangles_[number >> BitsOfPlace][number % MostPlaces];
+    return stores_[number >> BitsOfPlace][number % MostPlaces];
   }
   void putInto(
     std::size_t store, std::uint32_t sample, const Triangle& corners, float squaredDistance);
@@ -109,10 +142,10 @@ private:
   PlacedSamples samples_;
   RowParts parts_;
   std::vector<std::uint32_t> entries_; ///< the first of each vertex
-  /// Those of each part of the vertices, by their least corner, and what each writer has added.
-  std::vector<std::vector<Entry>> triangles_;
+  ZeroedArray<Entry> pieces_;
+  /// The triangles of each part of the vertices, by their least corner, and what each writer has added.
+  std::vector<Store> stores_;
   std::unique_ptr<std::uint32_t[]> next_; ///< of each sample that is used, on the same triangle
-  std::unique_ptr<float[]> squaredDistances_;
   SampleLoad total_;
 };
 }

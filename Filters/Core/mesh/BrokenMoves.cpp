@@ -14,7 +14,7 @@ constexpr int MostTakingsBack = 8;
 }
 
 AfterBrokenMoves takeBackBrokenMoves(
-  Mesh& mesh, std::span<const Vector4> before, const Progress& progress, const Executor& executor)
+  Mesh& mesh, const PackedVectors& before, const Progress& progress, const Executor& executor)
 {
   std::vector<bool> isAsked(mesh.indexEnd(), true);
   AfterBrokenMoves result = AfterBrokenMoves::Sound;

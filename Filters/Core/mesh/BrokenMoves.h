@@ -2,10 +2,9 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/PackedVectors.h"
 #include "base/Progress.h"
 #include "mesh/Mesh.h"
-
-#include <span>
 
 namespace neuralmesh
 {
@@ -19,6 +18,6 @@ enum class AfterBrokenMoves
 
 /// Where the surface folds or intersects, vertices go back to where they were before they moved; `before` has the
 /// positions of then. Again and again, as what goes back may run into what has not.
-AfterBrokenMoves takeBackBrokenMoves(Mesh& mesh, std::span<const Vector4> before,
+AfterBrokenMoves takeBackBrokenMoves(Mesh& mesh, const PackedVectors& before,
   const Progress& progress, const Executor& executor = Executor::sequential());
 }

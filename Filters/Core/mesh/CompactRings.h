@@ -26,6 +26,10 @@ public:
     return { neighbors_.data() + begin_[v], neighbors_.data() + begin_[v + std::size_t(1)] };
   }
   bool isOpen(VertexIndex v) const { return isOpen_[v] != 0; }
+  bool isBoundaryEdge(VertexIndex a, VertexIndex b) const
+  {
+    return isOpen(a) && ((*this)[a].front() == b || (*this)[a].back() == b);
+  }
   /// Of all vertices.
   std::size_t neighborCount() const { return neighbors_.size(); }
 

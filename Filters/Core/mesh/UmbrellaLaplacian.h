@@ -21,21 +21,29 @@ Real umbrellaWeight(const Ring& ring, VertexIndex neighbor)
   return ring.front() == neighbor || ring.back() == neighbor ? Real(0.5) : Real(0);
 }
 
+/// L x at a vertex with these neighbours.
+template <typename Real, typename Value>
+Value umbrella(
+  std::span<const VertexIndex> ring, bool isOpen, std::span<const Value> x, VertexIndex v)
+{
+  if (isOpen)
+  {
+    return Real(0.5) * (x[ring.front()] + x[ring.back()]) - x[v];
+  }
+  Value sum = x[ring.front()];
+  for (std::size_t slot = 1; slot < ring.size(); ++slot)
+  {
+    sum += x[ring[slot]];
+  }
+  return Real(1) / Real(ring.size()) * sum - x[v];
+}
+
 /// L x at a vertex.
 template <typename Real, typename Value>
 Value umbrella(const Mesh& mesh, std::span<const Value> x, VertexIndex v)
 {
   const Ring& ring = mesh.ring(v);
-  if (ring.isOpen())
-  {
-    return Real(0.5) * (x[ring.front()] + x[ring.back()]) - x[v];
-  }
-  Value sum = x[ring.front()];
-  for (unsigned slot = 1; slot < ring.size(); ++slot)
-  {
-    sum += x[ring[slot]];
-  }
-  return Real(1) / Real(ring.size()) * sum - x[v];
+  return umbrella<Real>(std::span(ring.begin(), ring.end()), ring.isOpen(), x, v);
 }
 
 /// L x, for the vertices from `begin` to before `end`.

@@ -144,7 +144,7 @@ void Run::fit(LearntRun& run, std::uint64_t asked, const Progress& progress)
   {
     const auto refined = std::size_t(parametersFor(asked, request_).numberOfVertices);
     if (!refineFinished(learnt, cloud(), parameters, refined, *result.finish,
-          partOf(finishing, endOfFirst, 1.), request_.executor))
+          partOf(finishing, endOfFirst, 1.), interruptible_))
     {
       result.finish.reset();
     }
@@ -230,9 +230,13 @@ Reconstruction Run::describe(LearntRun run, std::uint64_t asked, ProgressPart pa
   Reconstruction& result = run.result;
   result.times.enter(Phase::Finish);
   const Parameters parameters = parametersFor(run.vertices, request_);
-  if (parameters.computeUncertainty && result.finish &&
-    !tellUncertainty(run.learnt, cloud(), parameters, result,
-      inTime(run, partOf(progress_, part.begin, part.end)), request_.executor, request_.hints))
+  const Progress telling = inTime(run, partOf(progress_, part.begin, part.end));
+  const auto tells = [&]
+  {
+    return tellUncertainty(
+      run.learnt, cloud(), parameters, result, telling, interruptible_, request_.hints);
+  };
+  if (parameters.computeUncertainty && result.finish && !unlessInterrupted(tells))
   {
     result.stopReason = whyEnded();
   }

@@ -2,6 +2,7 @@
 #include "fit/CreaseRefinement.h"
 
 #include "cloud/MeshBuilder.h"
+#include "ExecutorToInterrupt.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/NearestTriangle.h"
 #include "mesh/Refinement.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 
 namespace neuralmesh::testing
 {
@@ -149,6 +151,36 @@ TEST(CreaseRefinement, CanBeEnded)
     EXPECT_FALSE(refineBesideCreases(
       cloud, mesh, 9000, 10., report, Executor::sequential(), [&](double) { return left-- > 0; }));
     EXPECT_EQ(defectOf(mesh), "");
+  }
+}
+
+// Interrupted at any part, the mesh is what it was at first.
+TEST(CreaseRefinement, CanBeInterrupted)
+{
+  const PointCloud cloud = cubeCloud(20000);
+  const Reconstruction run = made(cloud, 2000);
+  const auto isRefined = [&](const Executor& executor)
+  {
+    Mesh mesh = run.surface;
+    FinishReport report = *run.finish;
+    if (refineBesideCreases(cloud, mesh, 9000, 10., report, executor, goOn))
+    {
+      return true;
+    }
+    EXPECT_TRUE(
+      std::ranges::equal(trianglesIn(mesh).triangles, trianglesIn(run.surface).triangles));
+    EXPECT_TRUE(std::ranges::equal(mesh.positions(), run.surface.positions(),
+      [](Vector4 a, Vector4 b) { return squaredNorm(a - b) == 0.f; }));
+    return false;
+  };
+  const ExecutorToInterrupt all(std::size_t(-1));
+  EXPECT_TRUE(isRefined(all));
+  constexpr std::size_t Times = 10;
+  ASSERT_GT(all.partCount(), Times);
+  for (std::size_t i = 0; i < Times; ++i)
+  {
+    SCOPED_TRACE(i);
+    EXPECT_FALSE(isRefined(ExecutorToInterrupt(i * all.partCount() / Times)));
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/Finish.h"
 
-#include "base/InterruptibleExecutor.h"
 #include "cloud/MeshBuilder.h"
+#include "ExecutorToInterrupt.h"
 #include "fit/HeldOutPoints.h"
 #include "fit/IntersectionRepair.h"
 #include "learn/SequentialLearner.h"
@@ -34,36 +34,6 @@ constexpr std::size_t Vertices = 1500;
 /// ... of the sphere.
 constexpr double PartOfDenseTop = 0.005;
 constexpr double NoiseOfDenseTop = 0.02;
-
-/// Is interrupted before one part.
-class ExecutorToInterrupt final : public Executor
-{
-public:
-  explicit ExecutorToInterrupt(std::size_t part)
-    : last_(part)
-  {
-  }
-  unsigned threadCount() const override { return 1; }
-  const Executor& uninterrupted() const override { return Executor::sequential(); }
-  std::size_t partCount() const { return count_; }
-
-protected:
-  void run(std::size_t count, Part part, const void* context) const override
-  {
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (count_++ == last_)
-      {
-        throw Interrupted();
-      }
-      part(context, i);
-    }
-  }
-
-private:
-  std::size_t last_;
-  mutable std::size_t count_ = 0;
-};
 
 bool isInDenseTop(const Eigen::Vector3d& point)
 {

@@ -43,23 +43,24 @@ TEST(FitMemory, PlacesComeBack)
 {
   Random random(1);
   const auto anyVertex = [&] { return VertexIndex(random.below(0xffffffffu) >> random.below(32)); };
-  std::vector<PlaceOnMesh> places(10000);
+  ZeroedArray<PlaceOnMesh> places(200000);
   for (PlaceOnMesh& place : places)
   {
     place = { { anyVertex(), anyVertex(), anyVertex() }, float(random.uniform()),
       -float(random.uniform()), 1.f };
   }
   const ThreadPool threads(3);
-  const StoredPlaces stored(places, threads);
-  const auto again = stored.places(Executor::sequential()), parallel = stored.places(threads);
+  StoredPlaces stored(places, threads), storedToo(places, Executor::sequential());
+  const auto again = stored.takePlaces(Executor::sequential());
+  const auto parallel = storedToo.takePlaces(threads);
   ASSERT_EQ(again.size(), places.size());
   for (std::size_t i = 0; i < places.size(); ++i)
   {
-    EXPECT_EQ(again[i].triangle, places[i].triangle);
-    EXPECT_EQ(again[i].second, places[i].second);
-    EXPECT_EQ(again[i].third, places[i].third);
-    EXPECT_EQ(again[i].squaredDistance, 0.f);
-    EXPECT_EQ(parallel[i].triangle, places[i].triangle);
+    ASSERT_EQ(again[i].triangle, places[i].triangle);
+    ASSERT_EQ(again[i].second, places[i].second);
+    ASSERT_EQ(again[i].third, places[i].third);
+    ASSERT_EQ(again[i].squaredDistance, 0.f);
+    ASSERT_EQ(parallel[i].triangle, places[i].triangle);
   }
 }
 
