@@ -67,18 +67,20 @@ struct CubeWithGap
   VertexIndex first, middle, last; ///< along the edge
 };
 
-/// Two planes, 2 wide and up to 1 long, that a fillet joins, in so many quadrangles. Corners of these lie off by up to that
-/// part of them.
-TriangleMesh roofWithFillet(
-  double radius, unsigned across, unsigned along, double part = 0., std::uint64_t seed = 0)
+/// Two planes, 2 wide and up to 1 long, that a fillet joins, in so many quadrangles. Vertices of the fillet lie so far
+/// outside it, and corners of quadrangles lie off by up to that part of them.
+TriangleMesh roofWithFillet(double radius, unsigned across, unsigned along, double outside = 0.,
+  double part = 0., std::uint64_t seed = 0)
 {
   const double plane = 1. - radius, arc = 0.5 * std::numbers::pi * radius;
   const double length = 2. * plane + arc;
   const auto at = [&](double way)
   {
     const double angle = std::clamp((way - plane) / radius, 0., 0.5 * std::numbers::pi);
-    return Eigen::Vector2d(-radius + radius * std::sin(angle) + std::min(way - plane, 0.),
-      radius * std::cos(angle) - std::max(way - plane - arc, 0.));
+    const bool isOnFillet = way > plane && way < plane + arc;
+    const double reach = radius + (isOnFillet ? outside : 0.);
+    return Eigen::Vector2d(-radius + reach * std::sin(angle) + std::min(way - plane, 0.),
+      reach * std::cos(angle) - std::max(way - plane - arc, 0.));
   };
   Random random(seed);
   const auto off = [&](unsigned i, unsigned end)
@@ -201,14 +203,15 @@ TEST(CutCorners, FlipWhatWouldBecomeASliver)
   EXPECT_LT(cloud.unit() * std::sqrt(squaredNorm(mesh.position(v) - place)), 0.003);
 }
 
-// A fillet of two edges' length is no corner that was cut off: next to no vertex goes where its planes would meet.
+// A fillet of two edges' length is no corner that was cut off: next to no vertex goes where its planes would meet. The
+// mesh lies as close to it as a fit would put it.
 TEST(CutCorners, LeaveFillets)
 {
-  constexpr double Radius = 0.2, PartOff = 0.2;
+  constexpr double Radius = 0.2, Outside = 0.004, PartOff = 0.2;
   constexpr unsigned Edges = 20;
   const TriangleMesh truth = roofWithFillet(Radius, 400, 1);
   int moved = 0;
-  for (std::uint64_t seed = 1; seed <= 120; ++seed)
+  for (std::uint64_t seed = 1; seed <= 40; ++seed)
   {
     for (const std::size_t count : { 2000u, 3000u, 4500u })
     {
@@ -216,12 +219,12 @@ TEST(CutCorners, LeaveFillets)
       options.count = count;
       options.seed = seed;
       const PointCloud cloud(generateCloud(truth, options));
-      Mesh mesh = buildMesh(roofWithFillet(Radius, Edges, Edges, PartOff, seed), cloud);
+      Mesh mesh = buildMesh(roofWithFillet(Radius, Edges, Edges, Outside, PartOff, seed), cloud);
       const PlacedCloud placed(cloud, mesh);
       moved += completeCorners(mesh, placed.samples, 0.).any ? 1 : 0;
     }
   }
-  EXPECT_LT(moved, 11);
+  EXPECT_LT(moved, 4);
 }
 
 // A corner that has moved can change the planes at another one. That stays where it is then: nowhere does a vertex
