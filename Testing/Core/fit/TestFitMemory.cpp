@@ -65,7 +65,7 @@ TEST(FitMemory, PlacesComeBack)
 }
 
 #ifdef __linux__
-// While the equations of a large fit are solved, they take at most 500 bytes a vertex with ten samples for each, and the
+// While the equations of a large fit are solved, they take at most 300 bytes a vertex with ten samples for each, and the
 // distances of the places are those that were found.
 TEST(FitMemory, ALargeFitTakesLittle)
 {
@@ -85,7 +85,7 @@ TEST(FitMemory, ALargeFitTakesLittle)
       return true;
     }));
   EXPECT_GT(most, 0.);
-  EXPECT_LT((most - copied - before) / double(mesh.vertexCount()), 500.);
+  EXPECT_LT((most - copied - before) / double(mesh.vertexCount()), 300.);
   ASSERT_EQ(fit.places().size(), found.size());
   for (std::size_t i = 0; i < found.size(); ++i)
   {
