@@ -69,7 +69,7 @@ void readPlaces(const std::uint8_t* bytes, std::span<PlaceOnMesh> places)
 }
 }
 
-StoredPlaces::StoredPlaces(ZeroedArray<PlaceOnMesh> places, const Executor& executor)
+StoredPlaces::StoredPlaces(ZeroedArray<PlaceOnMesh>&& places, const Executor& executor)
   : count_(places.size())
   , bytes_(
       places.size(), executor,

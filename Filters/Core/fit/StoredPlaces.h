@@ -16,7 +16,7 @@ class StoredPlaces
 {
 public:
   /// Frees the memory of the places as they are packed.
-  StoredPlaces(ZeroedArray<PlaceOnMesh> places, const Executor& executor);
+  StoredPlaces(ZeroedArray<PlaceOnMesh>&& places, const Executor& executor);
 
   /// The places, with a distance of 0. Frees the packed ones as they come back.
   ZeroedArray<PlaceOnMesh> takePlaces(const Executor& executor);

@@ -50,7 +50,8 @@ TEST(FitMemory, PlacesComeBack)
       -float(random.uniform()), 1.f };
   }
   const ThreadPool threads(3);
-  StoredPlaces stored(places, threads), storedToo(places, Executor::sequential());
+  StoredPlaces stored(ZeroedArray<PlaceOnMesh>(places), threads);
+  StoredPlaces storedToo(ZeroedArray<PlaceOnMesh>(places), Executor::sequential());
   const auto again = stored.takePlaces(Executor::sequential());
   const auto parallel = storedToo.takePlaces(threads);
   ASSERT_EQ(again.size(), places.size());
