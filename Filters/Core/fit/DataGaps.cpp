@@ -321,8 +321,9 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   float medianDistance, const GapPlan& plan, const Executor& executor)
 {
   OpenedGaps result;
-  const std::vector<Triangle> gaps =
-    findDataGaps(cloud, mesh, places, medianDistance, plan.mustBeFar, executor);
+  const std::vector<Triangle> gaps = plan.mayOpen
+    ? findDataGaps(cloud, mesh, places, medianDistance, plan.mustBeFar, executor)
+    : std::vector<Triangle>();
   result.triangles = gaps.size();
   if (!gaps.empty())
   {

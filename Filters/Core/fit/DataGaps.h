@@ -28,10 +28,9 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
 struct GapPlan
 {
   double bridgeWidth = 0.; ///< see openDataGaps()
+  bool mayOpen = true;     ///< false if the first surface is open already where there is no data
   double leastPiece = 0.0005;
-  /// At boundaries, too, see findDataGaps(). So if the first surface is open already where there is no
-  /// data: then gaps are left that are narrower than its samples were apart.
-  bool mustBeFar = false;
+  bool mustBeFar = false; ///< at boundaries, too, see findDataGaps()
 };
 
 struct OpenedGaps

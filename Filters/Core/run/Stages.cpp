@@ -196,7 +196,7 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
   result.mesh = std::move(surface->mesh);
   if (parameters.boundaries == Boundaries::Keep && surface->bridgeWidth > 0.)
   {
-    result.gaps = GapPlan{ surface->bridgeWidth, parameters.keepPieces, surface->resolution == 0 };
+    result.gaps = GapPlan{ surface->bridgeWidth, surface->resolution > 0, parameters.keepPieces };
   }
   const double density = densityExponent(parameters, *result.mesh);
   // The normal-based variant makes the mesh dense at bends by itself. Feature strength finds edges

@@ -327,8 +327,8 @@ public:
 
   void openGaps(double bridgeWidth, double leastPiece)
   {
-    openDataGaps(
-      cloud_, mesh_, fit_.places(), fit_.medianDistance(), { bridgeWidth, leastPiece }, executor_);
+    openDataGaps(cloud_, mesh_, fit_.places(), fit_.medianDistance(),
+      { bridgeWidth, true, leastPiece }, executor_);
     mesh_.dropErased(executor_);
   }
 

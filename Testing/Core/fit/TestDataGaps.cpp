@@ -32,11 +32,11 @@ std::vector<Triangle> gapsOf(const PointCloud& cloud, Mesh& mesh, bool mustBeFar
   return findDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), mustBeFar);
 }
 
-OpenedGaps openedGaps(const PointCloud& cloud, Mesh& mesh, double bridgeWidth)
+OpenedGaps openedGaps(const PointCloud& cloud, Mesh& mesh, double bridgeWidth, bool mayOpen = true)
 {
   SurfaceFit fit(cloud, mesh, SamplesPerVertexOfGaps * mesh.vertexCount());
   EXPECT_TRUE(fit.findPlaces(goOn));
-  return openDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), { bridgeWidth });
+  return openDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), { bridgeWidth, mayOpen });
 }
 
 /// Points of a unit sphere on circles around its axis, `spacing` apart, and by a part of that from
@@ -107,7 +107,7 @@ TEST(DataGaps, NoneOnAFullSphere)
 }
 
 // A small piece that is cut off stays where points lie on it, and goes where they do not, or where it is but a
-// crumb of 0.2 % of them.
+// crumb of 0.2 % of them. A mesh that began with openings is not cut.
 TEST(DataGaps, PiecesWithPointsStay)
 {
   constexpr unsigned Side = 160;
@@ -137,6 +137,7 @@ TEST(DataGaps, PiecesWithPointsStay)
     }
     const PointCloud cloud(points);
     Mesh mesh = buildMesh(makeGrid(Side), cloud);
+    Mesh uncut = mesh;
     EXPECT_GT(openedGaps(cloud, mesh, 0.01).triangles, 1000u);
     mesh.dropErased();
     const std::vector<Triangle> left = trianglesOf(mesh);
@@ -144,6 +145,8 @@ TEST(DataGaps, PiecesWithPointsStay)
       [&](const Triangle& triangle)
       { return cloud.toInput(mesh.position(triangle[0])).x() > BeginOfPiece - 0.5 / Side; });
     EXPECT_EQ(isThere, stays);
+    EXPECT_EQ(openedGaps(cloud, uncut, 0.01, false).triangles, 0u);
+    EXPECT_EQ(uncut.triangleCount(), 2u * Side * Side);
   }
 }
 
