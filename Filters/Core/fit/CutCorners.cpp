@@ -134,8 +134,10 @@ private:
           const Ring& ring = mesh_.ring(v);
           for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
           {
-            const bool isBent = cosineBetween(normalAt(v, slot), normalAt(v, ring.after(slot))) <
-              CornerPlanes::MostCosineOfCrooked;
+            const unsigned next = ring.after(slot);
+            const bool isBent = next < ring.triangleCount() &&
+              cosineBetween(normalAt(v, slot), normalAt(v, next)) <
+                CornerPlanes::MostCosineOfCrooked;
             isBent_[v] |= isBent ? 1 : 0;
             isSparse_[v] |= isConfirmed(v, slot) ? 0 : 1;
           }

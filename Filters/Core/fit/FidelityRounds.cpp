@@ -170,6 +170,10 @@ bool FidelityRounds::sharpenCorners(const Progress& progress)
   const auto most = std::size_t(MostAddedAtCorners * double(vertexCount_));
   const std::size_t wanted =
     wantedAtCorners(mesh_, fit_.placedSamples(), fit_.variance(), most, executor_);
+  if (wanted == 0)
+  {
+    return true;
+  }
   const auto missing = [&] { return vertexCount_ - std::min(vertexCount_, mesh_.vertexCount()); };
   if (wanted > missing())
   {

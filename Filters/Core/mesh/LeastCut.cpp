@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 
 namespace neuralmesh
 {
@@ -11,6 +12,8 @@ namespace
 {
 /// Lengths are whole numbers: sums of them have no order. The mean edge of the piece has this one.
 constexpr double MeanLength = 256.;
+/// So many triangles of a piece, times their number, are looked at before the search is given up.
+constexpr std::size_t MostLooks = 100;
 
 class Flow
 {
@@ -37,10 +40,15 @@ public:
       });
   }
 
-  void divide()
+  /// Returns false if that takes too long: then the sides are as they were.
+  bool divide()
   {
     while (findSteps())
     {
+      if (looks_ > MostLooks * piece_.size())
+      {
+        return false;
+      }
       for (const std::uint32_t t : piece_)
       {
         tried_[t] = 0;
@@ -57,6 +65,7 @@ public:
     {
       sides_[t] = steps_[t] != Unreached ? 1 : -1;
     }
+    return true;
   }
 
 private:
@@ -100,6 +109,7 @@ private:
         reached.push_back(t);
       }
     }
+    looks_ += piece_.size();
     bool isOtherReached = false;
     for (std::size_t i = 0; i < reached.size(); ++i)
     {
@@ -127,8 +137,9 @@ private:
   {
     way_.clear();
     std::uint32_t at = start;
-    while (true)
+    while (looks_ <= MostLooks * piece_.size())
     {
+      ++looks_;
       std::uint8_t& side = tried_[at];
       while (side < 3 && !leadsOn(at, side))
       {
@@ -194,7 +205,29 @@ private:
   std::vector<std::uint32_t> steps_;
   std::vector<std::uint8_t> tried_; ///< sides that lead to nothing more
   std::vector<Edge> way_;
+  std::size_t looks_ = 0;
 };
+
+/// The others get the side of those that are the fewest triangles away.
+void spread(const TriangleNeighbors& neighbors, std::span<const std::uint32_t> piece,
+  std::vector<std::int8_t>& sides)
+{
+  std::vector<std::uint32_t> reached;
+  reached.reserve(piece.size());
+  std::copy_if(piece.begin(), piece.end(), std::back_inserter(reached),
+    [&](std::uint32_t t) { return sides[t] != 0; });
+  for (std::size_t i = 0; i < reached.size(); ++i)
+  {
+    for (const std::uint32_t other : neighbors[reached[i]])
+    {
+      if (other != NoTriangle && sides[other] == 0)
+      {
+        sides[other] = sides[reached[i]];
+        reached.push_back(other);
+      }
+    }
+  }
+}
 }
 
 TriangleNeighbors neighborsIn(const TriangleMesh& mesh)
@@ -236,6 +269,9 @@ TriangleNeighbors neighborsIn(const TriangleMesh& mesh)
 void divideByLeastCut(const TriangleMesh& mesh, const TriangleNeighbors& neighbors,
   std::span<const std::uint32_t> piece, std::vector<std::int8_t>& sides)
 {
-  Flow(mesh, neighbors, piece, sides).divide();
+  if (!Flow(mesh, neighbors, piece, sides).divide())
+  {
+    spread(neighbors, piece, sides);
+  }
 }
 }

@@ -20,7 +20,8 @@ TriangleNeighbors neighborsIn(const TriangleMesh& mesh);
 
 /// Divides a piece of a mesh between two sides, 1 and -1. `sides` knows some of its triangles, and has 0 for the
 /// others. These get the side so that the edges between the two sides are as short as they can be altogether: by the
-/// largest flow that goes through them (E. A. Dinic, 1970).
+/// largest flow that goes through them (E. A. Dinic, 1970). Where the search for it takes too long, each gets the side
+/// of those that are nearest, so the time is at most proportional to the size of the piece.
 void divideByLeastCut(const TriangleMesh& mesh, const TriangleNeighbors& neighbors,
   std::span<const std::uint32_t> piece, std::vector<std::int8_t>& sides);
 }

@@ -100,17 +100,29 @@ bool simplifyTo(std::span<DoubtfulLevel> doubtful, Run& run, LearntRun& fitted,
       copy.learnt.mesh.dropErased();
       copy.result.times = {};
       copy.result.times.enter(Phase::Finish);
-      run.makeSimplified(copy, level->vertices, part);
+      const double share = (part.end - part.begin) / double(doubtful.size());
+      const double begin = part.begin + share * double(level - doubtful.rbegin());
+      const ProgressPart own{ begin, begin + share };
+      run.makeSimplified(copy, level->vertices, own);
       copy.result.times.leave();
-      Reconstruction mesh = run.describe(std::move(copy), level->vertices, part);
-      Parameters parameters = request.parameters;
-      parameters.numberOfVertices = level->vertices;
-      mesh = level->mesh ? betterOf(*level->mesh, std::move(mesh), holdsMore)
-                         : betterRun(std::move(mesh), requestWith(request, parameters), progress);
+      Reconstruction mesh = run.describe(std::move(copy), level->vertices, own);
       isComplete = mesh.isComplete();
-      if (isComplete)
+      if (isComplete && level->mesh)
       {
-        level->mesh = std::move(mesh);
+        level->mesh = betterOf(*level->mesh, std::move(mesh), holdsMore);
+      }
+      else if (isComplete)
+      {
+        level->mesh = mesh;
+        Parameters parameters = request.parameters;
+        parameters.numberOfVertices = level->vertices;
+        mesh = betterRun(
+          std::move(mesh), requestWith(request, parameters), partOf(progress, own.end, own.end));
+        isComplete = mesh.isComplete();
+        if (isComplete)
+        {
+          level->mesh = std::move(mesh);
+        }
       }
       ++level;
       return isComplete;
@@ -140,7 +152,7 @@ void makeDoubtful(std::vector<DoubtfulLevel>& doubtful, Run& run, LearntRun lear
       Parameters parameters = request.parameters;
       parameters.numberOfVertices = level.vertices;
       Reconstruction mesh =
-        runWithThinParts(*level.mesh, requestWith(request, parameters), progress);
+        runWithThinParts(*level.mesh, requestWith(request, parameters), partOf(progress, 1., 1.));
       isComplete = mesh.stopReason != StopReason::Cancelled;
       if (isComplete)
       {
@@ -227,7 +239,7 @@ Reconstruction reconstructLevels(const RunRequest& request, std::span<const std:
         if (learntForDoubtful && result.isComplete())
         {
           makeDoubtful(doubtful, run, *std::move(learntForDoubtful), request, !isDoubtful, result,
-            { end, 1. }, partOf(progress, 1., 1.));
+            { end, 1. }, progress);
         }
       }
       if (isLast || !result.isComplete())

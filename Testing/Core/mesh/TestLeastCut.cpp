@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/LeastCut.h"
 
+#include "base/Random.h"
 #include "OpenShapes.h"
 
 #include <gtest/gtest.h>
@@ -80,6 +81,35 @@ TEST(LeastCut, KeepsWhatIsKnown)
     std::vector<std::int8_t> one(mesh.triangles.size(), 0);
     one[Side] = side;
     EXPECT_EQ(divided(mesh, one), std::vector<std::int8_t>(mesh.triangles.size(), side));
+  }
+}
+
+// A large sheet that is as wide everywhere has so many short cuts that the search for the shortest is given up: each
+// triangle gets the side of those that are nearest.
+TEST(LeastCut, IsHalfwayWhereTheSearchTakesTooLong)
+{
+  constexpr unsigned LargeSide = 300;
+  TriangleMesh mesh = makeGrid(LargeSide);
+  Random random(1);
+  for (Eigen::Vector3d& point : mesh.points)
+  {
+    point.x() += 0.3 * (random.uniform() - 0.5) / LargeSide;
+    point.y() += 0.3 * (random.uniform() - 0.5) / LargeSide;
+  }
+  std::vector<std::int8_t> known(mesh.triangles.size(), 0);
+  for (std::uint32_t t = 0; t < known.size(); ++t)
+  {
+    const double x = along(mesh, t);
+    known[t] = std::int8_t(x < 0.05 ? 1 : x > 0.95 ? -1 : 0);
+  }
+  const std::vector<std::int8_t> sides = divided(mesh, known);
+  for (std::uint32_t t = 0; t < sides.size(); ++t)
+  {
+    const double x = along(mesh, t);
+    if (std::abs(x - 0.5) > 0.02)
+    {
+      ASSERT_EQ(int(sides[t]), x < 0.5 ? 1 : -1) << x;
+    }
   }
 }
 }
