@@ -109,8 +109,9 @@ void CornerSearch::collectStar()
 
 /// Looks for the edges to flip so that most is gained: those beside which a triangle would turn over, become a sliver
 /// or stay crooked. A vertex that goes to a crease comes between two neighbours that lie there already: nothing is left
-/// of their triangle, and it belongs to the other face.
-void CornerSearch::search(Vector4 place)
+/// of their triangle, and it belongs to the other face. Where none has to be flipped, sides before `first` are not
+/// looked at: the same flips in another order were.
+void CornerSearch::search(Vector4 place, std::size_t first)
 {
   const auto spoiled = unsigned(std::count_if(
     sides_.begin(), sides_.end(), [&](const Side& side) { return isSpoiled(side, place); }));
@@ -123,7 +124,7 @@ void CornerSearch::search(Vector4 place)
     return;
   }
   const std::size_t count = sides_.size();
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = spoiled > 0 ? 0 : first; i < count; ++i)
   {
     const Side side = sides_[i];
     if (spoiled > 0 ? !isSpoiled(side, place) : !isCrooked(side, place))
@@ -132,7 +133,7 @@ void CornerSearch::search(Vector4 place)
     }
     if (flipSide(i))
     {
-      search(place);
+      search(place, spoiled > 0 ? 0 : i);
       sides_.pop_back();
       sides_[i] = side;
       replaced_.pop_back();

@@ -66,7 +66,7 @@ private:
   };
 
   void collectStar();
-  void search(Vector4 place);
+  void search(Vector4 place, std::size_t first = 0);
   bool flipSide(std::size_t index);
   unsigned valence(VertexIndex v) const;
   void judge(Vector4 place);
