@@ -252,7 +252,7 @@ void SurfaceFit::fillSystem()
   const std::vector<Tip> tips = endsWithSamples_ ? findTips() : std::vector<Tip>();
   const bool isOpen = mesh_.isOpen();
   // The matrix is new each time, as edges may have been flipped.
-  dropSystem();
+  released_.reset();
   system_.emplace(mesh_, isSettled_ ? SettledSlip : Slip, executor_);
   released_ = std::make_unique<RingsReleased>(mesh_, system_->rings(), executor_);
   system_->setSmoothnessParts(smoothnessParts_);
