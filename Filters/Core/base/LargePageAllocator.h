@@ -83,7 +83,7 @@ struct LargePageAllocator
 #endif
   }
 
-  /// The same for the first `done` values of `count`, but for those on a page with others.
+  /// The same for the first `done` values of `count`. Those that share a page with later ones stay.
   static void releaseFirst(T* memory, std::size_t count, std::size_t done)
   {
 #ifdef __linux__

@@ -36,9 +36,9 @@ RoundsOf roundsOf(Fidelity fidelity)
   }
 }
 
-/// Vertices, at most, that a round takes to other places.
+/// The part of the vertices, at most, that a round takes to other places.
 constexpr double MostDistributed = 0.1;
-/// ... and those that corners get in the end.
+/// The part, at most, that corners get in the end.
 constexpr double MostAddedAtCorners = 0.05;
 /// Of lambda, on a clean cloud: creases no longer need so much of it.
 constexpr double PartOnCleanClouds = 0.5;

@@ -2,6 +2,7 @@
 #include "fit/GivenNormals.h"
 
 #include "base/UnitVector.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

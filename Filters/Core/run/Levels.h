@@ -32,10 +32,11 @@ std::string whyNoLevels(std::span<const std::uint64_t> levels, const Parameters&
 using LevelTaker = std::function<void(std::size_t level, Reconstruction mesh)>;
 
 /// Grows one mesh, and finishes a copy of it at each level. Levels that lose thin parts while they
-/// grow, or have fewer vertices than the first surface, are simplified from the largest one. Each level is as good as a run of its own, and all
-/// levels start and learn in little more time than the largest one. `levels` ascend. `take` receives
-/// each of them; the last one is returned. If `progress` ends the run early, it returns the level
-/// that it has reached, and smaller ones may be missing. whyNoLevels() must be empty.
+/// grow, or have fewer vertices than a first surface of thin parts, are simplified from the largest
+/// one. Each level is as good as a run of its own, and all levels start and learn in little more time
+/// than the largest one. `levels` ascend. `take` receives each of them; the last one is returned. If
+/// `progress` ends the run early, it returns the level that it has reached, and smaller ones may be
+/// missing. whyNoLevels() must be empty.
 Reconstruction reconstructLevels(const RunRequest& request, std::span<const std::uint64_t> levels,
   const LevelTaker& take, const Progress& progress);
 }

@@ -4,6 +4,7 @@
 #include "base/DisjointSets.h"
 #include "cloud/OppositeLayer.h"
 #include "cloud/PlaceOnMesh.h"
+#include "mesh/EachVertex.h"
 #include "mesh/RingMeans.h"
 
 #include <algorithm>
@@ -61,16 +62,13 @@ public:
     }
     averageOverRings(mesh_, weights, RingsOfResidual, executor_);
     averageOverRings(mesh_, squares, RingsOfResidual, executor_);
-    executor_.forEachRange(count, WebVerticesPerRange,
-      [&](std::size_t begin, std::size_t end)
+    forEachVertex(mesh_, executor_, WebVerticesPerRange,
+      [&](VertexIndex v)
       {
-        for (auto v = VertexIndex(begin); v < end; ++v)
+        if (weights[v] > 0.f)
         {
-          if (weights[v] > 0.f)
-          {
-            residuals_[v] = std::sqrt(squares[v] / weights[v]);
-            others_[v] = otherSide(v, MostResidualsApart * residuals_[v]);
-          }
+          residuals_[v] = std::sqrt(squares[v] / weights[v]);
+          others_[v] = otherSide(v, MostResidualsApart * residuals_[v]);
         }
       });
     return joined();

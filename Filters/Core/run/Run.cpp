@@ -173,13 +173,14 @@ bool Run::make(LearntRun& run, std::uint64_t asked, ProgressPart part)
   return result.isComplete();
 }
 
-bool Run::makeAgain(LearntRun& run, std::uint64_t asked, ProgressPart part)
+template <typename Remake>
+bool Run::remake(LearntRun& run, std::uint64_t asked, ProgressPart part, const Remake& remakeMesh)
 {
   Reconstruction& result = run.result;
   result.finish = unlessInterrupted(
     [&]
     {
-      return finishAgain(run.learnt, *result.finish, cloud(), parametersFor(asked, request_),
+      return remakeMesh(run.learnt, *result.finish, cloud(), parametersFor(asked, request_),
         std::size_t(asked), inTime(run, partOf(progress_, part.begin, part.end)), interruptible_,
         request_.hints);
     });
@@ -189,6 +190,11 @@ bool Run::makeAgain(LearntRun& run, std::uint64_t asked, ProgressPart part)
     result.stopReason = whyEnded();
   }
   return result.isComplete();
+}
+
+bool Run::makeAgain(LearntRun& run, std::uint64_t asked, ProgressPart part)
+{
+  return remake(run, asked, part, finishAgain);
 }
 
 bool Run::makeToSimplify(LearntRun& run, ProgressPart part)
@@ -209,20 +215,7 @@ bool Run::makeToSimplify(LearntRun& run, ProgressPart part)
 
 bool Run::makeSimplified(LearntRun& run, std::uint64_t asked, ProgressPart part)
 {
-  Reconstruction& result = run.result;
-  result.finish = unlessInterrupted(
-    [&]
-    {
-      return finishSimplified(run.learnt, *result.finish, cloud(), parametersFor(asked, request_),
-        std::size_t(asked), inTime(run, partOf(progress_, part.begin, part.end)), interruptible_,
-        request_.hints);
-    });
-  result.curve.endWith(run.learnt.mesh);
-  if (!result.finish)
-  {
-    result.stopReason = whyEnded();
-  }
-  return result.isComplete();
+  return remake(run, asked, part, finishSimplified);
 }
 
 Reconstruction Run::describe(LearntRun run, std::uint64_t asked, ProgressPart part)

@@ -90,6 +90,9 @@ private:
   const PointCloud& cloud() const { return cleaned_ ? *cleaned_ : request_.cloud; }
   /// Leaves no report of the finish if it was ended before.
   void fit(LearntRun& run, std::uint64_t asked, const Progress& progress);
+  /// Makes another mesh of one that is made, by finishAgain() or finishSimplified().
+  template <typename Remake>
+  bool remake(LearntRun& run, std::uint64_t asked, ProgressPart part, const Remake& remakeMesh);
   /// Reports of whether all is made in time.
   Progress inTime(const LearntRun& run, const Progress& progress) const;
   StopReason whyEnded() const;

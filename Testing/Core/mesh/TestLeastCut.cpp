@@ -36,6 +36,17 @@ double along(const TriangleMesh& mesh, std::uint32_t triangle)
   return (mesh.points[a].x() + mesh.points[b].x() + mesh.points[c].x()) / 3.;
 }
 
+std::vector<std::int8_t> knownAtEnds(const TriangleMesh& mesh)
+{
+  std::vector<std::int8_t> known(mesh.triangles.size(), 0);
+  for (std::uint32_t t = 0; t < known.size(); ++t)
+  {
+    const double x = along(mesh, t);
+    known[t] = std::int8_t(x < 0.05 ? 1 : x > 0.95 ? -1 : 0);
+  }
+  return known;
+}
+
 std::vector<std::int8_t> divided(const TriangleMesh& mesh, std::vector<std::int8_t> sides)
 {
   std::vector<std::uint32_t> all(mesh.triangles.size());
@@ -51,13 +62,7 @@ TEST(LeastCut, IsWhereASheetIsNarrow)
   for (const double waist : { 0.25, 0.5, 0.8 })
   {
     const TriangleMesh mesh = hourglass(waist);
-    std::vector<std::int8_t> known(mesh.triangles.size(), 0);
-    for (std::uint32_t t = 0; t < known.size(); ++t)
-    {
-      const double x = along(mesh, t);
-      known[t] = std::int8_t(x < 0.05 ? 1 : x > 0.95 ? -1 : 0);
-    }
-    const std::vector<std::int8_t> sides = divided(mesh, known);
+    const std::vector<std::int8_t> sides = divided(mesh, knownAtEnds(mesh));
     for (std::uint32_t t = 0; t < sides.size(); ++t)
     {
       const double x = along(mesh, t);
@@ -96,13 +101,7 @@ TEST(LeastCut, IsHalfwayWhereTheSearchTakesTooLong)
     point.x() += 0.3 * (random.uniform() - 0.5) / LargeSide;
     point.y() += 0.3 * (random.uniform() - 0.5) / LargeSide;
   }
-  std::vector<std::int8_t> known(mesh.triangles.size(), 0);
-  for (std::uint32_t t = 0; t < known.size(); ++t)
-  {
-    const double x = along(mesh, t);
-    known[t] = std::int8_t(x < 0.05 ? 1 : x > 0.95 ? -1 : 0);
-  }
-  const std::vector<std::int8_t> sides = divided(mesh, known);
+  const std::vector<std::int8_t> sides = divided(mesh, knownAtEnds(mesh));
   for (std::uint32_t t = 0; t < sides.size(); ++t)
   {
     const double x = along(mesh, t);
