@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -83,11 +84,11 @@ OrientationVote::OrientationVote(const Mesh& mesh, std::span<const Piece> pieces
 {
 }
 
-std::vector<Side> OrientationVote::byViewpoints() const
+VotedSides OrientationVote::byViewpoints() const
 {
   if (!hints_.viewOf)
   {
-    return Ballot::sidesOf(countLinesOfSight(), SideEvidence::Viewpoints);
+    return countLinesOfSight();
   }
   const auto directionTo = [this](std::size_t point)
   {
@@ -96,14 +97,14 @@ std::vector<Side> OrientationVote::byViewpoints() const
       ? Eigen::Vector3d(hints_.viewpoints[view] - cloud_.toInput(cloud_.points()[point]))
       : Eigen::Vector3d::Zero();
   };
-  return Ballot::sidesOf(countPoints(directionTo), SideEvidence::Viewpoints);
+  return countPoints(directionTo, SideEvidence::Viewpoints);
 }
 
-std::vector<Side> OrientationVote::byNormals() const
+VotedSides OrientationVote::byNormals() const
 {
   const auto directionOfNormal = [this](std::size_t point)
   { return hints_.normalOf(cloud_.origins()[point]); };
-  return Ballot::sidesOf(countPoints(directionOfNormal), SideEvidence::Normals, LeastDeviations);
+  return countPoints(directionOfNormal, SideEvidence::Normals, LeastDeviations);
 }
 
 std::vector<Side> OrientationVote::byUpDirection() const
@@ -121,8 +122,8 @@ std::vector<Side> OrientationVote::byUpDirection() const
 }
 
 /// By every so many of the points that are near the mesh.
-std::vector<OrientationVote::Ballot> OrientationVote::countPoints(
-  const DirectionOf& directionOfPoint) const
+VotedSides OrientationVote::countPoints(
+  const DirectionOf& directionOfPoint, SideEvidence evidence, double leastDeviations) const
 {
   struct Vote
   {
@@ -155,18 +156,21 @@ std::vector<OrientationVote::Ballot> OrientationVote::countPoints(
     outlierDistance(std::sqrt(medianOf(squaredDistances, executor_)), mesh_.meanEdge());
   const std::vector<std::uint32_t> pieceOf = pieceOfVertices();
   std::vector<Ballot> ballots(pieces_.size());
+  std::vector<float> votesOfVertices(mesh_.indexEnd(), 0.f);
   for (std::size_t i = 0; i < count; ++i)
   {
     if (squaredDistances[i] <= farthest * farthest)
     {
-      ballots[pieceOf[votes[i].vertex]].add(double(votes[i].vote), double(votes[i].weight));
+      const auto& [vertex, vote, weight] = votes[i];
+      ballots[pieceOf[vertex]].add(double(vote), double(weight));
+      votesOfVertices[vertex] += vote;
     }
   }
-  return ballots;
+  return { Ballot::sidesOf(ballots, evidence, leastDeviations), std::move(votesOfVertices) };
 }
 
 /// By triangles with nothing between them and a viewpoint.
-std::vector<OrientationVote::Ballot> OrientationVote::countLinesOfSight() const
+VotedSides OrientationVote::countLinesOfSight() const
 {
   const TriangleMesh surface = trianglesOf(mesh_, cloud_);
   const Visibility visibility(surface);
@@ -197,11 +201,14 @@ std::vector<OrientationVote::Ballot> OrientationVote::countLinesOfSight() const
     });
   const std::vector<std::uint32_t> pieceOf = pieceOfVertices();
   std::vector<Ballot> ballots(pieces_.size());
+  std::vector<float> votesOfVertices(mesh_.indexEnd(), 0.f);
   for (std::size_t i = 0; i < count; ++i)
   {
-    ballots[pieceOf[surface.triangles[i * stride / viewpoints][0]]].add(votes[i], weights[i]);
+    const VertexIndex vertex = surface.triangles[i * stride / viewpoints][0];
+    ballots[pieceOf[vertex]].add(votes[i], weights[i]);
+    votesOfVertices[vertex] += float(votes[i]);
   }
-  return ballots;
+  return { Ballot::sidesOf(ballots, SideEvidence::Viewpoints), std::move(votesOfVertices) };
 }
 
 std::vector<std::uint32_t> OrientationVote::pieceOfVertices() const

@@ -13,6 +13,14 @@
 
 namespace neuralmesh
 {
+/// What directions of one kind tell.
+struct VotedSides
+{
+  std::vector<Side> sides; ///< of each piece
+  std::vector<float>
+    votes; ///< of each vertex, their sum: negative where they are against its normal
+};
+
 /// Has each piece of a mesh voted on by directions in which it should look. A vote is the cosine of the
 /// angle between such a direction and the normal of the triangle. A piece has a side if one side has at
 /// least three votes where the other has two, and the surface is inclined by three degrees to it on
@@ -27,10 +35,10 @@ public:
 
   /// By the viewpoints of points near the pieces, or from which the pieces are seen. Up to 2 points a
   /// vertex vote, or 16384 lines of sight are looked along, or one for two vertices if that is more.
-  std::vector<Side> byViewpoints() const;
+  VotedSides byViewpoints() const;
   /// By the normals of points near the pieces, 2 a vertex at most. One side must have more votes than
   /// normals that point anywhere would give it once in 400 pieces.
-  std::vector<Side> byNormals() const;
+  VotedSides byNormals() const;
   /// By area: a closed piece looks upwards as much as downwards.
   std::vector<Side> byUpDirection() const;
 
@@ -39,8 +47,9 @@ private:
   /// The direction of a point of the cloud.
   using DirectionOf = std::function<Eigen::Vector3d(std::size_t)>;
 
-  std::vector<Ballot> countPoints(const DirectionOf& directionOf) const;
-  std::vector<Ballot> countLinesOfSight() const;
+  VotedSides countPoints(
+    const DirectionOf& directionOf, SideEvidence evidence, double leastDeviations = 0.) const;
+  VotedSides countLinesOfSight() const;
   std::vector<std::uint32_t> pieceOfVertices() const;
   Eigen::Vector3d normalOf(const Triangle& triangle) const;
 

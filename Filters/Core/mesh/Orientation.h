@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "mesh/ContrarySides.h"
 #include "mesh/Mesh.h"
 #include "mesh/Pieces.h"
 
@@ -50,6 +51,8 @@ struct OrientationReport
   std::array<bool, SideEvidences> toldNothing{};
   /// Where parts look to opposite sides though they face each other, if they do: see FacingBoundaries.h.
   std::optional<Vector4> contradiction;
+  /// Where parts of a piece look away from what has told its side: the viewpoints or the normals.
+  ContrarySides contrary;
 
   double share(SideEvidence evidence) const { return shares[std::size_t(evidence)]; }
   bool hasToldNothing(SideEvidence evidence) const { return toldNothing[std::size_t(evidence)]; }

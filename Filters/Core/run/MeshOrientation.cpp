@@ -136,6 +136,27 @@ bool areAllKnown(const std::vector<Side>& sides)
   return std::all_of(sides.begin(), sides.end(), [](const Side& side) { return side.isKnown(); });
 }
 
+/// The votes of each vertex by what has told the side of its piece, after that has been turned. None where something
+/// else has.
+std::vector<float> votesOf(const Mesh& mesh, std::span<const Piece> pieces,
+  const std::vector<Side>& sides, const VotedSides& byViewpoints, const VotedSides& byNormals)
+{
+  std::vector<float> votes(mesh.indexEnd(), 0.f);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    const bool isByViewpoints = sides[i].evidence == SideEvidence::Viewpoints;
+    if (isByViewpoints || sides[i].evidence == SideEvidence::Normals)
+    {
+      const VotedSides& voted = isByViewpoints ? byViewpoints : byNormals;
+      for (const VertexIndex v : pieces[i].vertices)
+      {
+        votes[v] = sides[i].isTurned ? -voted.votes[v] : voted.votes[v];
+      }
+    }
+  }
+  return votes;
+}
+
 /// Fills in what is not known yet. Returns whether `more` has told nothing.
 bool addSides(const std::vector<Side>& more, std::vector<Side>& sides)
 {
@@ -151,9 +172,11 @@ OrientationReport orientMesh(
   const std::vector<Piece> pieces = findPieces(mesh, executor);
   const OrientationVote vote(mesh, pieces, cloud, hints, executor);
   std::vector<Side> sides(pieces.size()), byVolume(pieces.size());
-  const bool areViewpointsMute = !hints.viewpoints.empty() && addSides(vote.byViewpoints(), sides);
+  const VotedSides byViewpoints = hints.viewpoints.empty() ? VotedSides() : vote.byViewpoints();
+  const VotedSides byNormals = hints.normalOf ? vote.byNormals() : VotedSides();
+  const bool areViewpointsMute = !hints.viewpoints.empty() && addSides(byViewpoints.sides, sides);
   const bool isUpMute = hints.up && addSides(vote.byUpDirection(), sides);
-  const bool areNormalsMute = hints.normalOf && addSides(vote.byNormals(), sides);
+  const bool areNormalsMute = hints.normalOf && addSides(byNormals.sides, sides);
   const bool isHinted =
     std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.isKnown(); });
   std::transform(pieces.begin(), pieces.end(), byVolume.begin(), sideByVolume);
@@ -179,6 +202,7 @@ OrientationReport orientMesh(
   {
     report.contradiction = facing.place;
   }
+  report.contrary = findContrarySides(mesh, votesOf(mesh, pieces, sides, byViewpoints, byNormals));
   report.toldNothing[std::size_t(SideEvidence::Viewpoints)] = areViewpointsMute;
   report.toldNothing[std::size_t(SideEvidence::UpDirection)] = isUpMute;
   report.toldNothing[std::size_t(SideEvidence::Normals)] = areNormalsMute;

@@ -25,6 +25,7 @@ constexpr double MostBetweenLayers = 0.1;
 /// Of the area: less is not worth a word.
 constexpr double LeastUnknownSide = 0.001;
 constexpr double MostTurned = 0.005;
+constexpr double MostContrary = 0.01;
 /// Of the area: bridges over gaps have less.
 constexpr double MostBare = 0.04;
 /// ... and so has one bridge.
@@ -327,6 +328,18 @@ void warnOfSides(
         ": some parts are inside out. An up direction (--up) or viewpoints (--viewpoint) turn "
         "separate pieces. If a part is connected by the wrong side, use more vertices or a cloud "
         "for each body.");
+  }
+  if (sides.contrary.share > MostContrary)
+  {
+    warnings.add(WarningTopic::InsideOut,
+      percent(sides.contrary.share) +
+        " of the surface shows its back to the viewpoints, or against the normals, that determine "
+        "the "
+        "side of its piece, most clearly around " +
+        placeText(cloud.toInput(sides.contrary.place), cloud) +
+        ". If a part is connected by the wrong side, use more vertices or a cloud for each body. "
+        "If "
+        "viewpoints or normals are wrong there, correct them.");
   }
   if (sides.hasToldNothing(SideEvidence::Viewpoints))
   {

@@ -276,6 +276,50 @@ TEST(MeshOrientation, NoisyNormals)
   }
 }
 
+// Parts that look away from what tells the side of their piece are reported, and where: a cap whose normals are
+// turned, or whose points were seen from within. Normals that are turned here and there are not, nor are noisy ones.
+TEST(MeshOrientation, PartsThatLookAway)
+{
+  const auto isInCap = [](const Eigen::Vector3d& point) { return point.z() > 0.6; };
+  for (const bool areViews : { false, true })
+  {
+    Scene scene(makeSphere(40));
+    const std::vector<Eigen::Vector3d>& points = scene.surface.points;
+    OrientationHints hints;
+    hints.normalOf = [&](std::uint32_t point)
+    { return Eigen::Vector3d(isInCap(points[point]) ? -points[point] : points[point]); };
+    if (areViews)
+    {
+      // The others were seen from straight above.
+      std::vector<Eigen::Vector3d> viewpoints;
+      for (const Eigen::Vector3d& point : points)
+      {
+        viewpoints.push_back(
+          isInCap(point) ? Eigen::Vector3d::Zero() : Eigen::Vector3d(9. * point));
+      }
+      hints = seenFrom(std::move(viewpoints));
+      hints.viewOf = [](std::uint32_t point) { return point; };
+    }
+    const ContrarySides contrary = scene.orient(hints).contrary;
+    EXPECT_NEAR(contrary.share, 0.2, 0.03);
+    EXPECT_TRUE(isInCap(scene.cloud.toInput(contrary.place)));
+  }
+  for (const double share : { 0., 0.3 })
+  {
+    Scene scene(makeSphere(40));
+    Random random(3, 0);
+    std::vector<Eigen::Vector3d> normals;
+    for (const Eigen::Vector3d& point : scene.surface.points)
+    {
+      const double sign = random.uniform() < share ? -1. : 1.;
+      normals.push_back(sign * point + 0.5 * randomDirection(random));
+    }
+    const OrientationReport report =
+      scene.orient(withNormals([&](std::uint32_t point) { return normals[point]; }));
+    EXPECT_LT(report.contrary.share, 0.005);
+  }
+}
+
 // Normals that are zero, not finite or random tell nothing: it is reported, and the volume decides.
 TEST(MeshOrientation, UselessNormals)
 {
@@ -543,6 +587,7 @@ TEST(MeshOrientation, ThreadsDoNotMatter)
     const OrientationReport second = orientMesh(together.mesh, together.cloud, hints, threads);
     EXPECT_EQ(trianglesOf(alone.mesh), trianglesOf(together.mesh));
     EXPECT_EQ(first.shares, second.shares);
+    EXPECT_EQ(first.contrary.share, second.contrary.share);
   }
 }
 }

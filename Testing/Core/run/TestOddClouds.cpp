@@ -357,6 +357,27 @@ TEST(OddClouds, ViewpointOnTheSurface)
   EXPECT_NEAR(std::abs(volumeOf(run.result.mesh)), SphereVolume, 0.05 * SphereVolume);
 }
 
+// Where the surface shows its back to the normals of a part, there is a warning.
+TEST(OddClouds, NormalsThatAreTurnedInAPart)
+{
+  Random random(11);
+  Points points;
+  while (points.size() < Many)
+  {
+    points.push_back(onSphere(random));
+  }
+  for (const bool areTurned : { false, true })
+  {
+    OrientationHints hints;
+    hints.normalOf = [&](std::uint32_t point)
+    {
+      const Eigen::Vector3d& place = points[point];
+      return Eigen::Vector3d(areTurned && place.z() > 0.6 ? -place : place);
+    };
+    EXPECT_EQ(runOn(points, 500, hints).warnsOf("shows its back"), areTurned);
+  }
+}
+
 // Normals that are zero or random leave the surface as it is without, and there is a warning.
 TEST(OddClouds, NormalsThatTellNothing)
 {
