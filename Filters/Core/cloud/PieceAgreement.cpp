@@ -132,7 +132,7 @@ private:
     for (const auto& [ends, ofGap] : contacts)
     {
       const std::optional<Gap> gap = gapOf(ends.first, ends.second, ofGap);
-      if (gap && !turnsGround(*gap) && (!narrowest || gap->squaredWidth < narrowest->squaredWidth))
+      if (gap && mayTell(*gap) && (!narrowest || gap->squaredWidth < narrowest->squaredWidth))
       {
         narrowest = gap;
       }
@@ -143,21 +143,29 @@ private:
     }
   }
 
-  /// Whether a known group would have the ground of a larger one look down.
-  bool turnsGround(const Gap& gap) const
+  /// Whether the side of the other group, if known, decides for this one. A smaller group does so if its side is more
+  /// than a guess and leaves the ground below.
+  bool mayTell(const Gap& gap) const
   {
-    if (ground_.empty() || !sides_[gap.other].isKnown())
+    const std::vector<std::size_t>& from = groups_[groupOf_[gap.piece]];
+    const std::vector<std::size_t>& to = groups_[groupOf_[gap.other]];
+    return !sides_[gap.other].isKnown() || areaOf(to) >= areaOf(from) ||
+      (!sides_[gap.other].isGuess && !turnsGround(gap, from));
+  }
+
+  /// Whether a known group would have the ground of one look down.
+  bool turnsGround(const Gap& gap, const std::vector<std::size_t>& group) const
+  {
+    if (ground_.empty())
     {
       return false;
     }
-    const std::vector<std::size_t>& from = groups_[groupOf_[gap.piece]];
-    const std::vector<std::size_t>& to = groups_[groupOf_[gap.other]];
     double up = 0.;
-    for (const std::size_t piece : from)
+    for (const std::size_t piece : group)
     {
       up += sides_[piece].isTurned ? -ground_[piece] : ground_[piece];
     }
-    return areaOf(to) < areaOf(from) && (isTurnedBy(gap) ? -up : up) <= -LeastGround * areaOf(from);
+    return (isTurnedBy(gap) ? -up : up) <= -LeastGround * areaOf(group);
   }
 
   double areaOf(const std::vector<std::size_t>& group) const
@@ -183,12 +191,14 @@ private:
         return a.squaredDistance < b.squaredDistance;
       })->squaredDistance;
     const double area = std::max(pieces_[piece].area, pieces_[other].area);
+    const bool isLarger = pieces_[other].area >= pieces_[piece].area;
     double agreement = 0., count = 0.;
     for (const Contact& contact : contacts)
     {
       if (contact.squaredDistance <= WidthsOfGap * WidthsOfGap * width)
       {
-        agreement += agreementAt(contact);
+        // The underside of what stands over an opening of a table looks to it.
+        agreement += isLarger || mesh_.isBoundary(contact.other) ? agreementAt(contact) : 0.;
         ++count;
       }
     }
@@ -215,7 +225,7 @@ private:
   bool join(const Gap& gap)
   {
     std::size_t from = groupOf_[gap.piece], to = groupOf_[gap.other];
-    if (from == to || sides_[gap.piece].isKnown() || turnsGround(gap))
+    if (from == to || sides_[gap.piece].isKnown() || !mayTell(gap))
     {
       return false;
     }
