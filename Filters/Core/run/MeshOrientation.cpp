@@ -5,6 +5,7 @@
 #include "cloud/PieceAgreement.h"
 #include "mesh/FacingBoundaries.h"
 #include "mesh/OpeningSides.h"
+#include "mesh/Relief.h"
 
 #include <algorithm>
 #include <cmath>
@@ -193,6 +194,10 @@ OrientationReport orientMesh(
     addSides(sidesByOpenings(mesh, pieces, sides), sides);
     addSides(sidesByNeighbors(mesh, pieces, sides, ground), sides);
     addSides(withoutGroundAbove(byVolume, upwards), sides);
+    if (!areAllKnown(sides))
+    {
+      addSides(withoutGroundAbove(sidesByRelief(mesh, pieces), upwards), sides);
+    }
     turnUp(upwards, sides);
     makePiecesAgree(mesh, pieces, sides, ground);
   }

@@ -8,12 +8,11 @@
 
 namespace neuralmesh
 {
-/// Turns each piece of a mesh to its outer side. The first evidence decides: the given viewpoints,
-/// the up direction, the normals, the volume, nearby pieces. If an open piece has less than a tenth
-/// of the largest volume, or its volume is only a guess, nearby pieces come before its volume. Such
-/// a guess does not count if a level ground of a fifth of the piece would look down, nor does a smaller
-/// piece near by. Pieces without evidence look up, along z, and agree with each other; upright ones
-/// stay as they are. No vertex may be erased.
+/// Turns each piece of a mesh to its outer side. The first evidence decides: the given viewpoints, the up direction,
+/// the normals, the volume, nearby pieces, what rises from a ground. If an open piece has less than a tenth of the
+/// largest volume, or its volume is only a guess, nearby pieces come before its volume. Neither such a guess counts,
+/// nor a smaller piece near by, if a level ground of a fifth of the piece would look down. Pieces without evidence
+/// look up, along z, and agree with each other; upright ones stay as they are. No vertex may be erased.
 OrientationReport orientMesh(Mesh& mesh, const PointCloud& cloud, const OrientationHints& hints,
   const Executor& executor = Executor::sequential());
 }

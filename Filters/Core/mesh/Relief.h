@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/Mesh.h"
+#include "mesh/Orientation.h"
+#include "mesh/Pieces.h"
+
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// The sides of pieces that are a ground with something on it, as a table with bodies: what rises from the ground is on
+/// the outer side. Pits of the same depth would have the other one, so the side is a guess. Evidence: Volume.
+///
+/// The ground is level along the sum of the normals, in which closed parts cancel out, and a third of the area
+/// or more. Nothing is told where both sides of it have a relief, or neither has.
+std::vector<Side> sidesByRelief(const Mesh& mesh, std::span<const Piece> pieces);
+}
