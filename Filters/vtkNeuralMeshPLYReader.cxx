@@ -6,6 +6,7 @@
 #include "vtkShift.h"
 
 #include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -13,6 +14,7 @@
 #include "vtkPLYReader.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -21,33 +23,47 @@ vtkStandardNewMacro(vtkNeuralMeshPLYReader);
 
 namespace
 {
-vtkNew<vtkPoints> MakePoints(const std::vector<double>& coordinates)
+template <typename Array, typename Number>
+vtkNew<vtkPoints> MakePoints(const std::vector<Number>& coordinates)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(coordinates.size() / 3));
-  auto* values = vtkDoubleArray::SafeDownCast(points->GetData());
+  vtkNew<Array> values;
+  values->SetNumberOfComponents(3);
+  values->SetNumberOfTuples(static_cast<vtkIdType>(coordinates.size() / 3));
   std::copy(coordinates.begin(), coordinates.end(), values->GetPointer(0));
+  vtkNew<vtkPoints> points;
+  points->SetData(values);
   return points;
+}
+
+/** What vtkPLYReader makes of the file; it takes each number by itself. */
+vtkSmartPointer<vtkPolyData> ReadAsFloats(
+  const std::string& path, const neuralmesh::PlyContents& contents)
+{
+  if (!contents.floats.empty())
+  {
+    vtkNew<vtkPolyData> result;
+    result->SetPoints(MakePoints<vtkFloatArray>(contents.floats));
+    return result;
+  }
+  vtkNew<vtkPLYReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->SetDuplicatePointsForFaceTexture(contents.coordinates.empty());
+  vtkInnerAlgorithm::Update(reader);
+  return reader->GetOutput();
 }
 
 /** Throws std::runtime_error. */
 void Read(const std::string& path, vtkPolyData* output)
 {
   const neuralmesh::PlyContents contents = neuralmesh::readPlyContents(path);
-  vtkNew<vtkPLYReader> reader;
-  reader->SetFileName(path.c_str());
-  const bool hasDoubles = !contents.coordinates.empty();
-  reader->SetDuplicatePointsForFaceTexture(!hasDoubles);
-  vtkInnerAlgorithm::Update(reader);
-  vtkPolyData* result = reader->GetOutput();
-  if (hasDoubles)
+  const vtkSmartPointer<vtkPolyData> result = ReadAsFloats(path, contents);
+  if (!contents.coordinates.empty())
   {
     if (3 * static_cast<std::size_t>(result->GetNumberOfPoints()) != contents.coordinates.size())
     {
       throw std::runtime_error("damaged: it does not have as many points as it says");
     }
-    result->SetPoints(MakePoints(contents.coordinates));
+    result->SetPoints(MakePoints<vtkDoubleArray>(contents.coordinates));
   }
   if (contents.shift)
   {

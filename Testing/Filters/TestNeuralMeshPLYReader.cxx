@@ -68,6 +68,22 @@ int CheckFloats()
   return EXIT_SUCCESS;
 }
 
+int CheckFloatsAlone()
+{
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\n"
+                      "property float y\nproperty float z\nend_header\n";
+  for (const float number : { 0.1f, -2e30f, 0.f, 1e-40f, 500000.0625f, 5.f })
+  {
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+  }
+  Write(bytes);
+  const auto ours = Read<vtkNeuralMeshPLYReader>(), vtks = Read<vtkPLYReader>();
+  CHECK(ours->GetNumberOfPoints() == 2);
+  CHECK(FilterTesting::SameBytes(ours->GetPoints()->GetData(), vtks->GetPoints()->GetData()));
+  CHECK(ours->GetPointData()->GetNumberOfArrays() == 0 && ours->GetNumberOfCells() == 0);
+  return EXIT_SUCCESS;
+}
+
 int CheckDoubles()
 {
   Write(Triangle("double"));
@@ -128,7 +144,7 @@ int CheckErrors()
 
 int TestNeuralMeshPLYReader(int, char*[])
 {
-  for (const auto check : { CheckFloats, CheckDoubles, CheckShift, CheckErrors })
+  for (const auto check : { CheckFloats, CheckFloatsAlone, CheckDoubles, CheckShift, CheckErrors })
   {
     if (check() != EXIT_SUCCESS)
     {

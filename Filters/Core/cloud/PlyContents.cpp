@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -23,6 +24,8 @@ constexpr std::uint64_t BytesPerPiece = 1 << 20;
 {
   throw std::runtime_error("damaged: it ends before its last " + element.name);
 }
+
+[[noreturn]] void throwUnreadable() { throw std::runtime_error("it cannot be read to its end"); }
 
 double numberOf(std::string_view word)
 {
@@ -146,6 +149,23 @@ public:
     file_.seekg(std::streamoff(bytes - known), std::ios::cur);
   }
 
+  /// All of an element that is the first to be read.
+  void readFirst(const PlyElement& element, std::vector<float>& numbers)
+  {
+    const std::uint64_t bytes = behind(0, element.count, element.size());
+    if (bytes > left_)
+    {
+      throwEndsEarly(element);
+    }
+    left_ -= bytes;
+    numbers.resize(std::size_t(bytes) / sizeof(float));
+    file_.read(reinterpret_cast<char*>(numbers.data()), std::streamsize(bytes));
+    if (!file_)
+    {
+      throwUnreadable();
+    }
+  }
+
 private:
   const unsigned char* next(const PlyElement& element, std::uint64_t size)
   {
@@ -163,7 +183,7 @@ private:
         reinterpret_cast<char*>(piece_.data() + kept), std::streamsize(piece_.size() - kept));
       if (!file_)
       {
-        throw std::runtime_error("it cannot be read to its end");
+        throwUnreadable();
       }
     }
     const unsigned char* bytes = piece_.data() + place_;
@@ -200,6 +220,23 @@ bool markCoordinates(const PlyElement& vertices, AxisOfProperty& axes)
   }
   return isWanted;
 }
+
+/// Whether the bytes of the file are x, y, z of the vertices, as floats of this machine, and nothing else.
+bool hasOnlyFloats(const PlyHeader& header)
+{
+  if (header.isText || header.isBigEndian || std::endian::native != std::endian::little ||
+    header.elements.size() != 1 || header.elements[0].name != "vertex" ||
+    header.elements[0].properties.size() != Axes.size())
+  {
+    return false;
+  }
+  return std::equal(Axes.begin(), Axes.end(), header.elements[0].properties.begin(),
+    [](const char* axis, const PlyProperty& property)
+    {
+      return property.name == axis && !property.countType && property.type.isReal() &&
+        property.type.size == sizeof(float);
+    });
+}
 }
 
 PlyContents readPlyContents(const std::string& path)
@@ -225,6 +262,11 @@ PlyContents readPlyContents(const std::string& path)
   }
   TextElements text(file);
   BinaryElements binary(file, size - header.size, header.isBigEndian);
+  if (hasOnlyFloats(header))
+  {
+    binary.readFirst(header.elements[0], contents.floats);
+    return contents;
+  }
   bool hasVertices = false;
   for (const PlyElement& element : header.elements)
   {

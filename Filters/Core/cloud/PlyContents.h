@@ -17,6 +17,8 @@ struct PlyContents
   /// x, y, z of each vertex, if a coordinate of theirs is of a type that floats cannot hold (double,
   /// or a whole number of 4 bytes); else none.
   std::vector<double> coordinates;
+  /// The same as floats, if the file is binary, of little-endian byte order, and has nothing but them; else none.
+  std::vector<float> floats;
   /// What is to be added to the coordinates: see commentOfShift().
   std::optional<Eigen::Vector3d> shift;
 };

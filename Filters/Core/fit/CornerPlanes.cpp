@@ -32,47 +32,70 @@ bool CornerPlanes::isConfirmed(const SampleLoad& load) const
   return load.count >= LeastSamplesOfPlane && !(load.excess(scale_) > 0.);
 }
 
+void CornerPlanes::collectAt(std::span<const VertexIndex> vertices)
+{
+  clear();
+  for (const VertexIndex v : vertices)
+  {
+    around_.add(mesh_, v);
+  }
+  around_.finish();
+  for (const Triangle& triangle : around_.triangles())
+  {
+    addPlane(triangle);
+  }
+}
+
 void CornerPlanes::collectAround(std::span<const VertexIndex> vertices)
 {
-  triangles_.clear();
+  clear();
   for (const VertexIndex v : vertices)
   {
     for (const VertexIndex neighbor : mesh_.ring(v))
     {
-      const Ring& ring = mesh_.ring(neighbor);
-      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
-      {
-        Triangle triangle{ neighbor, ring[slot], ring[ring.after(slot)] };
-        std::rotate(
-          triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-        triangles_.push_back(triangle);
-      }
+      around_.add(mesh_, neighbor);
     }
   }
-  std::sort(triangles_.begin(), triangles_.end());
-  triangles_.erase(std::unique(triangles_.begin(), triangles_.end()), triangles_.end());
-  planes_.clear();
+  around_.finish();
   faces_.clear();
   double count = 0., area = 0.;
-  for (const auto& [a, b, c] : triangles_)
+  for (const Triangle& triangle : around_.triangles())
   {
-    const SampleLoad load = samples_.load(a, b, c);
-    const Vector4 pa = mesh_.position(a), pb = mesh_.position(b), pc = mesh_.position(c);
-    const Vector4 normal = cross(pb - pa, pc - pa);
-    const float length = std::sqrt(squaredNorm(normal));
-    count += load.count;
-    area += double(length);
-    if (isConfirmed(load) && length > 0.f)
+    const Found found = addPlane(triangle);
+    count += found.count;
+    area += double(found.length);
+    if (found.isConfirmed)
     {
-      const Vector4 plane = 1.f / length * normal, middle = 1.f / 3.f * (pa + pb + pc);
-      planes_.push_back({ plane, dot(plane, middle) });
-      addToFace(plane, middle, load.count);
+      addToFace(planes_.back().normal, found.middle, found.count);
     }
   }
   density_ = area > 0. ? count / area : 0.;
   std::stable_sort(faces_.begin(), faces_.end(),
     [](const Face& one, const Face& other) { return one.weight > other.weight; });
   faces_.resize(std::min(faces_.size(), MostFaces));
+}
+
+void CornerPlanes::clear()
+{
+  around_.clear();
+  planes_.clear();
+}
+
+/// If samples confirm it.
+CornerPlanes::Found CornerPlanes::addPlane(const Triangle& triangle)
+{
+  const auto& [a, b, c] = triangle;
+  const SampleLoad load = samples_.load(a, b, c);
+  const Vector4 pa = mesh_.position(a), pb = mesh_.position(b), pc = mesh_.position(c);
+  const Vector4 normal = cross(pb - pa, pc - pa), middle = 1.f / 3.f * (pa + pb + pc);
+  const float length = std::sqrt(squaredNorm(normal));
+  const bool isFound = isConfirmed(load) && length > 0.f;
+  if (isFound)
+  {
+    const Vector4 plane = 1.f / length * normal;
+    planes_.push_back({ plane, dot(plane, middle) });
+  }
+  return { middle, length, load.count, isFound };
 }
 
 void CornerPlanes::addToFace(Vector4 plane, Vector4 middle, double weight)

@@ -3,6 +3,7 @@
 
 #include "fit/PlaneQuadric.h"
 #include "fit/TriangleSamples.h"
+#include "fit/TrianglesAround.h"
 #include "mesh/Mesh.h"
 
 #include <span>
@@ -27,7 +28,10 @@ public:
 
   bool isConfirmed(const SampleLoad& load) const;
 
-  /// Notes the planes of the triangles at the neighbours of some vertices.
+  /// Notes the planes of the triangles at some vertices. What is not crooked then is not crooked among more planes.
+  void collectAt(std::span<const VertexIndex> vertices);
+
+  /// Notes those at their neighbours, too.
   void collectAround(std::span<const VertexIndex> vertices);
 
   /// Where two or three of the planes meet, near `start`.
@@ -38,7 +42,7 @@ public:
   bool isCrooked(Vector4 a, Vector4 b, Vector4 c) const;
 
   /// All triangles there, with the least corner first, and the samples on them by the length of their normals.
-  const std::vector<Triangle>& triangles() const { return triangles_; }
+  const std::vector<Triangle>& triangles() const { return around_.triangles(); }
   double density() const { return density_; }
 
 private:
@@ -56,13 +60,24 @@ private:
     float offset;   ///< along it
   };
 
+  /// What is known of a triangle.
+  struct Found
+  {
+    Vector4 middle;
+    float length; ///< twice the area
+    double count; ///< of samples
+    bool isConfirmed;
+  };
+
+  void clear();
+  Found addPlane(const Triangle& triangle);
   float partOffPlanes(Vector4 normal, Vector4 middle) const;
   void addToFace(Vector4 plane, Vector4 middle, double weight);
 
   const Mesh& mesh_;
   const TriangleSamples& samples_;
   double scale_;
-  std::vector<Triangle> triangles_;
+  TrianglesAround around_;
   std::vector<Plane> planes_;
   std::vector<Face> faces_;
   double density_ = 0.;

@@ -55,13 +55,24 @@ Corner CornerSearch::find(const CornerCenter& center)
   center_ = center;
   const Vector4 position = mesh_.position(center.v);
   start_ = center.isAdded() ? 0.5f * (position + mesh_.position(center.other)) : position;
-  const std::array<VertexIndex, 2> ends{ center.v, center.other };
-  planes_.collectAround(std::span(ends).first(center.isAdded() ? 2 : 1));
+  const std::array<VertexIndex, 2> both{ center.v, center.other };
+  const auto ends = std::span(both).first(center.isAdded() ? 2 : 1);
   collectStar();
   best_ = {};
   flips_ = 0;
-  if (std::none_of(replaced_.begin(), replaced_.end(),
-        [this](const Triangle& triangle) { return isCrooked(triangle); }))
+  const auto isAnyCrooked = [this]
+  {
+    return std::any_of(replaced_.begin(), replaced_.end(),
+      [this](const Triangle& triangle) { return isCrooked(triangle); });
+  };
+  // Mostly the planes next to it are enough to tell that nothing is crooked.
+  planes_.collectAt(ends);
+  if (!isAnyCrooked())
+  {
+    return best_;
+  }
+  planes_.collectAround(ends);
+  if (!isAnyCrooked())
   {
     return best_;
   }

@@ -4,6 +4,7 @@
 #include "fit/FanFolds.h"
 #include "fit/PlaneQuadric.h"
 #include "fit/SampleBundle.h"
+#include "fit/TrianglesAround.h"
 #include "mesh/TriangleShape.h"
 
 #include <algorithm>
@@ -207,19 +208,11 @@ private:
     triangles_.clear();
     for (const Spoke& spoke : fan_)
     {
-      const Ring& ring = mesh_.ring(spoke.first);
-      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
-      {
-        Triangle triangle{ spoke.first, ring[slot], ring[ring.after(slot)] };
-        std::rotate(
-          triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-        triangles_.push_back(triangle);
-      }
+      triangles_.add(mesh_, spoke.first);
     }
-    std::sort(triangles_.begin(), triangles_.end());
-    triangles_.erase(std::unique(triangles_.begin(), triangles_.end()), triangles_.end());
+    triangles_.finish();
     PlaneQuadric quadric;
-    for (const auto& [a, b, c] : triangles_)
+    for (const auto& [a, b, c] : triangles_.triangles())
     {
       const SampleLoad load = samples_.load(a, b, c);
       const Vector4 pa = mesh_.position(a), pb = mesh_.position(b), pc = mesh_.position(c);
@@ -291,17 +284,22 @@ private:
       {
         before += double(samples_.weight(sample)) * double(samples_.squaredDistance(sample));
       }
+      const auto most = [&]
+      { return std::min(before - gain, (1. - LeastPartOfSnapGain) * before); };
+      if (!(most() > 0.))
+      {
+        continue;
+      }
       bundle_.assign(samples_, onFan_);
       const Vector4 middle = 0.5f * (mesh_.position(v) + mesh_.position(partner));
       const Vector4 target = planesMeetAt(middle);
       for (const float step : StepsOfCollapse)
       {
         const Vector4 place = middle + step * (target - middle);
-        const double most = std::min(before - gain, (1. - LeastPartOfSnapGain) * before);
-        if (most > 0. && squaredNorm(place - middle) <= longest_ && keepsShape(place, false))
+        if (most() > 0. && squaredNorm(place - middle) <= longest_ && keepsShape(place, false))
         {
-          const double after = squaresAt(place, most);
-          if (after < most)
+          const double after = squaresAt(place, most());
+          if (after < most())
           {
             gain = before - after;
             best = { partner, place };
@@ -323,7 +321,7 @@ private:
   std::vector<std::uint32_t> onFan_; ///< samples
   SampleBundle bundle_;              ///< of these
   std::vector<TriangleDistances> distances_;
-  std::vector<Triangle> triangles_;
+  TrianglesAround triangles_;
   float longest_ = 0.f; ///< squared edge
 };
 }

@@ -4,6 +4,7 @@
 #include "base/Median.h"
 #include "cloud/OppositeLayer.h"
 #include "cloud/VertexGrid.h"
+#include "mesh/EachVertex.h"
 
 #include <algorithm>
 #include <cmath>
@@ -259,7 +260,7 @@ void SurfaceFit::fillSystem()
   system_->expectBends(bends_);
   if (isSettled_ || !isKept_.empty())
   {
-    forEachVertex(
+    forEachVertex(mesh_, executor_, VerticesPerRange,
       [&](VertexIndex v)
       {
         const bool isKept = !isKept_.empty() && isKept_[v] != 0;
@@ -386,7 +387,7 @@ std::vector<SurfaceFit::Tip> SurfaceFit::findTips() const
   const EmptyCaps caps(mesh_, placedSamples(), variance(), executor_);
   std::vector<std::vector<Tip>> ranges(
     (mesh_.indexEnd() + VerticesPerRange - 1) / VerticesPerRange);
-  forEachVertex(
+  forEachVertex(mesh_, executor_, VerticesPerRange,
     [&](VertexIndex v)
     {
       if (const std::optional<EmptyCaps::End> end = caps.endAt(v))
@@ -425,7 +426,8 @@ bool SurfaceFit::moveVertices(double lambda, const Progress& progress, PackedVec
   }
   const std::span<Vector4> positions = mesh_.movablePositions();
   before = PackedVectors(positions.size());
-  forEachVertex([&](VertexIndex v) { before.set(v, positions[v]); });
+  forEachVertex(
+    mesh_, executor_, VerticesPerRange, [&](VertexIndex v) { before.set(v, positions[v]); });
   const bool isSolved = laidAside(before,
     [&]
     {
@@ -464,15 +466,16 @@ void SurfaceFit::follow(const ChangedVertices& changed)
     return;
   }
   std::vector<VertexIndex> newOf(mesh_.indexEnd());
-  forEachVertex([&](VertexIndex v) { newOf[v] = changed.alive(mesh_, v); });
+  forEachVertex(
+    mesh_, executor_, VerticesPerRange, [&](VertexIndex v) { newOf[v] = changed.alive(mesh_, v); });
   const std::vector<VertexIndex> oldOf = mesh_.dropErased(executor_);
   std::vector<VertexIndex> place(newOf.size());
   std::vector<VertexIndex> opposite(oldOf.size());
   const std::vector<std::uint8_t> wasKept = isKept_;
   isKept_.resize(isKept_.empty() ? 0 : oldOf.size());
-  forEachVertex([&](VertexIndex v) { place[oldOf[v]] = v; });
+  forEachVertex(mesh_, executor_, VerticesPerRange, [&](VertexIndex v) { place[oldOf[v]] = v; });
   const auto nowOf = [&](VertexIndex old) { return place[newOf[old]]; };
-  forEachVertex(
+  forEachVertex(mesh_, executor_, VerticesPerRange,
     [&](VertexIndex v)
     {
       VertexIndex old = oldOf[v];

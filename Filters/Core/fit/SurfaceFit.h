@@ -205,19 +205,6 @@ private:
       });
     return isDone;
   }
-  /// Calls `body(v)` for all vertices, threads of the executor at the same time.
-  template <typename Body>
-  void forEachVertex(const Body& body) const
-  {
-    executor_.forEachRange(mesh_.indexEnd(), VerticesPerRange,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (auto v = VertexIndex(begin); v < end; ++v)
-        {
-          body(v);
-        }
-      });
-  }
   /// Calls `body(rows, sample)` for the samples that are used, and the rows of those of their corners that a part has:
   /// these add up in the order of the samples, however many parts there are.
   template <typename Body>

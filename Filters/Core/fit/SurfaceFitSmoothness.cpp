@@ -5,6 +5,7 @@
 #include "base/Median.h"
 #include "fit/ExpectedBends.h"
 #include "fit/SmoothnessByRisk.h"
+#include "mesh/EachVertex.h"
 #include "mesh/UmbrellaLaplacian.h"
 
 #include <algorithm>
@@ -160,7 +161,7 @@ std::vector<float> SurfaceFit::squaredBends(std::span<const Vector4> positions) 
     const float squared = squaredNorm(normal);
     return squared > 0.f ? across * across / squared : 0.f;
   };
-  forEachVertex([&](VertexIndex v) { result[v] = bendAt(v); });
+  forEachVertex(mesh_, executor_, VerticesPerRange, [&](VertexIndex v) { result[v] = bendAt(v); });
   return result;
 }
 
@@ -207,7 +208,7 @@ std::vector<float> SurfaceFit::creaseParts(double deviations) const
     std::max(double(medianOf(parts, executor_)) / MedianOfSquares, LeastPartOfMeanBend * mean);
   const auto limit = float(deviations * deviations * usual);
   const std::vector<float> support = supports();
-  forEachVertex(
+  forEachVertex(mesh_, executor_, VerticesPerRange,
     [&](VertexIndex v)
     {
       float& part = parts[v];
@@ -289,10 +290,10 @@ void SurfaceFit::shiftAgainstNoise(double variance)
     return float(2. * variance) * across / (squared * edges) * normal;
   };
   std::vector<Vector4> shifts(positions.size()), next(positions.size());
-  forEachVertex([&](VertexIndex v) { shifts[v] = shiftAt(v); });
+  forEachVertex(mesh_, executor_, VerticesPerRange, [&](VertexIndex v) { shifts[v] = shiftAt(v); });
   for (int ring = 0; ring < RingsOfShifts; ++ring)
   {
-    forEachVertex(
+    forEachVertex(mesh_, executor_, VerticesPerRange,
       [&](VertexIndex v)
       {
         Vector4 sum = shifts[v];

@@ -104,6 +104,36 @@ TEST_F(PlyFiles, OnlyWhatFloatsCannotHoldComesOut)
   EXPECT_TRUE(contentsOf(floats).coordinates.empty());
 }
 
+// Promise: floats come out where a binary file has nothing but x, y, z in this order; all else is left to other readers.
+TEST_F(PlyFiles, FloatsAloneComeOut)
+{
+  const auto file = [](const std::string& format, const std::string& axes, const std::string& more)
+  {
+    std::string bytes = "ply\nformat " + format + " 1.0\nelement vertex 2\n";
+    for (const char axis : axes)
+    {
+      bytes += std::string("property float ") + axis + "\n";
+    }
+    bytes += more + "end_header\n";
+    for (const float number : { 1.f, -2.f, 0.5f, 3.f, 4.f, 5.f })
+    {
+      bytes += bytesOf(number, format == "binary_big_endian");
+    }
+    return bytes;
+  };
+  const std::string little = "binary_little_endian", whole = file(little, "xyz", "");
+  EXPECT_EQ(contentsOf(whole).floats, (std::vector<float>{ 1.f, -2.f, 0.5f, 3.f, 4.f, 5.f }));
+  EXPECT_TRUE(contentsOf(file(little, "zyx", "")).floats.empty());
+  EXPECT_TRUE(contentsOf(file("binary_big_endian", "xyz", "")).floats.empty());
+  EXPECT_TRUE(
+    contentsOf(file(little, "xyz", "element face 0\nproperty list uchar int vertex_indices\n"))
+      .floats.empty());
+  EXPECT_NE(
+    refusal(file(little, "xyzw", "")).find("ends before its last vertex"), std::string::npos);
+  EXPECT_NE(refusal(whole.substr(0, whole.size() - 1)).find("ends before its last vertex"),
+    std::string::npos);
+}
+
 // Promise: numbers of text may have a sign, an exponent, or be not finite; words are no coordinates.
 TEST_F(PlyFiles, NumbersOfText)
 {
