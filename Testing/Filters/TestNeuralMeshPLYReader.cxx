@@ -68,6 +68,10 @@ int CheckFloats()
   return EXIT_SUCCESS;
 }
 
+/**
+ * Keeps the bytes of vtkPLYReader, whichever reader takes the file. That such a file is read as a whole
+ * is for TestPlyContents to keep.
+ */
 int CheckFloatsAlone()
 {
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\n"
