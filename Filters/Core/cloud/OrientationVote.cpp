@@ -201,14 +201,11 @@ VotedSides OrientationVote::countLinesOfSight() const
     });
   const std::vector<std::uint32_t> pieceOf = pieceOfVertices();
   std::vector<Ballot> ballots(pieces_.size());
-  std::vector<float> votesOfVertices(mesh_.indexEnd(), 0.f);
   for (std::size_t i = 0; i < count; ++i)
   {
-    const VertexIndex vertex = surface.triangles[i * stride / viewpoints][0];
-    ballots[pieceOf[vertex]].add(votes[i], weights[i]);
-    votesOfVertices[vertex] += float(votes[i]);
+    ballots[pieceOf[surface.triangles[i * stride / viewpoints][0]]].add(votes[i], weights[i]);
   }
-  return { Ballot::sidesOf(ballots, SideEvidence::Viewpoints), std::move(votesOfVertices) };
+  return { Ballot::sidesOf(ballots, SideEvidence::Viewpoints), {} };
 }
 
 std::vector<std::uint32_t> OrientationVote::pieceOfVertices() const

@@ -16,9 +16,11 @@ namespace neuralmesh
 /// What directions of one kind tell.
 struct VotedSides
 {
-  std::vector<Side> sides; ///< of each piece
-  std::vector<float>
-    votes; ///< of each vertex, their sum: negative where they are against its normal
+  /// Of each piece.
+  std::vector<Side> sides;
+  /// Of each vertex the sum of its votes, negative where they are against its normal. None of lines of sight: through
+  /// openings, these see the inside of what is right.
+  std::vector<float> votes;
 };
 
 /// Has each piece of a mesh voted on by directions in which it should look. A vote is the cosine of the

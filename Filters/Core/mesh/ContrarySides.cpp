@@ -2,11 +2,10 @@
 #include "mesh/ContrarySides.h"
 
 #include "mesh/Pieces.h"
+#include "mesh/RingMeans.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 namespace neuralmesh
 {
@@ -16,35 +15,17 @@ namespace
 constexpr int EdgesAround = 2;
 /// Two of three votes.
 constexpr float LeastLead = 1.f / 3.f;
-
-/// With the values of all neighbours added, as often as asked for.
-std::vector<float> sumsAround(const Mesh& mesh, std::vector<float> values, int edges)
-{
-  for (; edges > 0; --edges)
-  {
-    std::vector<float> sums = values;
-    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-    {
-      for (const VertexIndex neighbor : mesh.ring(v))
-      {
-        sums[v] += values[neighbor];
-      }
-    }
-    values = std::move(sums);
-  }
-  return values;
-}
 }
 
-ContrarySides findContrarySides(const Mesh& mesh, std::span<const float> votes)
+ContrarySides findContrarySides(
+  const Mesh& mesh, std::vector<float> votes, const Executor& executor)
 {
   std::vector<float> sizes(votes.size());
   std::transform(
     votes.begin(), votes.end(), sizes.begin(), [](float vote) { return std::abs(vote); });
-  sizes = sumsAround(mesh, std::move(sizes), EdgesAround);
-  const std::vector<float> sums =
-    sumsAround(mesh, std::vector<float>(votes.begin(), votes.end()), EdgesAround);
-  const auto isContrary = [&](VertexIndex v) { return sums[v] < -LeastLead * sizes[v]; };
+  averageOverRings(mesh, sizes, EdgesAround, executor);
+  averageOverRings(mesh, votes, EdgesAround, executor);
+  const auto isContrary = [&](VertexIndex v) { return votes[v] < -LeastLead * sizes[v]; };
   double area = 0., contrary = 0.;
   float least = 0.f;
   ContrarySides result;
@@ -56,9 +37,9 @@ ContrarySides findContrarySides(const Mesh& mesh, std::span<const float> votes)
       if (isContrary(a) && isContrary(b) && isContrary(c))
       {
         contrary += size;
-        if (sums[a] < least)
+        if (votes[a] < least)
         {
-          least = sums[a];
+          least = votes[a];
           result.place = mesh.position(a);
         }
       }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/Mesh.h"
 
-#include <span>
+#include <vector>
 
 namespace neuralmesh
 {
@@ -17,5 +18,6 @@ struct ContrarySides
 /// Of each vertex the sum of its votes, negative where they are against the side that its fan has. A region counts,
 /// not a vote: each vertex also has the votes of the vertices up to two edges away, so that directions that are wrong
 /// here and there are outvoted. No vertex may be erased.
-ContrarySides findContrarySides(const Mesh& mesh, std::span<const float> votes);
+ContrarySides findContrarySides(
+  const Mesh& mesh, std::vector<float> votes, const Executor& executor = Executor::sequential());
 }

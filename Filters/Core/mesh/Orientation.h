@@ -51,7 +51,7 @@ struct OrientationReport
   std::array<bool, SideEvidences> toldNothing{};
   /// Where parts look to opposite sides though they face each other, if they do: see FacingBoundaries.h.
   std::optional<Vector4> contradiction;
-  /// Where parts of a piece look away from what has told its side: the viewpoints or the normals.
+  /// Where parts of a piece look away from what has told its side: the views of the points, or the normals.
   ContrarySides contrary;
 
   double share(SideEvidence evidence) const { return shares[std::size_t(evidence)]; }

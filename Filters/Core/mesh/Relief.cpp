@@ -12,8 +12,9 @@ namespace
 {
 /// Of the angle between what is level and the sum of the normals.
 constexpr double CosineOfLevel = 0.95;
-/// Of the area, so near the ground that it is a part of it: in roots of the area.
+/// Of the area of the piece.
 constexpr double LeastGroundOfPiece = 0.33;
+/// What is no farther above or below it is the ground, in roots of the area of the piece.
 constexpr double ThicknessOfGround = 0.02;
 /// The relief of one side is so much more than that of the other.
 constexpr double LeastRatioOfReliefs = 4.;
@@ -101,11 +102,13 @@ Side sideByRelief(const Mesh& mesh, const Piece& piece)
 }
 }
 
-std::vector<Side> sidesByRelief(const Mesh& mesh, std::span<const Piece> pieces)
+std::vector<Side> sidesByRelief(
+  const Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> known)
 {
   std::vector<Side> sides(pieces.size());
-  std::transform(pieces.begin(), pieces.end(), sides.begin(),
-    [&](const Piece& piece) { return sideByRelief(mesh, piece); });
+  std::transform(pieces.begin(), pieces.end(), known.begin(), sides.begin(),
+    [&](const Piece& piece, const Side& side)
+    { return side.isKnown() ? Side() : sideByRelief(mesh, piece); });
   return sides;
 }
 }

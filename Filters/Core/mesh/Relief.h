@@ -14,6 +14,7 @@ namespace neuralmesh
 /// the outer side. Pits of the same depth would have the other one, so the side is a guess. Evidence: Volume.
 ///
 /// The ground is level along the sum of the normals, in which closed parts cancel out, and a third of the area
-/// or more. Nothing is told where both sides of it have a relief, or neither has.
-std::vector<Side> sidesByRelief(const Mesh& mesh, std::span<const Piece> pieces);
+/// or more. Nothing is told where both sides of it have a relief, or neither has, nor of pieces whose side is known.
+std::vector<Side> sidesByRelief(
+  const Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> known);
 }

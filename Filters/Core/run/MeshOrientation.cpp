@@ -148,10 +148,10 @@ std::vector<float> votesOf(const Mesh& mesh, std::span<const Piece> pieces,
     const bool isByViewpoints = sides[i].evidence == SideEvidence::Viewpoints;
     if (isByViewpoints || sides[i].evidence == SideEvidence::Normals)
     {
-      const VotedSides& voted = isByViewpoints ? byViewpoints : byNormals;
+      const std::vector<float>& voted = isByViewpoints ? byViewpoints.votes : byNormals.votes;
       for (const VertexIndex v : pieces[i].vertices)
       {
-        votes[v] = sides[i].isTurned ? -voted.votes[v] : voted.votes[v];
+        votes[v] = voted.empty() ? 0.f : sides[i].isTurned ? -voted[v] : voted[v];
       }
     }
   }
@@ -194,10 +194,7 @@ OrientationReport orientMesh(
     addSides(sidesByOpenings(mesh, pieces, sides), sides);
     addSides(sidesByNeighbors(mesh, pieces, sides, ground), sides);
     addSides(withoutGroundAbove(byVolume, upwards), sides);
-    if (!areAllKnown(sides))
-    {
-      addSides(withoutGroundAbove(sidesByRelief(mesh, pieces), upwards), sides);
-    }
+    addSides(withoutGroundAbove(sidesByRelief(mesh, pieces, sides), upwards), sides);
     turnUp(upwards, sides);
     makePiecesAgree(mesh, pieces, sides, ground);
   }
@@ -207,7 +204,11 @@ OrientationReport orientMesh(
   {
     report.contradiction = facing.place;
   }
-  report.contrary = findContrarySides(mesh, votesOf(mesh, pieces, sides, byViewpoints, byNormals));
+  if (!byViewpoints.votes.empty() || !byNormals.votes.empty())
+  {
+    report.contrary =
+      findContrarySides(mesh, votesOf(mesh, pieces, sides, byViewpoints, byNormals), executor);
+  }
   report.toldNothing[std::size_t(SideEvidence::Viewpoints)] = areViewpointsMute;
   report.toldNothing[std::size_t(SideEvidence::UpDirection)] = isUpMute;
   report.toldNothing[std::size_t(SideEvidence::Normals)] = areNormalsMute;

@@ -25,6 +25,7 @@ constexpr double MostBetweenLayers = 0.1;
 /// Of the area: less is not worth a word.
 constexpr double LeastUnknownSide = 0.001;
 constexpr double MostTurned = 0.005;
+/// Normals of which two of five are turned make up half of it.
 constexpr double MostContrary = 0.01;
 /// Of the area: bridges over gaps have less.
 constexpr double MostBare = 0.04;
@@ -333,13 +334,11 @@ void warnOfSides(
   {
     warnings.add(WarningTopic::InsideOut,
       percent(sides.contrary.share) +
-        " of the surface shows its back to the viewpoints, or against the normals, that determine "
-        "the "
-        "side of its piece, most clearly around " +
+        " of the surface shows its back to where its points were seen from, or to their normals, "
+        "most clearly around " +
         placeText(cloud.toInput(sides.contrary.place), cloud) +
         ". If a part is connected by the wrong side, use more vertices or a cloud for each body. "
-        "If "
-        "viewpoints or normals are wrong there, correct them.");
+        "If viewpoints or normals are wrong there, correct them.");
   }
   if (sides.hasToldNothing(SideEvidence::Viewpoints))
   {

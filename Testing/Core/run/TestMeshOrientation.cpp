@@ -172,6 +172,15 @@ TEST(MeshOrientation, PartsThatLookAway)
     EXPECT_NEAR(contrary.share, 0.2, 0.03);
     EXPECT_TRUE(isInCap(scene.cloud.toInput(contrary.place)));
   }
+  {
+    // Through the opening, the inside is seen.
+    Scene scene(openSphere(50.));
+    const OrientationReport report =
+      scene.orient(seenFrom({ { 9., 0., 0. }, { 0., 0., -9. }, { 0., 9., 9. } }));
+    EXPECT_EQ(report.main(), SideEvidence::Viewpoints);
+    EXPECT_EQ(scene.facingOutwards(), 1.);
+    EXPECT_EQ(report.contrary.share, 0.);
+  }
   for (const double share : { 0., 0.3 })
   {
     Scene scene(makeSphere(40));
