@@ -147,7 +147,7 @@ bool CheckSheet()
   filter->SetVariantToNormalBased();
   filter->SetOrderToList();
   filter->Update();
-  return Is(filter->GetOutput(), 1500, 0x96a9ce07d3053540u, "sheet");
+  return Is(filter->GetOutput(), 1500, 0x18283147d597172u, "sheet");
 }
 
 bool CheckStream(vtkPoints* torus)

@@ -290,8 +290,24 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     {
       mesh_ = std::move(before);
     }
+    return report(1.);
   }
-  return report(1.);
+  return mendWithoutSlivers(guard, report);
+}
+
+/// Slivers may have kept a defect from being mended.
+bool Finish::mendWithoutSlivers(FitGuard& guard, const Progress& progress)
+{
+  if (report_.left.total() > 0)
+  {
+    report_.left = countDefects(mesh_, executor_);
+  }
+  while (
+    progress(1.) && mendsBy([this] { collapseDefects(); }, MayLose::SomePoints, guard, progress))
+  {
+    repairSlivers(mesh_, guard, executor_);
+  }
+  return progress(1.);
 }
 
 /// Where no sample has its place on a piece, nothing keeps the fit and the repair from shrinking that to a

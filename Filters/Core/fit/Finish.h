@@ -105,6 +105,7 @@ private:
   template <typename Remove>
   bool mendsBy(const Remove& remove, MayLose mayLose, FitGuard& guard, const Progress& progress);
   void collapseDefects();
+  bool mendWithoutSlivers(FitGuard& guard, const Progress& progress);
 
   const PointCloud& cloud_;
   Mesh& mesh_;

@@ -139,12 +139,22 @@ private:
     const Triangle byShortest = from(triangle, std::less<>());
     const std::array<Outcome, 3> usual{ flipOf(byLongest[0], byLongest[1]),
       collapseOf(byShortest[0], byShortest[1]), collapseOf(byShortest[1], byShortest[0]) };
-    const Outcome& best = *std::max_element(usual.begin(), usual.end(),
-      [](const Outcome& a, const Outcome& b) { return a.quality < b.quality; });
     const float now = corners(triangle[0], triangle[1], triangle[2]).quality();
-    if (best.quality >= std::min(least_, LeastGainOfQuality * now) && best.quality > 0.f)
+    const float least = std::min(least_, LeastGainOfQuality * now);
+    // A corner of the shape goes only where nothing else helps.
+    Outcome best, keeping;
+    for (const Outcome& outcome : usual)
     {
-      apply(best);
+      if (outcome.quality >= least)
+      {
+        best = outcome.quality > best.quality ? outcome : best;
+        keeping =
+          outcome.quality > keeping.quality && !losesWhatStandsOut(outcome) ? outcome : keeping;
+      }
+    }
+    if (best.quality > 0.f)
+    {
+      apply(keeping.quality > 0.f ? keeping : best);
       return true;
     }
     return applyIfFewer(fewestSlivers(triangle), 0) || removeWithHole(triangle);

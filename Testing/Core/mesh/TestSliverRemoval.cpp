@@ -212,4 +212,27 @@ TEST(SliverRemoval, KeepsWhatStandsOut)
   removeSlivers(mesh, LeastQuality);
   EXPECT_TRUE(mesh.isAlive(0));
 }
+
+// Where a flip helps as well, the tip of a pyramid stays: a collapse along the sliver would cut it off.
+TEST(SliverRemoval, FlipsBesideATip)
+{
+  for (const float part : { 0.3f, 0.4f, 0.45f })
+  {
+    for (unsigned slot = 0; slot < 6; ++slot)
+    {
+      Mesh mesh = meshOf(makeGrid(6));
+      const VertexIndex tip = 3 * 7 + 3;
+      ASSERT_EQ(mesh.valence(tip), 6u);
+      mesh.setPosition(tip, mesh.position(tip) + Vector4(0.f, 0.f, 0.15f));
+      const Ring& ring = mesh.ring(tip);
+      const VertexIndex beside = ring[slot], end = ring[ring.after(slot)];
+      const Vector4 onEdge = mesh.position(tip) + part * (mesh.position(end) - mesh.position(tip));
+      mesh.setPosition(beside, onEdge + 0.01f * (mesh.position(beside) - onEdge));
+      ASSERT_EQ(sliversOf(mesh), 1u);
+      removeSlivers(mesh, LeastQuality);
+      EXPECT_EQ(sliversOf(mesh), 0u);
+      EXPECT_TRUE(mesh.isAlive(tip)) << part << " " << slot;
+    }
+  }
+}
 }
