@@ -10,9 +10,11 @@
 #include <fstream>
 #include <string>
 
+#include <unistd.h>
+
 class vtkDataObject;
 
-/** A test with a folder of its own, which is gone afterwards. */
+/** A test with a folder of its own, which is gone afterwards. Other processes may run the same test. */
 class FileTest : public ::testing::Test
 {
 protected:
@@ -20,7 +22,8 @@ protected:
   {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     this->Folder = std::filesystem::temp_directory_path() /
-      ("neuralmesh-" + std::string(test->test_suite_name()) + "-" + test->name());
+      ("neuralmesh-" + std::string(test->test_suite_name()) + "-" + test->name() + "-" +
+        std::to_string(getpid()));
     std::filesystem::remove_all(this->Folder);
     std::filesystem::create_directories(this->Folder);
   }

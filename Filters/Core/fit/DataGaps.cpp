@@ -3,6 +3,7 @@
 
 #include "base/DisjointSets.h"
 #include "cloud/NearestPoints.h"
+#include "fit/CutTubes.h"
 #include "fit/EmptyPieces.h"
 #include "fit/LocalSpacing.h"
 #include "fit/Webs.h"
@@ -213,11 +214,17 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
 {
   const NumberedTriangles triangles(mesh, executor);
   std::vector<std::uint32_t> samples(triangles.all().size(), 0);
+  const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
+  const double most = std::max(LeastMedians * double(medianDistance), spacing);
   executor.forEachRange(places.size(), PlacesCountedPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (const PlaceOnMesh& place : places.subspan(begin, end - begin))
       {
+        if (double(place.squaredDistance) > most * most)
+        {
+          continue;
+        }
         const std::uint32_t t = triangles.number(place.triangle[0], place.triangle[1]);
         std::atomic_ref(samples[t]).fetch_add(1, std::memory_order_relaxed);
       }
@@ -321,7 +328,7 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   float medianDistance, const GapPlan& plan, const Executor& executor)
 {
   OpenedGaps result;
-  const std::vector<Triangle> gaps = plan.mayOpen
+  std::vector<Triangle> gaps = plan.mayOpen
     ? findDataGaps(cloud, mesh, places, medianDistance, plan.mustBeFar, executor)
     : std::vector<Triangle>();
   result.triangles = gaps.size();
@@ -329,22 +336,27 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   {
     const std::vector<std::uint8_t> valences = valencesOf(mesh);
     mesh.removeTriangles(gaps);
-    mesh.removeTriangles(leftOverPieces(mesh, places, valences, medianDistance, plan.leastPiece));
+    const std::vector<Triangle> left =
+      leftOverPieces(mesh, places, valences, medianDistance, plan.leastPiece);
+    mesh.removeTriangles(left);
+    gaps.insert(gaps.end(), left.begin(), left.end());
   }
   BoundaryManager boundaries(mesh);
   if (boundaries.loopCount() == 0)
   {
     return result;
   }
-  result.joined = mergeBoundaries(mesh, boundaries, plan.bridgeWidth, LoopDistance::Mean);
   const SomePoints points(cloud, places.size(), executor);
   const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
   const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
+  const auto isCovered = [&](const Triangle& triangle)
+  { return points.distance(centerOf(mesh, triangle)) <= reach; };
   // Holes as wide as a bridge are filled, and those in which there are points.
-  result.filled = fillBoundaries(
-    mesh, boundaries, std::max(plan.bridgeWidth, WidestHole * mesh.meanEdge()),
-    [&](const Triangle& triangle) { return points.distance(centerOf(mesh, triangle)) <= reach; },
-    std::numeric_limits<std::size_t>::max(), CosineOfHole);
+  const double longest = std::max(plan.bridgeWidth, WidestHole * mesh.meanEdge());
+  result.filled = closeEndsOfTubes(mesh, boundaries, gaps, longest, isCovered);
+  result.joined = mergeBoundaries(mesh, boundaries, plan.bridgeWidth, LoopDistance::Mean);
+  result.filled += fillBoundaries(
+    mesh, boundaries, longest, isCovered, std::numeric_limits<std::size_t>::max(), CosineOfHole);
   return result;
 }
 }

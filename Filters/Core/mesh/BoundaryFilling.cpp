@@ -48,9 +48,10 @@ float cosineAround(const Mesh& mesh, const std::vector<VertexIndex>& loop)
   return lengths > 0.f ? dot(area, normals) / lengths : 0.f;
 }
 
-/// Fills a loop corner by corner; leaves it as it was if it cannot be filled wholly.
-bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLongestEdge,
-  const std::function<bool(const Triangle&)>& isAllowed)
+/// Fills a loop corner by corner; leaves it as it was if it cannot be filled wholly. Returns the triangles of what was
+/// filled.
+std::vector<Triangle> fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop,
+  float squaredLongestEdge, const std::function<bool(const Triangle&)>& isAllowed)
 {
   const auto isTooLong = [&](VertexIndex v)
   {
@@ -59,7 +60,7 @@ bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLon
   };
   if (std::any_of(loop.begin(), loop.end(), isTooLong))
   {
-    return false;
+    return {};
   }
   std::priority_queue<RimCorner, std::vector<RimCorner>, std::greater<>> corners;
   const auto consider = [&](VertexIndex v)
@@ -95,12 +96,12 @@ bool fillLoop(Mesh& mesh, const std::vector<VertexIndex>& loop, float squaredLon
       }
     }
   }
-  if (filled.size() + 2 == loop.size())
+  if (filled.size() + 2 != loop.size())
   {
-    return true;
+    mesh.removeTriangles(filled);
+    filled.clear();
   }
-  mesh.removeTriangles(filled);
-  return false;
+  return filled;
 }
 }
 
@@ -113,13 +114,37 @@ std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longe
     const std::vector<VertexIndex> loop = boundaries.vertices(mesh, index);
     const bool isWanted = !loop.empty() && loop.size() <= mostEdges &&
       (leastCosine <= -1.f || loop.size() == 3 || cosineAround(mesh, loop) >= leastCosine);
-    if (isWanted && fillLoop(mesh, loop, float(longestEdge * longestEdge), isAllowed))
+    if (isWanted && !fillLoop(mesh, loop, float(longestEdge * longestEdge), isAllowed).empty())
     {
       boundaries.retrace(mesh, loop);
       ++filled;
     }
   }
   return filled;
+}
+
+bool fillBoth(Mesh& mesh, BoundaryManager& boundaries,
+  const std::array<BoundaryManager::LoopIndex, 2>& loops, double longestEdge,
+  const std::function<bool(const Triangle&)>& isAllowed)
+{
+  const std::array vertices{ boundaries.vertices(mesh, loops[0]),
+    boundaries.vertices(mesh, loops[1]) };
+  const auto squaredLongest = float(longestEdge * longestEdge);
+  const std::vector<Triangle> first = fillLoop(mesh, vertices[0], squaredLongest, isAllowed);
+  if (first.empty())
+  {
+    return false;
+  }
+  if (fillLoop(mesh, vertices[1], squaredLongest, isAllowed).empty())
+  {
+    mesh.removeTriangles(first);
+    return false;
+  }
+  for (const std::vector<VertexIndex>& loop : vertices)
+  {
+    boundaries.retrace(mesh, loop);
+  }
+  return true;
 }
 
 bool fillBoundary(Mesh& mesh, BoundaryManager& boundaries, BoundaryManager::LoopIndex loop,
@@ -133,7 +158,7 @@ bool fillBoundary(Mesh& mesh, BoundaryManager& boundaries, BoundaryManager::Loop
     return area <= mostArea;
   };
   const bool isFilled = !vertices.empty() && cosineAround(mesh, vertices) >= leastCosine &&
-    fillLoop(mesh, vertices, std::numeric_limits<float>::max(), isWithinArea);
+    !fillLoop(mesh, vertices, std::numeric_limits<float>::max(), isWithinArea).empty();
   if (isFilled)
   {
     boundaries.retrace(mesh, vertices);
@@ -204,7 +229,7 @@ std::size_t fillShortBoundaries(Mesh& mesh, BoundaryManager& boundaries, double 
         std::sqrt(double(squaredNorm(mesh.position(mesh.ring(v).back()) - mesh.position(v))));
     }
     if (!loop.empty() && length < outline &&
-      fillLoop(mesh, loop, std::numeric_limits<float>::max(), nullptr))
+      !fillLoop(mesh, loop, std::numeric_limits<float>::max(), nullptr).empty())
     {
       boundaries.retrace(mesh, loop);
       ++filled;

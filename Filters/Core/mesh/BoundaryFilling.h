@@ -3,6 +3,7 @@
 
 #include "mesh/BoundaryManager.h"
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -23,6 +24,11 @@ inline constexpr float CosineOfOutline = -0.34f;
 std::size_t fillBoundaries(Mesh& mesh, BoundaryManager& boundaries, double longestEdge,
   const std::function<bool(const Triangle&)>& isAllowed = nullptr,
   std::size_t mostEdges = std::numeric_limits<std::size_t>::max(), float leastCosine = -1.f);
+
+/// As fillBoundaries() for these two, whatever the normals around them: fills both, or none. Returns whether it did.
+bool fillBoth(Mesh& mesh, BoundaryManager& boundaries,
+  const std::array<BoundaryManager::LoopIndex, 2>& loops, double longestEdge,
+  const std::function<bool(const Triangle&)>& isAllowed);
 
 /// Fills this loop, unless the normals around are farther from that of what would fill it, or its triangles have more
 /// area. Returns whether it did.

@@ -318,6 +318,100 @@ TEST(DataGaps, WebsAcrossHandlesAreCut)
   }
 }
 
+// Two bodies that are joined by a tube shorter than bridges are wide: where no points lie on the tube, it goes, and each
+// body is closed for itself. A few points beside the tube, farther from it than points are from each other, do not hold
+// it. Where points lie on it, it stays.
+TEST(DataGaps, TubesBetweenBodiesAreCut)
+{
+  constexpr unsigned Side = 20;
+  constexpr double Distance = 0.16, HalfWidth = 0.1, HalfHeight = 0.15, Beside = 0.03;
+  const TriangleMesh cube = makeCube(Side);
+  const auto all = std::uint32_t(cube.points.size());
+  TriangleMesh bodies = cube, tube, joined;
+  for (const Eigen::Vector3d& point : cube.points)
+  {
+    bodies.points.emplace_back(1. + Distance - point.x(), point.y(), point.z());
+  }
+  joined.points = bodies.points;
+  std::set<std::array<std::uint32_t, 2>> edges;
+  for (const auto& [a, b, c] : cube.triangles)
+  {
+    bodies.triangles.push_back({ all + a, all + c, all + b });
+    const Eigen::Vector3d center = (cube.points[a] + cube.points[b] + cube.points[c]) / 3.;
+    if (center.x() > 0.49 && std::abs(center.y()) < HalfWidth && std::abs(center.z()) < HalfHeight)
+    {
+      edges.insert({ { a, b }, { b, c }, { c, a } });
+    }
+    else
+    {
+      joined.triangles.push_back({ a, b, c });
+      joined.triangles.push_back({ all + a, all + c, all + b });
+    }
+  }
+  for (const auto& [a, b] : edges)
+  {
+    if (!edges.contains({ b, a }))
+    {
+      tube.triangles.push_back({ a, b, all + b });
+      tube.triangles.push_back({ a, all + b, all + a });
+    }
+  }
+  joined.triangles.insert(joined.triangles.end(), tube.triangles.begin(), tube.triangles.end());
+  enum class Tube
+  {
+    Bare,
+    HasPointsBeside,
+    HasPoints
+  };
+  for (const Tube kind : { Tube::Bare, Tube::HasPointsBeside, Tube::HasPoints })
+  {
+    const bool isCut = kind != Tube::HasPoints;
+    std::vector<Eigen::Vector3d> points =
+      generateCloud(isCut ? bodies : joined, CloudOptions{ .count = 60000 });
+    // Those of the faces at the ends of the tube, at its wall: they are as near to that as to the faces around it.
+    std::erase_if(points,
+      [&](const Eigen::Vector3d& point)
+      {
+        const double y = std::abs(point.y()) / HalfWidth, z = std::abs(point.z()) / HalfHeight;
+        return isCut && point.x() > 0.49 && point.x() < 0.51 + Distance && y < 1. && z < 1. &&
+          (y > 0.8 || z > 0.8);
+      });
+    for (int i = -2; i <= 2 && kind == Tube::HasPointsBeside; ++i)
+    {
+      points.emplace_back(0.5 * (1. + Distance), HalfWidth + Beside, 0.05 * i);
+    }
+    const PointCloud cloud(points);
+    Mesh mesh = buildMesh(joined, cloud);
+    ASSERT_EQ(reportOf(mesh).boundaryLoops, 0u);
+    const OpenedGaps gaps = openedGaps(cloud, mesh, 2. * Distance / cloud.unit());
+    EXPECT_EQ(gaps.triangles >= tube.triangles.size(), isCut);
+    EXPECT_EQ(gaps.triangles > 0, isCut);
+    EXPECT_EQ(gaps.filled, isCut ? 2u : 0u);
+    EXPECT_EQ(gaps.joined, 0u);
+    mesh.dropErased();
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(reportOf(mesh).boundaryLoops, 0u);
+    EXPECT_EQ(reportOf(mesh).components, isCut ? 2u : 1u);
+  }
+}
+
+// A pipe with a narrow band without points stays whole: its ends do not look at each other.
+TEST(DataGaps, PipesStayJoined)
+{
+  constexpr double Begin = 0.2, End = 0.45;
+  TriangleMesh pipe = makeCube(20);
+  std::vector<Eigen::Vector3d> points = generateCloud(pipe, CloudOptions{ .count = 60000 });
+  std::erase_if(
+    points, [](const Eigen::Vector3d& point) { return point.z() > Begin && point.z() < End; });
+  const PointCloud cloud(points);
+  Mesh mesh = buildMesh(pipe, cloud);
+  const OpenedGaps gaps = openedGaps(cloud, mesh, 0.5 / cloud.unit());
+  EXPECT_GT(gaps.triangles, 100u);
+  EXPECT_EQ(gaps.joined, 1u);
+  EXPECT_EQ(gaps.filled, 0u);
+  EXPECT_EQ(reportOf(mesh).components, 1u);
+}
+
 // A web across a narrow ring is found by its two sides, which are closer to points than a hole must be from all of them; a
 // side alone, and the two sides of a thin plate, are none.
 TEST(DataGaps, NarrowWebsAreToldByBothSides)
