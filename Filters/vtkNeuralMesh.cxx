@@ -2,6 +2,7 @@
 #include "vtkNeuralMesh.h"
 
 #include "base/AtomicFile.h"
+#include "base/InterruptibleExecutor.h"
 #include "base/ThreadPool.h"
 #include "cloud/CoordinateRange.h"
 #include "cloud/MeshBuilder.h"
@@ -306,9 +307,25 @@ int vtkNeuralMesh::RequestData(
   const neuralmesh::OrientationHints hints = orientation.GetHints();
   const neuralmesh::ThreadPool executor(vtkNeuralMeshThreads(this->NumberOfThreads));
   this->Times->enter(neuralmesh::Phase::Cloud);
-  const neuralmesh::PointCloud cloud(collector.GetPoints(), weights,
-    carries || this->ExplainPoints || hints.needOrigins(), executor);
+  const bool keepsOrigins = carries || this->ExplainPoints || hints.needOrigins();
+  vtkNeuralMeshProgress progress(this);
+  const neuralmesh::InterruptibleExecutor interruptible(
+    executor, [&] { return !this->MayAbortInCloud() || progress.Report(0.0); });
+  const auto made = neuralmesh::unlessInterrupted(
+    [&]
+    {
+      return std::optional<neuralmesh::PointCloud>(
+        std::in_place, collector.GetPoints(), weights, keepsOrigins, interruptible);
+    });
   this->Times->leave();
+  if (!made)
+  {
+    this->AbortExecute = 0;
+    this->StopReason = neuralmesh::name(neuralmesh::StopReason::Cancelled).data();
+    vtkNeuralMeshReport::FillLearningCurve({}, vtkTable::GetData(outputVector, 1));
+    return 1;
+  }
+  const neuralmesh::PointCloud& cloud = *made;
   collector.ReleasePoints();
   std::vector<double>().swap(weights);
 

@@ -98,6 +98,7 @@ std::vector<std::uint32_t> mortonOrder(
     sortByDigit(entries, sorted, shift, executor);
     entries.swap(sorted);
   }
+  std::vector<MortonEntry>().swap(sorted);
   std::vector<std::uint32_t> order(points.size());
   executor.forEachRange(points.size(), grain,
     [&](std::size_t begin, std::size_t end)

@@ -14,7 +14,8 @@ constexpr std::size_t MostForPlaces = 256;
 constexpr std::size_t BoxesOfPart = 1024;
 }
 
-void NearestPoints::Boxes::set(std::size_t i, const Box& box)
+template <typename Points>
+void NearestOf<Points>::Boxes::set(std::size_t i, const Box& box)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -23,7 +24,8 @@ void NearestPoints::Boxes::set(std::size_t i, const Box& box)
   }
 }
 
-NearestPoints::NearestPoints(std::span<const Vector4> points, const Executor& executor)
+template <typename Points>
+NearestOf<Points>::NearestOf(Points points, const Executor& executor)
   : points_(points)
 {
   std::vector<Box> boxes((points.size() + Fan - 1) / Fan);
@@ -54,7 +56,8 @@ NearestPoints::NearestPoints(std::span<const Vector4> points, const Executor& ex
 }
 
 /// The nearest that were found so far, in order.
-struct NearestPoints::Search
+template <typename Points>
+struct NearestOf<Points>::Search
 {
   Vector4 point;
   std::span<NearPoint> nearest;
@@ -78,7 +81,8 @@ struct NearestPoints::Search
   }
 };
 
-void NearestPoints::visit(Search& search, std::size_t level, std::size_t group) const
+template <typename Points>
+void NearestOf<Points>::visit(Search& search, std::size_t level, std::size_t group) const
 {
   // Those that may hold something nearer, the nearest first.
   std::array<NearPoint, Fan> order;
@@ -120,7 +124,8 @@ void NearestPoints::visit(Search& search, std::size_t level, std::size_t group) 
   }
 }
 
-std::size_t NearestPoints::find(Vector4 point, std::span<NearPoint> nearest) const
+template <typename Points>
+std::size_t NearestOf<Points>::find(Vector4 point, std::span<NearPoint> nearest) const
 {
   Search search{ point, nearest };
   if (!levels_.empty() && !nearest.empty())
@@ -130,15 +135,17 @@ std::size_t NearestPoints::find(Vector4 point, std::span<NearPoint> nearest) con
   return search.count;
 }
 
-std::size_t NearestPoints::findOf(std::uint32_t index, std::span<NearPoint> nearest) const
+template <typename Points>
+std::size_t NearestOf<Points>::findOf(std::uint32_t index, std::span<NearPoint> nearest) const
 {
   const Vector4 point = points_[index];
   const std::size_t wanted = std::min(nearest.size(), points_.size());
   const std::size_t begin = index - std::min<std::size_t>(index, wanted);
-  const auto around = points_.subspan(begin, std::min(2 * wanted + 1, points_.size() - begin));
-  std::vector<float> squares(around.size());
-  std::transform(around.begin(), around.end(), squares.begin(),
-    [point](Vector4 other) { return squaredNorm(other - point); });
+  std::vector<float> squares(std::min(2 * wanted + 1, points_.size() - begin));
+  for (std::size_t i = 0; i < squares.size(); ++i)
+  {
+    squares[i] = squaredNorm(points_[begin + i] - point);
+  }
   const auto last = squares.begin() + std::ptrdiff_t(wanted - 1);
   std::nth_element(squares.begin(), last, squares.end());
   if (*last == 0.f)
@@ -154,18 +161,21 @@ std::size_t NearestPoints::findOf(std::uint32_t index, std::span<NearPoint> near
   return search.count;
 }
 
-std::size_t NearestPoints::findPlaces(Vector4 point, std::span<NearPoint> nearest) const
+template <typename Points>
+std::size_t NearestOf<Points>::findPlaces(Vector4 point, std::span<NearPoint> nearest) const
 {
   return findPlacesBy([&](std::span<NearPoint> found) { return find(point, found); }, nearest);
 }
 
-std::size_t NearestPoints::findPlaces(std::uint32_t index, std::span<NearPoint> nearest) const
+template <typename Points>
+std::size_t NearestOf<Points>::findPlaces(std::uint32_t index, std::span<NearPoint> nearest) const
 {
   return findPlacesBy([&](std::span<NearPoint> found) { return findOf(index, found); }, nearest);
 }
 
+template <typename Points>
 template <typename Find>
-std::size_t NearestPoints::findPlacesBy(const Find& find, std::span<NearPoint> nearest) const
+std::size_t NearestOf<Points>::findPlacesBy(const Find& find, std::span<NearPoint> nearest) const
 {
   std::vector<NearPoint> found;
   std::size_t places = 0;
@@ -192,7 +202,8 @@ std::size_t NearestPoints::findPlacesBy(const Find& find, std::span<NearPoint> n
   return places;
 }
 
-std::size_t NearestPoints::findWithin(
+template <typename Points>
+std::size_t NearestOf<Points>::findWithin(
   Vector4 point, float radius, std::span<NearPoint> nearest, std::vector<NearPoint>& buffer) const
 {
   const std::size_t wanted = std::min(nearest.size(), points_.size());
@@ -215,4 +226,7 @@ std::size_t NearestPoints::findWithin(
   std::copy(buffer.begin(), end, nearest.begin());
   return wanted;
 }
+
+template class NearestOf<std::span<const Vector4>>;
+template class NearestOf<PickedPoints>;
 }

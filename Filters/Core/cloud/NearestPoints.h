@@ -3,6 +3,7 @@
 
 #include "base/Executor.h"
 #include "base/Vector4.h"
+#include "cloud/PickedPoints.h"
 #include "mesh/BoxTree.h"
 
 #include <algorithm>
@@ -38,14 +39,14 @@ private:
 /// The nearest of many points, by boxes around eight that follow each other, around eight such boxes,
 /// and so on: right for any order of the points, fast if it is that of a Morton curve. The points are
 /// not copied and must outlive it; the boxes take 4 bytes a point. However uneven the density is, the
-/// boxes follow it.
-class NearestPoints
+/// boxes follow it. `Points` is a view of them: see the two names below.
+template <typename Points>
+class NearestOf
 {
 public:
-  explicit NearestPoints(
-    std::span<const Vector4> points, const Executor& executor = Executor::sequential());
+  explicit NearestOf(Points points, const Executor& executor = Executor::sequential());
 
-  std::span<const Vector4> points() const { return points_; }
+  Points points() const { return points_; }
 
   /// Finds as many as `nearest` has room for, the nearest first; of two as far, the one with the lower
   /// index. Returns how many there are: less only if there are not so many points.
@@ -161,7 +162,14 @@ private:
   struct Search;
   void visit(Search& search, std::size_t level, std::size_t group) const;
 
-  std::span<const Vector4> points_;
+  Points points_;
   std::vector<std::vector<Boxes>> levels_; ///< the finest first; one group is the coarsest
 };
+
+/// The nearest of all points.
+using NearestPoints = NearestOf<std::span<const Vector4>>;
+/// The nearest of some that are picked from many, which needs no copy of them.
+using NearestPickedPoints = NearestOf<PickedPoints>;
+extern template class NearestOf<std::span<const Vector4>>;
+extern template class NearestOf<PickedPoints>;
 }

@@ -85,14 +85,17 @@ void sortAlongCurve(std::span<KeyAndPlace> order, std::span<const Vector4> point
 /// What a cloud is made of.
 struct PointCloud::Input
 {
-  Input(const PointSpans& inputPoints, std::span<const double> inputWeights)
+  Input(const PointSpans& inputPoints, std::span<const double> inputWeights,
+    const Executor& inputExecutor)
     : points(inputPoints)
     , weights(inputWeights)
+    , executor(inputExecutor)
   {
   }
 
   const PointSpans& points;
   std::span<const double> weights;
+  const Executor& executor;
 
   bool hasWeight(std::size_t index) const
   {
@@ -114,10 +117,21 @@ struct PointCloud::Input
       });
   }
 
+  /// The same for all points, in their order. An interruption comes between ranges.
+  template <typename Use>
+  void forEachFinite(Use use) const
+  {
+    for (std::size_t begin = 0; begin < points.size(); begin += PointsPerRange)
+    {
+      const std::size_t end = std::min(points.size(), begin + PointsPerRange);
+      executor.forEachPart(1, [&](std::size_t) { forEachFinite(begin, end, use); });
+    }
+  }
+
   std::size_t finiteCount() const
   {
     std::size_t count = 0;
-    forEachFinite(0, points.size(), [&](std::size_t, const Eigen::Vector3d&) { ++count; });
+    forEachFinite([&](std::size_t, const Eigen::Vector3d&) { ++count; });
     return count;
   }
 
@@ -147,7 +161,7 @@ struct PointCloud::Input
 
   /// Of `count` finite points, the coordinates that come at these places if each axis is sorted by itself.
   std::vector<Eigen::Vector3d> sortedAt(
-    const std::vector<std::size_t>& ranks, std::size_t count, const Executor& executor) const
+    const std::vector<std::size_t>& ranks, std::size_t count) const
   {
     std::vector<Eigen::Vector3d> result(ranks.size());
     executor.forEachPart(3,
@@ -164,7 +178,7 @@ struct PointCloud::Input
         while (!std::all_of(searches.begin(), searches.end(),
           [](const OrderStatisticSearch& search) { return search.isFound(); }))
         {
-          forEachFinite(0, points.size(),
+          forEachFinite(
             [&](std::size_t, const Eigen::Vector3d& point)
             {
               for (OrderStatisticSearch& search : searches)
@@ -187,12 +201,11 @@ struct PointCloud::Input
 
   /// Leaves out the few that are by far farther from the others than these are from each other, and
   /// tells how many of `count` there are. `median` is that of all.
-  std::size_t leaveOutFar(
-    std::size_t count, const Eigen::Vector3d& median, const Executor& executor)
+  std::size_t leaveOutFar(std::size_t count, const Eigen::Vector3d& median)
   {
     const std::size_t most =
       std::max(std::size_t(PartOfFar * double(count)), std::min(count / PointsPerFar, FarOfFew));
-    const std::vector<double> distances = farthestFrom(median, most + 1, executor);
+    const std::vector<double> distances = farthestFrom(median, most + 1);
     for (std::size_t far = most; far > 0; --far)
     {
       if (distances[far] > 0. && distances[far - 1] >= FarGap * distances[far])
@@ -235,8 +248,7 @@ private:
   }
 
   /// The largest distances of points, the largest first.
-  std::vector<double> farthestFrom(
-    const Eigen::Vector3d& place, std::size_t most, const Executor& executor) const
+  std::vector<double> farthestFrom(const Eigen::Vector3d& place, std::size_t most) const
   {
     const std::size_t parts = std::clamp<std::size_t>(points.size() / PointsPerRange, 1, MostParts);
     std::vector<std::vector<double>> largest(parts); // heaps with the smallest on top
@@ -305,7 +317,7 @@ private:
 PointCloud::PointCloud(const PointSpans& points, std::span<const double> weights, bool keepsOrigins,
   const Executor& executor)
 {
-  Input input(points, weights);
+  Input input(points, weights, executor);
   std::size_t finite = input.finiteCount();
   droppedCount_ = input.weightCount() - finite;
   if (finite == 0)
@@ -316,19 +328,18 @@ PointCloud::PointCloud(const PointSpans& points, std::span<const double> weights
   const auto bulkRanks = [](std::size_t count) {
     return std::vector<std::size_t>{ count / 100, count - 1 - count / 100, count / 2 };
   };
-  std::vector<Eigen::Vector3d> places = input.sortedAt(bulkRanks(finite), finite, executor);
-  if (const std::size_t far = input.leaveOutFar(finite, places.back(), executor); far > 0)
+  std::vector<Eigen::Vector3d> places = input.sortedAt(bulkRanks(finite), finite);
+  if (const std::size_t far = input.leaveOutFar(finite, places.back()); far > 0)
   {
     farPoints_ = input.leftOut();
     finite -= far;
-    places = input.sortedAt(bulkRanks(finite), finite, executor);
+    places = input.sortedAt(bulkRanks(finite), finite);
   }
   Eigen::AlignedBox3d bulk(places[0], places[1]);
   if (!(bulk.diagonal().norm() > 0.))
   {
     // Nearly all points on one spot: the rest is what there is.
-    input.forEachFinite(
-      0, points.size(), [&](std::size_t, const Eigen::Vector3d& point) { bulk.extend(point); });
+    input.forEachFinite([&](std::size_t, const Eigen::Vector3d& point) { bulk.extend(point); });
   }
   center_ = bulk.center();
   const double size = bulk.diagonal().stableNorm();
@@ -351,7 +362,7 @@ PointCloud::PointCloud(const PointSpans& points, std::span<const double> weights
 void PointCloud::findBoxes(const Input& input, const Eigen::AlignedBox3d& bulk)
 {
   Eigen::AlignedBox3d box;
-  input.forEachFinite(0, input.points.size(),
+  input.forEachFinite(
     [&](std::size_t, const Eigen::Vector3d& point)
     {
       if (takesIn(point))
@@ -439,7 +450,7 @@ void PointCloud::takeWeights(const Input& input)
   double largest = 0., sum = 0.;
   const auto forEachTaken = [&](const auto& use)
   {
-    input.forEachFinite(0, input.points.size(),
+    input.forEachFinite(
       [&](std::size_t index, const Eigen::Vector3d& point)
       {
         if (takesIn(point))

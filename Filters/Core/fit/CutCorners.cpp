@@ -14,6 +14,7 @@ namespace
 {
 /// A part for the executor.
 constexpr std::size_t VerticesPerCornerSearch = 1024;
+constexpr std::size_t CentersPerCornerSearch = 64;
 
 class CutCorners
 {
@@ -28,7 +29,7 @@ public:
     , isSparse_(mesh.indexEnd(), 0)
     , isLocked_(mesh.indexEnd(), 0)
     , changed_(mesh.indexEnd())
-    , search_(mesh, samples_, scale_, findBendsAndGaps(), isLocked_)
+    , corners_(findBendsAndGaps())
   {
   }
 
@@ -88,6 +89,7 @@ public:
   ChangedVertices complete(Mesh& mesh, const std::vector<CornerCenter>& centers, std::size_t most)
   {
     std::size_t left = most;
+    CornerSearch search = newSearch();
     for (const auto& [gain, center] : inOrder(centers))
     {
       // Samples are no longer known around what has moved.
@@ -96,7 +98,7 @@ public:
         continue;
       }
       // What has moved farther off has changed the planes: they may no longer meet near by.
-      const Corner corner = search_.find(center);
+      const Corner corner = search.find(center);
       if (corner.gain > 0.)
       {
         apply(mesh, center, corner);
@@ -146,15 +148,26 @@ private:
     return double(std::count(isBent_.begin(), isBent_.end(), 1));
   }
 
+  CornerSearch newSearch() const { return { mesh_, samples_, scale_, corners_, isLocked_ }; }
+
   std::vector<std::pair<double, CornerCenter>> inOrder(const std::vector<CornerCenter>& centers)
   {
-    std::vector<std::pair<double, CornerCenter>> order;
-    for (const CornerCenter& center : centers)
-    {
-      const Corner corner = search_.find(center);
-      if (corner.gain > 0.)
+    std::vector<double> gains(centers.size());
+    executor_.forEachRange(centers.size(), CentersPerCornerSearch,
+      [&](std::size_t begin, std::size_t end)
       {
-        order.emplace_back(-corner.gain, center);
+        CornerSearch search = newSearch();
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          gains[i] = search.find(centers[i]).gain;
+        }
+      });
+    std::vector<std::pair<double, CornerCenter>> order;
+    for (std::size_t i = 0; i < centers.size(); ++i)
+    {
+      if (gains[i] > 0.)
+      {
+        order.emplace_back(-gains[i], centers[i]);
       }
     }
     std::sort(order.begin(), order.end());
@@ -207,7 +220,7 @@ private:
   std::vector<std::uint8_t> isBent_, isSparse_;
   std::vector<std::uint8_t> isLocked_;
   ChangedVertices changed_;
-  CornerSearch search_;
+  double corners_; ///< that there may be
 };
 }
 

@@ -19,7 +19,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -67,50 +66,30 @@ constexpr double WidestHole = 5.;
 /// ... and the surface around it continues across it: the least cosine between normals.
 constexpr float CosineOfHole = 0.3f;
 
-/// The closest of some points, which should be near to each other where they follow each other.
+template <typename Points>
+NearPoint closestOf(const NearestOf<Points>& nearest, Vector4 point)
+{
+  std::array<NearPoint, 1> found;
+  nearest.find(point, found);
+  return found[0];
+}
+
+/// Searches so many points of a cloud, which must outlive it.
 class SomePoints
 {
 public:
-  SomePoints(std::vector<Vector4> points, const Executor& executor)
-    : points_(std::move(points))
-    , nearest_(points_, executor)
-  {
-  }
-  /// So many of a cloud, which must outlive them.
   SomePoints(const PointCloud& cloud, std::size_t count, const Executor& executor)
-    : points_(picked(cloud, count))
-    , nearest_(points_.empty() ? cloud.points() : std::span<const Vector4>(points_), executor)
+    : nearest_(PickedPoints(cloud.points(), count), executor)
   {
   }
 
-  NearPoint closest(Vector4 point) const
+  double distance(Vector4 point) const
   {
-    std::array<NearPoint, 1> found;
-    nearest_.find(point, found);
-    return found[0];
+    return std::sqrt(double(closestOf(nearest_, point).squaredDistance));
   }
-  double distance(Vector4 point) const { return std::sqrt(double(closest(point).squaredDistance)); }
 
 private:
-  /// None if these are all.
-  static std::vector<Vector4> picked(const PointCloud& cloud, std::size_t count)
-  {
-    const std::size_t all = cloud.points().size();
-    std::vector<Vector4> points;
-    if (count == all)
-    {
-      return points;
-    }
-    points.reserve(count);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      points.push_back(cloud.points()[i * all / count]);
-    }
-    return points;
-  }
-
-  std::vector<Vector4> points_;
-  NearestPoints nearest_;
+  NearestPickedPoints nearest_;
 };
 
 /// The distance between samples where they are sparse.
@@ -140,15 +119,14 @@ public:
     std::call_once(hasPoints_,
       [this]
       {
-        std::vector<Vector4> points;
-        points.reserve(places_.size());
+        points_.reserve(places_.size());
         for (const PlaceOnMesh& place : places_)
         {
-          points.push_back(pointAt(place, mesh_.positions()));
+          points_.push_back(pointAt(place, mesh_.positions()));
         }
-        points_.emplace(std::move(points), executor_.uninterrupted());
+        nearest_.emplace(points_, executor_.uninterrupted());
       });
-    const double spacing = double(spacing_.samplesAt(places_[points_->closest(point).index]));
+    const double spacing = double(spacing_.samplesAt(places_[closestOf(*nearest_, point).index]));
     return spacing > least_ ? spacing : 0.;
   }
 
@@ -160,7 +138,8 @@ private:
   double least_;
   bool isAnywhere_;
   std::once_flag hasPoints_;
-  std::optional<SomePoints> points_;
+  std::vector<Vector4> points_;
+  std::optional<NearestPoints> nearest_; ///< of them
 };
 
 /// The small pieces that were cut off and explain no points. A piece is a part of the surface if it
@@ -206,13 +185,22 @@ std::vector<Triangle> leftOverPieces(const Mesh& mesh, std::span<const PlaceOnMe
     });
   return small;
 }
-}
 
-std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
+/// Pieces of a mesh without samples.
+struct JudgedPieces
+{
+  std::vector<Triangle> triangles; ///< of the mesh
+  std::vector<EmptyPiece> pieces;
+  std::vector<bool> isGap;
+  std::vector<bool> mayBeSide; ///< of a web
+};
+
+/// What it takes of memory is free again before webs are looked for.
+JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
   std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar,
   const Executor& executor)
 {
-  const NumberedTriangles triangles(mesh, executor);
+  NumberedTriangles triangles(mesh, executor);
   std::vector<std::uint32_t> samples(triangles.all().size(), 0);
   const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
   const double most = std::max(LeastMedians * double(medianDistance), spacing);
@@ -303,22 +291,31 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
         judge(i);
       }
     });
-  const std::vector<bool> isSideOfWeb(isSide.begin(), isSide.end()),
-    isSure(isGap.begin(), isGap.end());
-  points.reset();
-  for (const auto& [one, other] :
-    findWebs(mesh, triangles.all(), pieces, isSideOfWeb, isSure, executor))
+  return { std::move(triangles).takeAll(), std::move(pieces), { isGap.begin(), isGap.end() },
+    { isSide.begin(), isSide.end() } };
+}
+}
+
+std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
+  std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar,
+  const Executor& executor)
+{
+  auto [triangles, pieces, isGap, mayBeSide] =
+    judgedPieces(cloud, mesh, places, medianDistance, mustBeFar, executor);
+  for (const auto& [one, other] : findWebs(mesh, triangles, pieces, mayBeSide, isGap, executor))
   {
-    isGap[one] = 1;
-    isGap[other] = 1;
+    isGap[one] = true;
+    isGap[other] = true;
   }
   std::vector<Triangle> gaps;
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    if (isGap[i] != 0)
+    if (isGap[i])
     {
-      std::transform(pieces[i].triangles.begin(), pieces[i].triangles.end(),
-        std::back_inserter(gaps), [&](std::uint32_t t) { return triangles.all()[t]; });
+      for (const std::uint32_t t : pieces[i].triangles)
+      {
+        gaps.push_back(triangles[t]);
+      }
     }
   }
   return gaps;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "learn/Learner.h"
 
+#include "base/InterruptibleExecutor.h"
 #include "learn/ParallelLearner.h"
 #include "learn/SequentialLearner.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -21,7 +23,8 @@ std::unique_ptr<Learner> Learner::from(const Mesh& mesh, std::span<const float> 
 
 Learner::Learner(const Parameters& parameters, const Executor& executor)
   : parameters_(parameters)
-  , executor_(executor)
+  , executor_(executor.uninterrupted())
+  , interruptible_(executor)
   , noiseFilter_(parameters)
   , winGain_(parameters)
   , nextAddition_(std::uint64_t(parameters.samplesPerAddition))
@@ -30,11 +33,30 @@ Learner::Learner(const Parameters& parameters, const Executor& executor)
 
 void Learner::learn(std::uint64_t sampleCount, const std::function<void()>& afterBatch)
 {
-  const std::uint64_t end = counts_.iterations + sampleCount;
-  while (counts_.iterations < end && !isComplete())
+  endOfTurn_ = counts_.iterations + sampleCount;
+  finishTurn(afterBatch);
+}
+
+void Learner::finishTurn(const std::function<void()>& afterBatch)
+{
+  const auto goesOn = [this]
+  { return isBatchOpen_ || (counts_.iterations < endOfTurn_ && !isComplete()); };
+  while (goesOn())
   {
-    const std::uint64_t left = end - counts_.iterations;
-    learnBatch(std::size_t(std::min<std::uint64_t>(left, batchSize())));
+    if (!std::exchange(isBatchOpen_, true))
+    {
+      const std::uint64_t left = endOfTurn_ - counts_.iterations;
+      learnBatch(std::size_t(std::min<std::uint64_t>(left, batchSize())));
+    }
+    try
+    {
+      endBatch();
+    }
+    catch (const Interrupted&)
+    {
+      return;
+    }
+    isBatchOpen_ = false;
     if (afterBatch)
     {
       afterBatch();

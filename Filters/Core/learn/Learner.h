@@ -82,6 +82,8 @@ public:
   /// Learns so many samples, batch by batch, and calls `afterBatch`, if it is a function, after
   /// each. Ends early once all is learnt.
   void learn(std::uint64_t sampleCount, const std::function<void()>& afterBatch = {});
+  /// Learns what learn() has left, as its executor was interrupted, to the same bytes as without that.
+  void finishTurn(const std::function<void()>& afterBatch = {});
 
   /// Has `watch` called when a step begins, for a stop watch; of Basic only when it follows another.
   void watchSteps(std::function<void(Step)> watch) { watch_ = std::move(watch); }
@@ -126,6 +128,8 @@ protected:
   Learner(Learner&&) = default;
 
   virtual void learnBatch(std::size_t size) = 0;
+  /// What comes after a batch and may be interrupted: then it has changed nothing, and is called again.
+  virtual void endBatch() {}
   void begin(Step step) const;
 
   /// By which C_vs is multiplied now.
@@ -139,7 +143,8 @@ protected:
   void updateDecay();
 
   Parameters parameters_;
-  const Executor& executor_;
+  const Executor& executor_;      ///< without interruption
+  const Executor& interruptible_; ///< for endBatch()
   NoiseFilter noiseFilter_;
   WinGain winGain_;
   RunCounts counts_;
@@ -149,5 +154,7 @@ protected:
   std::uint64_t nextAddition_ = 0;
   std::uint64_t nextRemoval_ = 0; ///< iteration; number of additions if noise is filtered
   std::uint64_t samplesAfterGrowth_ = 0;
+  std::uint64_t endOfTurn_ = 0; ///< in iterations
+  bool isBatchOpen_ = false;    ///< until its end is complete
 };
 }

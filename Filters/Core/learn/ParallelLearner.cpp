@@ -124,13 +124,17 @@ void ParallelLearner::learnBatch(std::size_t size)
   {
     grow();
   }
+}
+
+void ParallelLearner::endBatch()
+{
   if (isCoarse_ && mesh_.vertexCount() >= verticesOfStage())
   {
-    isCoarse_ = false;
     if (isResolved())
     {
       subdivideAll();
     }
+    isCoarse_ = false;
   }
   tidyIfGrown();
 }
@@ -273,7 +277,7 @@ bool ParallelLearner::isResolved() const
 {
   const auto countWhere = [this](const auto& isCounted)
   {
-    return executor_.sum(mesh_.indexEnd(), VerticesOfPart,
+    return interruptible_.sum(mesh_.indexEnd(), VerticesOfPart,
       [&](std::size_t v)
       {
         double count = 0.;
@@ -300,7 +304,7 @@ bool ParallelLearner::isResolved() const
 std::vector<Vector4> ParallelLearner::normals() const
 {
   std::vector<Vector4> result(mesh_.indexEnd());
-  executor_.forEachRange(result.size(), VerticesOfPart,
+  interruptible_.forEachRange(result.size(), VerticesOfPart,
     [&](std::size_t begin, std::size_t end)
     {
       for (auto v = VertexIndex(begin); v < end; ++v)
@@ -316,9 +320,11 @@ std::vector<Vector4> ParallelLearner::normals() const
 /// The middle of an edge is that of the cubic curve which is perpendicular to the normals at its ends (curved PN
 /// triangles; Vlachos, Peters, Boyd and Mitchell 2001): that of a chord lies inside of what is round.
 /// A vertex keeps a quarter of its activity; one in the middle of an edge gets an eighth of that of both ends.
+/// The learner changes when all is made: an interruption leaves it as it was, but for the order of its vertices.
 void ParallelLearner::subdivideAll()
 {
-  compact();
+  sortAlongCurve(mesh_, interruptible_);
+  noteCompact();
   const auto valuesOf = [this](auto property)
   {
     const auto values = std::as_const(mesh_).values(property);
@@ -327,14 +333,13 @@ void ParallelLearner::subdivideAll()
   const std::vector<float> activityBefore = valuesOf(activity_);
   const std::vector<std::uint8_t> isThinBefore = valuesOf(isThin_);
   const std::vector<Vector4> normal = normals();
-  Subdivision finer = subdivide(mesh_, executor_);
-  mesh_ = std::move(finer.mesh);
-  activity_ = mesh_.addProperty(1.f, OnSplit::Copy);
-  isThin_ = mesh_.addProperty(std::uint8_t(1), OnSplit::Copy);
-  const std::span<float> activity = mesh_.values(activity_);
-  const std::span<std::uint8_t> isThin = mesh_.values(isThin_);
+  auto [mesh, edges] = subdivide(mesh_, interruptible_);
+  const auto activityAfter = mesh.addProperty(1.f, OnSplit::Copy);
+  const auto isThinAfter = mesh.addProperty(std::uint8_t(1), OnSplit::Copy);
+  const std::span<float> activity = mesh.values(activityAfter);
+  const std::span<std::uint8_t> isThin = mesh.values(isThinAfter);
   const std::size_t count = activityBefore.size();
-  executor_.forEachRange(count, VerticesOfPart,
+  interruptible_.forEachRange(count, VerticesOfPart,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
@@ -343,25 +348,29 @@ void ParallelLearner::subdivideAll()
         isThin[v] = isThinBefore[v];
       }
     });
-  executor_.forEachRange(finer.edges.size(), VerticesOfPart,
-    [&](std::size_t begin, std::size_t end)
+  interruptible_.forEachRange(edges.size(), VerticesOfPart,
+    [&, &mesh = mesh, &edges = edges](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        const auto& [a, b] = finer.edges[i];
+        const auto& [a, b] = edges[i];
         const auto middle = VertexIndex(count + i);
-        const Vector4 edge = mesh_.position(b) - mesh_.position(a);
-        mesh_.setPosition(middle,
-          mesh_.position(middle) +
+        const Vector4 edge = mesh.position(b) - mesh.position(a);
+        mesh.setPosition(middle,
+          mesh.position(middle) +
             0.125f * (dot(edge, normal[b]) * normal[b] - dot(edge, normal[a]) * normal[a]));
         activity[middle] = 0.125f * (activityBefore[a] + activityBefore[b]);
         isThin[middle] = isThinBefore[a] | isThinBefore[b];
       }
     });
-  counts_.additions += finer.edges.size();
+  sortAlongCurve(mesh, interruptible_);
+  mesh_ = std::move(mesh);
+  activity_ = activityAfter;
+  isThin_ = isThinAfter;
+  noteCompact();
+  counts_.additions += edges.size();
   nextRemoval_ = counts_.additions + removalInterval();
   updateDecay();
-  compact();
 }
 
 VertexIndex ParallelLearner::facingWinner(Vector4 sample, VertexIndex closest) const
@@ -452,11 +461,19 @@ void ParallelLearner::tidyIfGrown()
 
 void ParallelLearner::compact()
 {
-  const std::vector<VertexIndex> permutation =
-    mortonPermutation(mesh_, boxMin_, boxMax_, executor_);
-  mesh_.renumber(permutation, executor_);
+  sortAlongCurve(mesh_, executor_);
+  noteCompact();
+}
+
+void ParallelLearner::sortAlongCurve(Mesh& mesh, const Executor& executor) const
+{
+  mesh.renumber(mortonPermutation(mesh, boxMin_, boxMax_, executor), executor);
+}
+
+void ParallelLearner::noteCompact()
+{
   reserved_ = mesh_.indexEnd();
-  nextRenumbering_ = 1 + std::size_t(GrowthUntilTidy * double(permutation.size()));
+  nextRenumbering_ = 1 + std::size_t(GrowthUntilTidy * double(mesh_.vertexCount()));
 }
 
 void ParallelLearner::changeCloud(
@@ -495,6 +512,9 @@ void ParallelLearner::exchange(Archive& archive)
   archive(nextAddition_, nextRemoval_, samplesAfterGrowth_);
   archive.require(samplesAfterGrowth_ <= mostSamplesAfterGrowth);
   archive(isCoarse_, hasThinParts_, nextLook_, nextRenumbering_);
+  std::uint64_t left = isBatchOpen_ ? endOfTurn_ - counts_.iterations : 0;
+  archive(isBatchOpen_, left);
+  endOfTurn_ = counts_.iterations + left;
   if (archive.isReading())
   {
     updateDecay();

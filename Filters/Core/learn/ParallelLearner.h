@@ -66,6 +66,7 @@ private:
   };
 
   void learnBatch(std::size_t size) override;
+  void endBatch() override;
   /// A batch, without growth.
   void findWinners(std::size_t size);
   void takeSamples();
@@ -89,6 +90,8 @@ private:
   bool isResolved() const;
   std::vector<Vector4> normals() const;
   void subdivideAll();
+  void sortAlongCurve(Mesh& mesh, const Executor& executor) const;
+  void noteCompact();
 
   void lookForThinParts();
   void makeGrid();

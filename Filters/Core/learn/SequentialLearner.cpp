@@ -74,7 +74,7 @@ SequentialLearner::SequentialLearner(const PointCloud& cloud, const Parameters& 
   }
   isListDue_ = parameters.order == Order::List;
   enterListIfDue();
-  thinParts_.find(neuralMesh_, executor);
+  thinParts_.find(neuralMesh_, executor_);
   observeFirstMesh();
 }
 
@@ -82,7 +82,7 @@ SequentialLearner::SequentialLearner(const PointCloud& cloud, const Parameters& 
   Mesh mesh, std::unique_ptr<ActivityOrder> order, const Executor& executor)
   : Learner(parameters, executor)
   , neuralMesh_(std::move(mesh), std::move(order), cloud.bulkMin(), cloud.bulkMax(),
-      std::size_t(parameters.numberOfVertices), executor)
+      std::size_t(parameters.numberOfVertices), executor_)
   , samples_(cloud.points(), parameters.seed, cloud.weights())
   , thinParts_(neuralMesh_)
 {

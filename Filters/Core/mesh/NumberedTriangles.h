@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace neuralmesh
@@ -71,6 +72,7 @@ public:
   }
 
   const std::vector<Triangle>& all() const { return triangles_; }
+  std::vector<Triangle> takeAll() && { return std::move(triangles_); }
   /// The triangle at `v` that follows its neighbour `next`.
   std::uint32_t number(VertexIndex v, VertexIndex next) const { return numbers_[place(v, next)]; }
   std::span<const std::uint32_t> at(VertexIndex v) const

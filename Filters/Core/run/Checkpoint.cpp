@@ -19,7 +19,7 @@ namespace
 /// The first bytes of the file: its kind, and the byte order of the machine.
 constexpr std::uint64_t Kind = 0x4e6575724d736843u;
 /// Which values there are, and in which order: another number is another version of the program.
-constexpr std::uint64_t Format = 6;
+constexpr std::uint64_t Format = 7;
 using Sum = std::uint64_t;
 
 /// Of the names and sizes of the parameters in the file: with others it is another version, too.

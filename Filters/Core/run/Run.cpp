@@ -23,6 +23,7 @@ StopReason learnAll(LearningState state, Checkpoint& checkpoint, const PointClou
   GrowthRecorder recorder(watch, learner, cloud, parameters.numberOfVertices);
   if (reason == StopReason::None)
   {
+    learner.finishTurn();
     reason = ruleMet(learner, rules, progress);
   }
   for (;;)
@@ -91,7 +92,7 @@ LearntRun Run::learn(std::uint64_t vertices, Beginning beginning, ProgressPart p
   Reconstruction result;
   result.times.enter(Phase::Learning);
   std::unique_ptr<Learner> learner =
-    learnerFrom(std::move(beginning), cloud(), parameters, request_.executor);
+    learnerFrom(std::move(beginning), cloud(), parameters, interruptible_);
   StoppingRules rules(cloud(), parameters, learner->mesh().vertexCount());
   LearningState state{ *learner, rules, result.curve };
   result.resumedIterations = checkpoint.resume(state, !isCancelled_);

@@ -2,6 +2,7 @@
 #include "cloud/PointCloud.h"
 
 #include "base/Random.h"
+#include "ExecutorToInterrupt.h"
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,27 @@ std::vector<Eigen::Vector3d> changed(std::vector<Eigen::Vector3d> points, Change
 }
 
 bool sameCoordinates(Vector4 a, Vector4 b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
+
+/// How often it is asked to run parts, however many.
+class StepCounter final : public Executor
+{
+public:
+  unsigned threadCount() const override { return 1; }
+  std::size_t count() const { return count_; }
+
+protected:
+  void run(std::size_t count, Part part, const void* context) const override
+  {
+    ++count_;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      part(context, i);
+    }
+  }
+
+private:
+  mutable std::size_t count_ = 0;
+};
 
 /// Compares the clouds of points and of the same points shuffled.
 void expectSameSequence(const std::vector<Eigen::Vector3d>& points)
@@ -396,5 +418,27 @@ TEST(PointCloud, Without)
     }
   }
   EXPECT_EQ(next, rest.points().size());
+}
+
+// Promise: who makes a large cloud is asked whether to go on again and again, in each of its steps: at least once for
+// half a million points. An interruption leaves no cloud.
+TEST(PointCloud, IsMadeInPartsThatMayBeInterrupted)
+{
+  constexpr std::size_t Many = 2000000;
+  const std::vector<Eigen::Vector3d> points = cube(Many);
+  const std::vector<double> weights(Many, 2.);
+  const ExecutorToInterrupt whole(std::numeric_limits<std::size_t>::max());
+  const PointCloud cloud(points, weights, true, whole);
+  EXPECT_EQ(cloud.points().size(), Many);
+  const StepCounter counter;
+  EXPECT_EQ(PointCloud(points, weights, true, counter).points().size(), Many);
+  // Points that are finite, three axes twice, distances, box, buckets twice, and weights twice.
+  EXPECT_GT(counter.count(), 12 * Many / 500000);
+  const std::size_t stride = std::max<std::size_t>(1, whole.partCount() / 16);
+  for (std::size_t part = 0; part < whole.partCount(); part += stride)
+  {
+    const ExecutorToInterrupt executor(part);
+    EXPECT_THROW(PointCloud(points, weights, true, executor), Interrupted) << part;
+  }
 }
 }

@@ -4,6 +4,7 @@
 #include "base/Random.h"
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
+#include "ExecutorToInterrupt.h"
 #include "fit/FanFolds.h"
 #include "mesh/SelfIntersections.h"
 #include "MeshTools.h"
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -321,6 +323,35 @@ TEST(CutCorners, AddWhatIsMissing)
       EXPECT_LT(cloud.unit() * std::sqrt(squaredNorm(mesh.position(added) - sharp)), 0.03);
     }
   }
+}
+
+// Promise: an interruption may come between the edges at which corners are looked for, where many are bent and have few
+// samples; it leaves the mesh as it was.
+TEST(CutCorners, AnInterruptionLeavesTheMesh)
+{
+  const TriangleMesh cube = makeCube(20);
+  const auto partsWith = [&](std::size_t points)
+  {
+    CloudOptions options;
+    options.count = points;
+    const PointCloud cloud(generateCloud(cube, options));
+    const Mesh before = buildMesh(cube, cloud);
+    const PlacedCloud placed(cloud, before);
+    const auto add = [&](Mesh& mesh, const Executor& executor)
+    { addAtCorners(mesh, placed.samples, 0., mesh.vertexCount(), executor); };
+    const ExecutorToInterrupt never(std::numeric_limits<std::size_t>::max());
+    Mesh whole = before;
+    add(whole, never);
+    for (std::size_t part = 0; part < never.partCount(); ++part)
+    {
+      Mesh mesh = before;
+      EXPECT_THROW(add(mesh, ExecutorToInterrupt(part)), Interrupted);
+      EXPECT_EQ(trianglesOf(mesh, cloud).points, trianglesOf(before, cloud).points);
+      EXPECT_EQ(trianglesOf(mesh, cloud).triangles, trianglesOf(before, cloud).triangles);
+    }
+    return never.partCount();
+  };
+  EXPECT_GE(partsWith(500), partsWith(50000) + 5);
 }
 
 // The centre of a flat fan may go anywhere within it, but beyond its rim a triangle lies on the others.

@@ -4,6 +4,7 @@
 #include "base/ThreadPool.h"
 #include "cloud/CloudDistance.h"
 #include "cloud/PlaceOnMesh.h"
+#include "ExecutorToInterrupt.h"
 #include "fit/Finish.h"
 #include "learn/ParallelLearner.h"
 #include "learn/SequentialLearner.h"
@@ -206,6 +207,35 @@ TEST(ParallelLearner, GoesOnFromItsState)
   whole.learn(All);
   resumed.learn(All);
   EXPECT_EQ(bytesOf(whole), bytesOf(resumed));
+}
+
+// Promise: where each triangle is made four, an interruption comes before any part of that. It leaves a valid mesh, from
+// which the same learner goes on to the same bytes, and another that reads its state, too.
+TEST(ParallelLearner, GoesOnFromAnInterruption)
+{
+  static constexpr std::uint64_t Vertices = 6000, Samples = 3000000;
+  const ExecutorToInterrupt never(All);
+  ParallelLearner whole(cleanSphere(), ofSize(Vertices), firstSphere(), {}, never);
+  whole.learn(Samples);
+  ASSERT_TRUE(whole.isComplete());
+  // What is resolved, the order before and after, normals, edges, vertices, and what they take over.
+  EXPECT_GT(never.partCount(), 12u);
+  for (std::size_t part = 0; part < never.partCount(); ++part)
+  {
+    const ExecutorToInterrupt executor(part);
+    ParallelLearner learner(cleanSphere(), ofSize(Vertices), firstSphere(), {}, executor);
+    learner.learn(Samples);
+    EXPECT_FALSE(learner.isComplete()) << part;
+    EXPECT_LT(learner.mesh().vertexCount(), Vertices / 3);
+    EXPECT_EQ(defectOf(learner.mesh()), "");
+    ParallelLearner resumed(cleanSphere(), ofSize(Vertices), firstSphere());
+    readInto(resumed, bytesOf(learner));
+    learner.finishTurn();
+    resumed.finishTurn();
+    EXPECT_TRUE(learner.isComplete());
+    EXPECT_EQ(bytesOf(learner), bytesOf(whole)) << part;
+    EXPECT_EQ(bytesOf(resumed), bytesOf(whole)) << part;
+  }
 }
 
 // Points with a larger weight get more of the vertices.
