@@ -33,6 +33,10 @@ constexpr double LeastExpectedSamples = 10.;
 /// It is a gap if one of its triangles is farther from all points than so many times the distance
 /// between samples ... With points at random, one place in e^28 is that far away.
 constexpr double LeastSpacings = 3.;
+/// ... or less, if the mesh is fitted and so many samples should lie in it, as on a tube between two bodies. One place in
+/// e^12 is so far away by chance ...
+constexpr double LeastSpacingsOfMany = 2.;
+constexpr double ManyExpectedSamples = 40.;
 /// ... and than so many times the median distance from samples to the mesh, as noisy points do not
 /// lie on the mesh.
 constexpr double LeastMedians = 5.;
@@ -197,7 +201,7 @@ struct JudgedPieces
 
 /// What it takes of memory is free again before webs are looked for.
 JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
-  std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar,
+  std::span<const PlaceOnMesh> places, float medianDistance, GapRules rules,
   const Executor& executor)
 {
   NumberedTriangles triangles(mesh, executor);
@@ -209,12 +213,11 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
     {
       for (const PlaceOnMesh& place : places.subspan(begin, end - begin))
       {
-        if (double(place.squaredDistance) > most * most)
+        if (!rules.isFitted || double(place.squaredDistance) <= most * most)
         {
-          continue;
+          const std::uint32_t t = triangles.number(place.triangle[0], place.triangle[1]);
+          std::atomic_ref(samples[t]).fetch_add(1, std::memory_order_relaxed);
         }
-        const std::uint32_t t = triangles.number(place.triangle[0], place.triangle[1]);
-        std::atomic_ref(samples[t]).fetch_add(1, std::memory_order_relaxed);
       }
     });
   std::optional<SomePoints> points;
@@ -274,8 +277,10 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
         [&](std::uint32_t t)
         { return distance(t) > std::max(reach, spacings * sparseSpacing(t)); });
     };
-    const bool isOne =
-      (piece.isAtBoundary && !mustBeFar) || reaches(LeastSpacings, LeastMedians, 0.);
+    const bool hasMany =
+      rules.isFitted && !piece.isAtBoundary && piece.area * densityAt(piece) >= ManyExpectedSamples;
+    const bool isOne = (piece.isAtBoundary && !rules.mustBeFar) ||
+      reaches(hasMany ? LeastSpacingsOfMany : LeastSpacings, LeastMedians, 0.);
     isGap[i] = isOne ? 1 : 0;
     isSide[i] = !piece.isAtBoundary &&
         (isOne ||
@@ -297,11 +302,11 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
 }
 
 std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
-  std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar,
+  std::span<const PlaceOnMesh> places, float medianDistance, GapRules rules,
   const Executor& executor)
 {
   auto [triangles, pieces, isGap, mayBeSide] =
-    judgedPieces(cloud, mesh, places, medianDistance, mustBeFar, executor);
+    judgedPieces(cloud, mesh, places, medianDistance, rules, executor);
   for (const auto& [one, other] : findWebs(mesh, triangles, pieces, mayBeSide, isGap, executor))
   {
     isGap[one] = true;
@@ -326,7 +331,7 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
 {
   OpenedGaps result;
   std::vector<Triangle> gaps = plan.mayOpen
-    ? findDataGaps(cloud, mesh, places, medianDistance, plan.mustBeFar, executor)
+    ? findDataGaps(cloud, mesh, places, medianDistance, plan.rules, executor)
     : std::vector<Triangle>();
   result.triangles = gaps.size();
   if (!gaps.empty())

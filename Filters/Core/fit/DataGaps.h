@@ -11,17 +11,25 @@
 
 namespace neuralmesh
 {
+/// What is known of a mesh in which gaps are looked for.
+struct GapRules
+{
+  bool mustBeFar = false; ///< pieces at a boundary must reach away from the points, too
+  /// The mesh fits as well as it ever will. Then samples that are farther from it than from each other show that it is
+  /// not where they are, and a piece on which very many samples are missing is a gap if it is less far from the points.
+  bool isFitted = true;
+};
+
 /// Returns the triangles of a mesh where the scan has no data. They form pieces on which no sample
 /// has its place, and which
 /// - are so large that many samples would lie there at the density around the piece, and
 /// - lie at a boundary, or reach farther away from all points than points are from each other and
 ///   from the mesh. Otherwise the mesh does not fit yet.
 /// If triangles are smaller than the distance between samples, those near a point belong to no
-/// piece. With `mustBeFar`, pieces at a boundary must reach away from the points, too. `places` are
-/// the places of samples that were picked evenly from the cloud; `medianDistance` is the median of
+/// piece. `places` are the places of samples that were picked evenly from the cloud; `medianDistance` is the median of
 /// their distances to the mesh.
 std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
-  std::span<const PlaceOnMesh> places, float medianDistance, bool mustBeFar = false,
+  std::span<const PlaceOnMesh> places, float medianDistance, GapRules rules = {},
   const Executor& executor = Executor::sequential());
 
 /// How to open and close gaps.
@@ -30,7 +38,7 @@ struct GapPlan
   double bridgeWidth = 0.; ///< see openDataGaps()
   bool mayOpen = true;     ///< false if the first surface is open already where there is no data
   double leastPiece = 0.0005;
-  bool mustBeFar = false; ///< at boundaries, too, see findDataGaps()
+  GapRules rules = {};
 };
 
 struct OpenedGaps

@@ -533,7 +533,7 @@ bool Finish::openGaps(const SurfaceFit& surfaceFit, bool mustBeFar)
 {
   const std::size_t count = mesh_.vertexCount();
   GapPlan plan = *plan_.gaps;
-  plan.mustBeFar = mustBeFar;
+  plan.rules.mustBeFar = mustBeFar;
   const OpenedGaps gaps =
     openDataGaps(cloud_, mesh_, surfaceFit.places(), surfaceFit.medianDistance(), plan, executor_);
   if (!gaps.any())

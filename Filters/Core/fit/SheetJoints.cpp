@@ -128,7 +128,7 @@ public:
     }
   }
 
-  /// Whether two large open parts hang together by this strip, which are flat there, and whether it turns them contrary
+  /// Whether two large parts, open or closed, hang together by this strip, which are flat there, and whether it turns them contrary
   /// and hardly any samples lie on it.
   bool areJoinedBy(
     const NarrowStrip& strip, std::span<const PlaceOnMesh> places, float medianDistance) const
@@ -141,7 +141,7 @@ public:
     const auto& [one, endOfOne] = *ends.begin();
     const auto& [other, endOfOther] = *ends.rbegin();
     const auto [smaller, larger] = std::minmax(areas_[one], areas_[other]);
-    if (!isOpen_[one] || !isOpen_[other] || smaller < LeastPartOfOther * larger)
+    if (isOpen_[one] != isOpen_[other] || smaller < LeastPartOfOther * larger)
     {
       return false;
     }
@@ -274,10 +274,6 @@ void fillLoopsWithin(Mesh& mesh, BoundaryManager& boundaries, const std::vector<
 std::size_t cutSheetJoints(
   Mesh& mesh, std::span<const PlaceOnMesh> places, float medianDistance, const Executor& executor)
 {
-  if (!mesh.isOpen())
-  {
-    return 0;
-  }
   std::vector<NarrowStrip> strips =
     findNarrowStrips(mesh, executor, Tubes, verticesAtBends(mesh, executor));
   if (strips.empty())

@@ -328,7 +328,7 @@ public:
   void openGaps(double bridgeWidth, double leastPiece)
   {
     openDataGaps(cloud_, mesh_, fit_.places(), fit_.medianDistance(),
-      { bridgeWidth, true, leastPiece }, executor_);
+      { bridgeWidth, true, leastPiece, { .isFitted = false } }, executor_);
     mesh_.dropErased(executor_);
   }
 

@@ -4,6 +4,7 @@
 #include "base/Random.h"
 #include "cloud/MeshBuilder.h"
 #include "fit/SurfaceFit.h"
+#include "JoinedCubes.h"
 #include "MeshTools.h"
 #include "OpenShapes.h"
 #include "SphereRuns.h"
@@ -29,7 +30,7 @@ std::vector<Triangle> gapsOf(const PointCloud& cloud, Mesh& mesh, bool mustBeFar
 {
   SurfaceFit fit(cloud, mesh, SamplesPerVertexOfGaps * mesh.vertexCount());
   EXPECT_TRUE(fit.findPlaces(goOn));
-  return findDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), mustBeFar);
+  return findDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), { .mustBeFar = mustBeFar });
 }
 
 OpenedGaps openedGaps(const PointCloud& cloud, Mesh& mesh, double bridgeWidth, bool mayOpen = true)
@@ -323,48 +324,18 @@ TEST(DataGaps, WebsAcrossHandlesAreCut)
 // it. Where points lie on it, it stays.
 TEST(DataGaps, TubesBetweenBodiesAreCut)
 {
-  constexpr unsigned Side = 20;
-  constexpr double Distance = 0.16, HalfWidth = 0.1, HalfHeight = 0.15, Beside = 0.03;
-  const TriangleMesh cube = makeCube(Side);
-  const auto all = std::uint32_t(cube.points.size());
-  TriangleMesh bodies = cube, tube, joined;
-  for (const Eigen::Vector3d& point : cube.points)
-  {
-    bodies.points.emplace_back(1. + Distance - point.x(), point.y(), point.z());
-  }
-  joined.points = bodies.points;
-  std::set<std::array<std::uint32_t, 2>> edges;
-  for (const auto& [a, b, c] : cube.triangles)
-  {
-    bodies.triangles.push_back({ all + a, all + c, all + b });
-    const Eigen::Vector3d center = (cube.points[a] + cube.points[b] + cube.points[c]) / 3.;
-    if (center.x() > 0.49 && std::abs(center.y()) < HalfWidth && std::abs(center.z()) < HalfHeight)
-    {
-      edges.insert({ { a, b }, { b, c }, { c, a } });
-    }
-    else
-    {
-      joined.triangles.push_back({ a, b, c });
-      joined.triangles.push_back({ all + a, all + c, all + b });
-    }
-  }
-  for (const auto& [a, b] : edges)
-  {
-    if (!edges.contains({ b, a }))
-    {
-      tube.triangles.push_back({ a, b, all + b });
-      tube.triangles.push_back({ a, all + b, all + a });
-    }
-  }
-  joined.triangles.insert(joined.triangles.end(), tube.triangles.begin(), tube.triangles.end());
+  constexpr double HalfWidth = 0.1, HalfHeight = 0.15, Beside = 0.03;
   enum class Tube
   {
     Bare,
     HasPointsBeside,
     HasPoints
   };
-  for (const Tube kind : { Tube::Bare, Tube::HasPointsBeside, Tube::HasPoints })
+  for (const auto& [kind, distance] :
+    { std::pair{ Tube::Bare, 0.16 }, std::pair{ Tube::Bare, 0.12 },
+      std::pair{ Tube::HasPointsBeside, 0.16 }, std::pair{ Tube::HasPoints, 0.16 } })
   {
+    const auto [bodies, tube, joined] = joinedCubes(distance, HalfWidth, HalfHeight);
     const bool isCut = kind != Tube::HasPoints;
     std::vector<Eigen::Vector3d> points =
       generateCloud(isCut ? bodies : joined, CloudOptions{ .count = 60000 });
@@ -373,17 +344,17 @@ TEST(DataGaps, TubesBetweenBodiesAreCut)
       [&](const Eigen::Vector3d& point)
       {
         const double y = std::abs(point.y()) / HalfWidth, z = std::abs(point.z()) / HalfHeight;
-        return isCut && point.x() > 0.49 && point.x() < 0.51 + Distance && y < 1. && z < 1. &&
+        return isCut && point.x() > 0.49 && point.x() < 0.51 + distance && y < 1. && z < 1. &&
           (y > 0.8 || z > 0.8);
       });
     for (int i = -2; i <= 2 && kind == Tube::HasPointsBeside; ++i)
     {
-      points.emplace_back(0.5 * (1. + Distance), HalfWidth + Beside, 0.05 * i);
+      points.emplace_back(0.5 * (1. + distance), HalfWidth + Beside, 0.05 * i);
     }
     const PointCloud cloud(points);
     Mesh mesh = buildMesh(joined, cloud);
     ASSERT_EQ(reportOf(mesh).boundaryLoops, 0u);
-    const OpenedGaps gaps = openedGaps(cloud, mesh, 2. * Distance / cloud.unit());
+    const OpenedGaps gaps = openedGaps(cloud, mesh, 2. * distance / cloud.unit());
     EXPECT_EQ(gaps.triangles >= tube.triangles.size(), isCut);
     EXPECT_EQ(gaps.triangles > 0, isCut);
     EXPECT_EQ(gaps.filled, isCut ? 2u : 0u);

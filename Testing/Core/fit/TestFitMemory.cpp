@@ -154,7 +154,7 @@ TEST(FitMemory, ASearchForGapsTakesLittle)
   ASSERT_LT(fit.places().size(), points.size());
   const WatchedExecutor executor;
   const double before = bytesInUse();
-  const auto gaps = findDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), false, executor);
+  const auto gaps = findDataGaps(cloud, mesh, fit.places(), fit.medianDistance(), {}, executor);
   EXPECT_GT(gaps.size(), 100u);
   EXPECT_LT((executor.mostBytes() - before) / double(mesh.vertexCount()), 160.);
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Promise: sheets that touch do not hang together by tubes on which no points lie. What the points show stays.
+// Promise: sheets, or bodies, that nearly touch do not hang together by tubes on which no points lie. What the points show stays.
 #include "fit/SheetJoints.h"
 
 #include "cloud/MeshBuilder.h"
 #include "fit/SurfaceFit.h"
+#include "JoinedCubes.h"
 #include "JoinedSheets.h"
 #include "mesh/Pieces.h"
 #include "MeshTools.h"
@@ -72,6 +73,17 @@ TEST(SheetJoints, TubesWithoutPointsAreCut)
     EXPECT_EQ(genusOf(run.mesh), 0);
     EXPECT_EQ(reportOf(run.mesh).boundaryLoops, 2u);
   }
+}
+
+// So are those between bodies.
+TEST(SheetJoints, BodiesComeApart)
+{
+  const JoinedCubes cubes = joinedCubes(0.06, 0.05, 0.05);
+  const CutRun run = cutAt(cubes.joined, cubes.bodies);
+  EXPECT_EQ(run.cut, 1u);
+  EXPECT_EQ(pieceCount(run.mesh), 2u);
+  EXPECT_EQ(reportOf(run.mesh).boundaryLoops, 0u);
+  EXPECT_EQ(cutAt(cubes.joined, cubes.joined).cut, 0u);
 }
 
 // Where points lie on the tube, as in an eyelet, it stays.
