@@ -2,6 +2,7 @@
 #include "mesh/QuadricSimplification.h"
 
 #include "mesh/EdgeQueue.h"
+#include "mesh/EdgeValues.h"
 #include "mesh/TriangleShape.h"
 
 #include <Eigen/Cholesky>
@@ -9,9 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -31,6 +31,8 @@ constexpr float LeastCosineOfCollapse = 0.2f;
 /// Of what draws a vertex to the middle of its edge, against the planes.
 constexpr double WeightOfNear = 1e-3;
 constexpr double Never = std::numeric_limits<double>::infinity();
+/// Of a closed mesh.
+constexpr std::size_t EdgesPerVertex = 3;
 
 /// The mean squared distance of a point from some planes, by their weights, as a quadratic form. Were it the
 /// sum, what is thin would go first: its planes have little area.
@@ -87,8 +89,8 @@ public:
     , evenness_(evenness)
     , leastShape_(leastShape)
     , quadrics_(mesh.indexEnd())
+    , waiting_(EdgesPerVertex * mesh.vertexCount())
   {
-    waiting_.reserve(3 * mesh.vertexCount());
     mesh.forEachTriangle(
       [this](VertexIndex a, VertexIndex b, VertexIndex c)
       {
@@ -111,7 +113,7 @@ public:
       {
         if (v < neighbor)
         {
-          pushBothWays(v, neighbor);
+          pushBothWays(v, neighbor, waiting_.at(v, neighbor));
         }
       }
     }
@@ -123,12 +125,8 @@ public:
     {
       const auto [cost, removed, kept] = edges_.top();
       edges_.pop();
-      double& waiting = waiting_[keyOf(removed, kept)].way(removed, kept);
-      if (waiting == cost)
-      {
-        waiting = Never;
-      }
-      if (mesh_.isAlive(removed) && mesh_.ring(removed).contains(kept))
+      // An edge is there as long as both its ends.
+      if (mesh_.isAlive(removed) && mesh_.isAlive(kept))
       {
         collapse(removed, kept, cost);
       }
@@ -145,6 +143,13 @@ private:
     double up = Never;
     double down = Never;
     double now = Never; ///< what it costs, if no triangle turns over
+  };
+
+  /// What a collapse costs, and where its vertex goes.
+  struct Outcome
+  {
+    double cost = Never;
+    Vector4 place;
   };
 
   Vector4 normalOf(VertexIndex a, VertexIndex b, VertexIndex c) const
@@ -173,29 +178,19 @@ private:
     return sum;
   }
 
-  Vector4 placeBy(const Quadric& sum, VertexIndex removed, VertexIndex kept) const
-  {
-    return sum.leastPlace(0.5f * (mesh_.position(removed) + mesh_.position(kept)));
-  }
-
-  /// Never, where it may not be, or a triangle would turn over. Either way costs as much, if it may be.
-  double costOf(VertexIndex removed, VertexIndex kept) const
-  {
-    return mesh_.canCollapse(removed, kept) ? costEitherWay(removed, kept) : Never;
-  }
-
-  double costEitherWay(VertexIndex removed, VertexIndex kept) const
+  /// The cost is Never, where a triangle would turn over. Either way the outcome is the same.
+  Outcome outcomeOf(VertexIndex removed, VertexIndex kept) const
   {
     const Quadric sum = quadricOf(removed, kept);
-    const Vector4 place = placeBy(sum, removed, kept);
+    const Vector4 place = sum.leastPlace(0.5f * (mesh_.position(removed) + mesh_.position(kept)));
     if (turnsOver(removed, kept, place) || turnsOver(kept, removed, place))
     {
-      return Never;
+      return { Never, place };
     }
     const double squared = double(squaredNorm(mesh_.position(removed) - mesh_.position(kept)));
     const double flattened =
       leastShape_ > 0.f && flattens(removed, kept, place) ? WeightOfShape : 0.;
-    return sum.at(place) + (evenness_ + flattened) * squared;
+    return { sum.at(place) + (evenness_ + flattened) * squared, place };
   }
 
   /// Whether a triangle of `v` does that is not at the edge.
@@ -244,13 +239,21 @@ private:
   /// What it costs has changed with what is around it, perhaps: then it has to wait.
   void collapse(VertexIndex removed, VertexIndex kept, double expected)
   {
-    const double cost = costOf(removed, kept);
-    if (cost > expected)
+    WaitingCosts& waiting = waiting_.at(removed, kept);
+    if (waiting.way(removed, kept) == expected)
     {
-      push(cost, removed, kept, waiting_[keyOf(removed, kept)]);
+      waiting.way(removed, kept) = Never;
+    }
+    if (!mesh_.canCollapse(removed, kept))
+    {
       return;
     }
-    const Vector4 place = placeBy(quadricOf(removed, kept), removed, kept);
+    const auto [cost, place] = outcomeOf(removed, kept);
+    if (cost > expected)
+    {
+      push(cost, removed, kept, waiting);
+      return;
+    }
     quadrics_[kept].add(quadrics_[removed]);
     mesh_.collapse(removed, kept);
     mesh_.setPosition(kept, place);
@@ -263,21 +266,21 @@ private:
     const Ring& ring = mesh_.ring(v);
     for (const VertexIndex neighbor : ring)
     {
-      waiting_[keyOf(v, neighbor)].now = Never;
-      pushBothWays(v, neighbor);
+      WaitingCosts& waiting = waiting_.at(v, neighbor);
+      waiting.now = Never;
+      pushBothWays(v, neighbor, waiting);
       for (const VertexIndex other : mesh_.ring(neighbor))
       {
         if (other != v && (neighbor < other || !ring.contains(other)))
         {
-          pushBothWays(neighbor, other);
+          pushBothWays(neighbor, other, waiting_.at(neighbor, other));
         }
       }
     }
   }
 
-  void pushBothWays(VertexIndex a, VertexIndex b)
+  void pushBothWays(VertexIndex a, VertexIndex b, WaitingCosts& waiting)
   {
-    WaitingCosts& waiting = waiting_[keyOf(a, b)];
     // Beside a vertex that moves, a cost changes only by the shape of triangles.
     if (leastShape_ == 0.f && waiting.isUpToDate())
     {
@@ -286,7 +289,7 @@ private:
     const bool isToB = mesh_.canCollapse(a, b), isToA = mesh_.canCollapse(b, a);
     if (isToB || isToA)
     {
-      const double cost = costEitherWay(a, b);
+      const double cost = outcomeOf(a, b).cost;
       waiting.now = std::min(waiting.now, cost);
       push(isToB ? cost : Never, a, b, waiting);
       push(isToA ? cost : Never, b, a, waiting);
@@ -302,17 +305,12 @@ private:
     }
   }
 
-  static std::uint64_t keyOf(VertexIndex a, VertexIndex b)
-  {
-    return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
-  }
-
   Mesh& mesh_;
   double evenness_;
   float leastShape_;
   std::vector<Quadric> quadrics_;
   EdgeQueue<double> edges_; ///< that vanish with their first vertex
-  std::unordered_map<std::uint64_t, WaitingCosts> waiting_;
+  EdgeValues<WaitingCosts> waiting_;
 };
 
 void simplifyBy(Mesh& mesh, std::size_t count, double evenness, float leastShape)
