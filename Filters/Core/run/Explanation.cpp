@@ -4,6 +4,7 @@
 #include "base/DisjointSets.h"
 #include "base/Median.h"
 #include "cloud/NearestPoints.h"
+#include "run/GroupsBeyondNoise.h"
 #include "run/LocalVariation.h"
 #include "start/LayerSearch.h"
 
@@ -19,8 +20,6 @@ namespace neuralmesh
 {
 namespace
 {
-// The spacing of a point is its distance to its neighbours.
-
 /// A point is away from the mesh if its distance is more than so many of its spacings, and more
 /// than the noise, MediansAway.
 constexpr float SpacingsAway = 3.f;
@@ -306,8 +305,7 @@ private:
     std::size_t beyond = 0;
     for (const std::size_t i : piece)
     {
-      missed.center +=
-        cloud_.toInput(cloud_.points()[result_.asked.points[i]]) / double(piece.size());
+      missed.center += cloud_.toInput(placeOf(i)) / double(piece.size());
       missed.farthest =
         std::max(missed.farthest, cloud_.unit() * double(result_.asked.distances[i]));
       beyond += result_.asked.isBeyondBoundary[i];
@@ -484,6 +482,11 @@ private:
         addPassedBy(group);
       }
       return;
+    }
+    for (const auto& group : findGroupsBeyondNoise(cloud_, nearest_, result_.asked, usualSpacing_,
+           [this](std::size_t i) { return result_.reasons[i] == Reason::Explained; }))
+    {
+      result_.passedBy.push_back(described(group));
     }
     std::map<std::uint32_t, std::vector<std::size_t>> pieces;
     for (std::size_t i = 0; i < result_.asked.pieces.size(); ++i)

@@ -72,7 +72,8 @@ struct Explanation
   std::size_t leftOutPoints = 0;
   Eigen::Vector3d leftOutPlace = Eigen::Vector3d::Zero();
   /// Points that belong together and are explained, though the mesh passes them by: where it has nearly as many vertices
-  /// as the cloud has points, or as most points of a piece of the mesh. The largest first.
+  /// as the cloud has points, or as most points of a piece of the mesh, or farther than noise puts points that lie
+  /// together. The largest first.
   std::vector<MissedPiece> passedBy;
   /// As rims are that are narrower than edges are long: farther from the mesh than from each other, and than any noise,
   /// and not beyond a boundary.

@@ -271,6 +271,17 @@ PointDistances exactly(
   return distances;
 }
 
+PointDistances withExactTail(
+  PointDistances distances, const Mesh& mesh, const PointCloud& cloud, const Executor& executor)
+{
+  if (!distances.distances.empty())
+  {
+    const float least = MediansToLookAgain * medianOf(distances.distances);
+    findExactly(mesh, cloud, least, piecesOf(mesh), executor, distances);
+  }
+  return distances;
+}
+
 VertexSupport supportOf(
   const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
 {

@@ -54,6 +54,11 @@ std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cl
 PointDistances exactly(PointDistances distances, const Mesh& mesh, const PointCloud& cloud,
   const Executor& executor = Executor::sequential());
 
+/// The same only for points farther away than four median distances. Noise leaves few there, and a group among them is a
+/// loss.
+PointDistances withExactTail(PointDistances distances, const Mesh& mesh, const PointCloud& cloud,
+  const Executor& executor = Executor::sequential());
+
 /// The support of the vertices of such a mesh, by at most so many points.
 VertexSupport supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
   const Executor& executor = Executor::sequential());

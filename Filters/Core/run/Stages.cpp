@@ -413,7 +413,8 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
   {
     return false;
   }
-  result.explanation = explain(cloud, *std::move(distances), rules, executor);
+  result.explanation = explain(
+    cloud, withExactTail(*std::move(distances), result.surface, cloud, executor), rules, executor);
   confirmTears(result.surface, cloud, *result.explanation, executor);
   findLeftOut(cloud, rules.isLeftOut, *result.explanation);
   result.explanation->scatteredShare = scatteredShare(cloud, executor);

@@ -3,6 +3,7 @@
 // touch, strewn points and dense clusters of them are no such parts.
 #include "run/TornParts.h"
 
+#include "base/Median.h"
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
 #include "Clusters.h"
@@ -174,6 +175,14 @@ TEST(TornParts, CloseLayersAreNotTorn)
   ASSERT_TRUE(explainPoints(
     cloud, nullptr, 0.0005, false, result, [](double) { return true; }, Executor::sequential()));
   EXPECT_FALSE(result.explanation->torn.any());
+  // Nor does it seem to pass points by.
+  const PointDistances& told = result.explanation->asked;
+  const PointDistances exact = exactly(told, result.surface, cloud);
+  const float least = 4.1f * medianOf(told.distances);
+  for (std::size_t i = 0; i < told.distances.size(); ++i)
+  {
+    EXPECT_LE(told.distances[i], std::max(least, exact.distances[i]));
+  }
 }
 
 // A bore that the mesh closes is told though its points lie no farther from the mesh than from each other; without it
