@@ -424,7 +424,7 @@ TEST(PointCloud, Without)
 // half a million points. An interruption leaves no cloud.
 TEST(PointCloud, IsMadeInPartsThatMayBeInterrupted)
 {
-  constexpr std::size_t Many = 2000000;
+  constexpr std::size_t Many = 1000000;
   const std::vector<Eigen::Vector3d> points = cube(Many);
   const std::vector<double> weights(Many, 2.);
   const ExecutorToInterrupt whole(std::numeric_limits<std::size_t>::max());
@@ -434,7 +434,7 @@ TEST(PointCloud, IsMadeInPartsThatMayBeInterrupted)
   EXPECT_EQ(PointCloud(points, weights, true, counter).points().size(), Many);
   // Points that are finite, three axes twice, distances, box, buckets twice, and weights twice.
   EXPECT_GT(counter.count(), 12 * Many / 500000);
-  const std::size_t stride = std::max<std::size_t>(1, whole.partCount() / 16);
+  const std::size_t stride = std::max<std::size_t>(1, whole.partCount() / 8);
   for (std::size_t part = 0; part < whole.partCount(); part += stride)
   {
     const ExecutorToInterrupt executor(part);
