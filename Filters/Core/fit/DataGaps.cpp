@@ -206,8 +206,8 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
 {
   NumberedTriangles triangles(mesh, executor);
   std::vector<std::uint32_t> samples(triangles.all().size(), 0);
-  const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
-  const double most = std::max(LeastMedians * double(medianDistance), spacing);
+  const double most = std::max(
+    LeastMedians * double(medianDistance), std::sqrt(areaOf(mesh) / double(places.size())));
   executor.forEachRange(places.size(), PlacesCountedPerRange,
     [&](std::size_t begin, std::size_t end)
     {
