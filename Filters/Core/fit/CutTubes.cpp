@@ -68,6 +68,7 @@ std::vector<std::set<BoundaryManager::LoopIndex>> loopsAround(
     }
   }
   std::vector<std::set<BoundaryManager::LoopIndex>> all;
+  all.reserve(loopsOf.size());
   for (auto& [part, loops] : loopsOf)
   {
     all.push_back(std::move(loops));

@@ -148,6 +148,7 @@ private:
       members[sets.root(p)].push_back(points[p]);
     }
     std::vector<std::vector<std::size_t>> groups;
+    groups.reserve(members.size());
     for (auto& [root, group] : members)
     {
       groups.push_back(std::move(group));
