@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/CutTubes.h"
 
-#include "base/DisjointSets.h"
 #include "base/UnitVector.h"
 #include "mesh/BoundaryFilling.h"
+#include "mesh/BoundaryManager.h"
 
 #include <array>
 #include <cmath>
-#include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace neuralmesh
@@ -45,58 +45,56 @@ bool looksAt(const End& end, const End& other)
     dot(end.normal, unit(other.center - end.center)) >= LeastCosineToOther * length;
 }
 
-/// The loops around each connected part of the triangles that were removed.
-std::vector<std::set<BoundaryManager::LoopIndex>> loopsAround(
-  const Mesh& mesh, const BoundaryManager& boundaries, std::span<const Triangle> removed)
+/// The loops that are left where these triangles were.
+std::set<BoundaryManager::LoopIndex> loopsOf(
+  const BoundaryManager& boundaries, std::span<const Triangle> removed)
 {
-  DisjointSets parts(mesh.indexEnd());
-  for (const auto& [a, b, c] : removed)
-  {
-    parts.join(a, b);
-    parts.join(b, c);
-  }
-  std::map<std::size_t, std::set<BoundaryManager::LoopIndex>> loopsOf;
+  std::set<BoundaryManager::LoopIndex> loops;
   for (const Triangle& triangle : removed)
   {
-    std::set<BoundaryManager::LoopIndex>& loops = loopsOf[parts.root(triangle[0])];
     for (const VertexIndex v : triangle)
     {
-      if (boundaries.loopOf(v) != BoundaryManager::NoLoop)
-      {
-        loops.insert(boundaries.loopOf(v));
-      }
+      loops.insert(boundaries.loopOf(v));
     }
   }
-  std::vector<std::set<BoundaryManager::LoopIndex>> all;
-  all.reserve(loopsOf.size());
-  for (auto& [part, loops] : loopsOf)
+  loops.erase(BoundaryManager::NoLoop);
+  return loops;
+}
+
+bool cutTube(Mesh& mesh, std::span<const Triangle> tube, double longestEdge,
+  const std::function<bool(const Triangle&)>& isCovered)
+{
+  mesh.removeTriangles(tube);
+  BoundaryManager boundaries(mesh);
+  const std::set<BoundaryManager::LoopIndex> loops = loopsOf(boundaries, tube);
+  if (loops.size() != 2)
   {
-    all.push_back(std::move(loops));
+    return false;
   }
-  return all;
+  const std::array both{ *loops.begin(), *loops.rbegin() };
+  const End one = endAt(mesh, boundaries.vertices(mesh, both[0]));
+  const End other = endAt(mesh, boundaries.vertices(mesh, both[1]));
+  return looksAt(one, other) && looksAt(other, one) &&
+    fillBoth(mesh, boundaries, both, longestEdge, isCovered);
 }
 }
 
-std::size_t closeEndsOfTubes(Mesh& mesh, BoundaryManager& boundaries,
-  std::span<const Triangle> removed, double longestEdge,
+std::size_t cutTubes(Mesh& mesh, std::span<const std::vector<Triangle>> tubes, double longestEdge,
   const std::function<bool(const Triangle&)>& isCovered)
 {
-  std::size_t filled = 0;
-  for (const std::set<BoundaryManager::LoopIndex>& loops : loopsAround(mesh, boundaries, removed))
+  std::size_t cut = 0;
+  for (const std::vector<Triangle>& tube : tubes)
   {
-    if (loops.size() != 2)
+    Mesh before = mesh;
+    if (cutTube(mesh, tube, longestEdge, isCovered))
     {
-      continue;
+      ++cut;
     }
-    const std::array both{ *loops.begin(), *loops.rbegin() };
-    const End one = endAt(mesh, boundaries.vertices(mesh, both[0]));
-    const End other = endAt(mesh, boundaries.vertices(mesh, both[1]));
-    if (looksAt(one, other) && looksAt(other, one) &&
-      fillBoth(mesh, boundaries, both, longestEdge, isCovered))
+    else
     {
-      filled += both.size();
+      mesh = std::move(before);
     }
   }
-  return filled;
+  return cut;
 }
 }

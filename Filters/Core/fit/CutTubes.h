@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "mesh/BoundaryManager.h"
 #include "mesh/Mesh.h"
 
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace neuralmesh
 {
-/// Closes each end of tubes that were cut out of a mesh: such a tube without samples may have joined two surfaces that
-/// are near to each other. `removed` are the triangles that are gone, `boundaries` what they left. Where connected ones
-/// leave two loops, and the surfaces around these are flat and look at each other, both are filled, unless one cannot be,
-/// or a triangle has an edge of `longestEdge` or more or is not covered by points. Returns the number of loops filled.
-std::size_t closeEndsOfTubes(Mesh& mesh, BoundaryManager& boundaries,
-  std::span<const Triangle> removed, double longestEdge,
+/// Cuts tubes without samples out of a mesh: each may have joined two surfaces that are near to each other. `tubes` are
+/// their triangles. One is cut if that leaves two loops, the surfaces around these are flat and look at each other, and
+/// both can be filled: with triangles that are covered by points and whose edges are shorter than `longestEdge`. Others
+/// stay. Some vertices may be erased. Returns how many were cut.
+std::size_t cutTubes(Mesh& mesh, std::span<const std::vector<Triangle>> tubes, double longestEdge,
   const std::function<bool(const Triangle&)>& isCovered);
 }

@@ -19,6 +19,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -33,13 +34,13 @@ constexpr double LeastExpectedSamples = 10.;
 /// It is a gap if one of its triangles is farther from all points than so many times the distance
 /// between samples ... With points at random, one place in e^28 is that far away.
 constexpr double LeastSpacings = 3.;
-/// ... or less, if the mesh is fitted and so many samples should lie in it, as on a tube between two bodies. One place in
-/// e^12 is so far away by chance ...
-constexpr double LeastSpacingsOfMany = 2.;
-constexpr double ManyExpectedSamples = 40.;
 /// ... and than so many times the median distance from samples to the mesh, as noisy points do not
 /// lie on the mesh.
 constexpr double LeastMedians = 5.;
+/// On a tube between two bodies so many samples should lie. Then less is enough once the mesh is fitted: one place in e^12
+/// is so far away by chance.
+constexpr double LeastExpectedOfTube = 40.;
+constexpr double LeastSpacingsOfTube = 2.;
 /// The same for both sides of a web. Less is enough, as two sides are rarely empty by chance.
 constexpr double LeastSpacingsOfWeb = 1.5;
 constexpr double LeastMediansOfWeb = 3.;
@@ -190,6 +191,15 @@ std::vector<Triangle> leftOverPieces(const Mesh& mesh, std::span<const PlaceOnMe
   return small;
 }
 
+std::vector<Triangle> trianglesOf(std::span<const Triangle> all, const EmptyPiece& piece)
+{
+  std::vector<Triangle> triangles;
+  triangles.reserve(piece.triangles.size());
+  std::transform(piece.triangles.begin(), piece.triangles.end(), std::back_inserter(triangles),
+    [&](std::uint32_t t) { return all[t]; });
+  return triangles;
+}
+
 /// Pieces of a mesh without samples.
 struct JudgedPieces
 {
@@ -197,6 +207,7 @@ struct JudgedPieces
   std::vector<EmptyPiece> pieces;
   std::vector<bool> isGap;
   std::vector<bool> mayBeSide; ///< of a web
+  std::vector<std::vector<Triangle>> tubes;
 };
 
 /// What it takes of memory is free again before webs are looked for.
@@ -206,6 +217,8 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
 {
   NumberedTriangles triangles(mesh, executor);
   std::vector<std::uint32_t> samples(triangles.all().size(), 0);
+  // Samples that are farther from the mesh than from each other hold no tube.
+  std::vector<std::uint8_t> isHeld(rules.isFitted ? samples.size() : 0, 0);
   const double most = std::max(
     LeastMedians * double(medianDistance), std::sqrt(areaOf(mesh) / double(places.size())));
   executor.forEachRange(places.size(), PlacesCountedPerRange,
@@ -213,10 +226,11 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
     {
       for (const PlaceOnMesh& place : places.subspan(begin, end - begin))
       {
-        if (!rules.isFitted || double(place.squaredDistance) <= most * most)
+        const std::uint32_t t = triangles.number(place.triangle[0], place.triangle[1]);
+        std::atomic_ref(samples[t]).fetch_add(1, std::memory_order_relaxed);
+        if (rules.isFitted && double(place.squaredDistance) <= most * most)
         {
-          const std::uint32_t t = triangles.number(place.triangle[0], place.triangle[1]);
-          std::atomic_ref(samples[t]).fetch_add(1, std::memory_order_relaxed);
+          std::atomic_ref(isHeld[t]).store(1, std::memory_order_relaxed);
         }
       }
     });
@@ -246,45 +260,60 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
     // All threads would wait for the points.
     std::call_once(hasPoints, [&] { points.emplace(cloud, places.size(), executor); });
   }
-  std::vector<std::uint8_t> isEmpty(samples.size());
-  executor.forEachRange(samples.size(), TrianglesPerRange,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (auto t = std::uint32_t(begin); t < end; ++t)
+  const auto piecesWhere = [&](const auto& isBare)
+  {
+    std::vector<std::uint8_t> isEmpty(samples.size());
+    executor.forEachRange(samples.size(), TrianglesPerRange,
+      [&](std::size_t begin, std::size_t end)
       {
-        isEmpty[t] = samples[t] == 0 &&
-            (!isFine || distance(t) > LeastSpacingsIfEmpty * meanSpacing) && !isTooSmall(t)
-          ? 1
-          : 0;
-      }
-    });
-  std::vector<EmptyPiece> pieces = findEmptyPieces(mesh, triangles, samples, isEmpty, executor);
+        for (auto t = std::uint32_t(begin); t < end; ++t)
+        {
+          isEmpty[t] = isBare(t) && (!isFine || distance(t) > LeastSpacingsIfEmpty * meanSpacing) &&
+              !isTooSmall(t)
+            ? 1
+            : 0;
+        }
+      });
+    return findEmptyPieces(mesh, triangles, samples, isEmpty, executor);
+  };
   // Small triangles around a piece may have too few samples to tell.
   const auto densityAt = [&](const EmptyPiece& piece)
   { return isFine && piece.samplesAround < LeastExpectedSamples ? meanDensity : piece.density(); };
-  std::erase_if(pieces,
-    [&](const EmptyPiece& piece) { return piece.area * densityAt(piece) < LeastExpectedSamples; });
+  const auto expectedIn = [&](const EmptyPiece& piece) { return piece.area * densityAt(piece); };
+  const auto reaches =
+    [&](const EmptyPiece& piece, double spacings, double medians, double least = 0.)
+  {
+    const double spacing = std::max(meanSpacing, 1. / std::sqrt(densityAt(piece)));
+    const double reach = std::max({ spacings * spacing, medians * double(medianDistance), least });
+    return std::any_of(piece.triangles.begin(), piece.triangles.end(),
+      [&](std::uint32_t t) { return distance(t) > std::max(reach, spacings * sparseSpacing(t)); });
+  };
+  std::vector<std::vector<Triangle>> tubes;
+  if (rules.isFitted)
+  {
+    for (const EmptyPiece& piece : piecesWhere([&](std::uint32_t t) { return isHeld[t] == 0; }))
+    {
+      if (!piece.isAtBoundary && expectedIn(piece) >= LeastExpectedOfTube &&
+        isTube(piece, triangles) && reaches(piece, LeastSpacingsOfTube, LeastMedians))
+      {
+        tubes.push_back(trianglesOf(triangles.all(), piece));
+      }
+    }
+  }
+  std::vector<EmptyPiece> pieces = piecesWhere([&](std::uint32_t t) { return samples[t] == 0; });
+  std::erase_if(
+    pieces, [&](const EmptyPiece& piece) { return expectedIn(piece) < LeastExpectedSamples; });
   std::vector<std::uint8_t> isGap(pieces.size()), isSide(pieces.size());
   const auto judge = [&](std::size_t i)
   {
     const EmptyPiece& piece = pieces[i];
-    const double spacing = std::max(meanSpacing, 1. / std::sqrt(densityAt(piece)));
-    const auto reaches = [&](double spacings, double medians, double least)
-    {
-      const double reach =
-        std::max({ spacings * spacing, medians * double(medianDistance), least });
-      return std::any_of(piece.triangles.begin(), piece.triangles.end(),
-        [&](std::uint32_t t)
-        { return distance(t) > std::max(reach, spacings * sparseSpacing(t)); });
-    };
-    const bool hasMany =
-      rules.isFitted && !piece.isAtBoundary && piece.area * densityAt(piece) >= ManyExpectedSamples;
-    const bool isOne = (piece.isAtBoundary && !rules.mustBeFar) ||
-      reaches(hasMany ? LeastSpacingsOfMany : LeastSpacings, LeastMedians, 0.);
+    const bool isOne =
+      (piece.isAtBoundary && !rules.mustBeFar) || reaches(piece, LeastSpacings, LeastMedians);
     isGap[i] = isOne ? 1 : 0;
     isSide[i] = !piece.isAtBoundary &&
         (isOne ||
-          reaches(LeastSpacingsOfWeb, LeastMediansOfWeb, LeastRootsOfWeb * std::sqrt(piece.area)))
+          reaches(
+            piece, LeastSpacingsOfWeb, LeastMediansOfWeb, LeastRootsOfWeb * std::sqrt(piece.area)))
       ? 1
       : 0;
   };
@@ -297,16 +326,13 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
       }
     });
   return { std::move(triangles).takeAll(), std::move(pieces), { isGap.begin(), isGap.end() },
-    { isSide.begin(), isSide.end() } };
-}
+    { isSide.begin(), isSide.end() }, std::move(tubes) };
 }
 
-std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
-  std::span<const PlaceOnMesh> places, float medianDistance, GapRules rules,
-  const Executor& executor)
+/// The triangles of all gaps, the sides of webs among them.
+std::vector<Triangle> gapsAmong(const Mesh& mesh, JudgedPieces&& judged, const Executor& executor)
 {
-  auto [triangles, pieces, isGap, mayBeSide] =
-    judgedPieces(cloud, mesh, places, medianDistance, rules, executor);
+  auto& [triangles, pieces, isGap, mayBeSide, tubes] = judged;
   for (const auto& [one, other] : findWebs(mesh, triangles, pieces, mayBeSide, isGap, executor))
   {
     isGap[one] = true;
@@ -317,48 +343,66 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
   {
     if (isGap[i])
     {
-      for (const std::uint32_t t : pieces[i].triangles)
-      {
-        gaps.push_back(triangles[t]);
-      }
+      const std::vector<Triangle> gap = trianglesOf(triangles, pieces[i]);
+      gaps.insert(gaps.end(), gap.begin(), gap.end());
     }
   }
   return gaps;
+}
+}
+
+std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
+  std::span<const PlaceOnMesh> places, float medianDistance, GapRules rules,
+  const Executor& executor)
+{
+  return gapsAmong(
+    mesh, judgedPieces(cloud, mesh, places, medianDistance, rules, executor), executor);
 }
 
 OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const PlaceOnMesh> places,
   float medianDistance, const GapPlan& plan, const Executor& executor)
 {
   OpenedGaps result;
-  std::vector<Triangle> gaps = plan.mayOpen
-    ? findDataGaps(cloud, mesh, places, medianDistance, plan.rules, executor)
-    : std::vector<Triangle>();
-  result.triangles = gaps.size();
-  if (!gaps.empty())
+  std::optional<SomePoints> points;
+  double reach = 0.;
+  const auto isCovered = [&](const Triangle& triangle)
   {
-    const std::vector<std::uint8_t> valences = valencesOf(mesh);
-    mesh.removeTriangles(gaps);
-    const std::vector<Triangle> left =
-      leftOverPieces(mesh, places, valences, medianDistance, plan.leastPiece);
-    mesh.removeTriangles(left);
-    gaps.insert(gaps.end(), left.begin(), left.end());
+    if (!points)
+    {
+      const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
+      reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
+      points.emplace(cloud, places.size(), executor);
+    }
+    return points->distance(centerOf(mesh, triangle)) <= reach;
+  };
+  // Holes as wide as a bridge are filled, and those in which there are points.
+  const auto longestEdge = [&]
+  { return std::max(plan.bridgeWidth, WidestHole * mesh.meanEdge(executor)); };
+  if (plan.mayOpen)
+  {
+    JudgedPieces judged = judgedPieces(cloud, mesh, places, medianDistance, plan.rules, executor);
+    const std::vector<std::vector<Triangle>> tubes = std::move(judged.tubes);
+    std::vector<Triangle> gaps = gapsAmong(mesh, std::move(judged), executor);
+    result.tubes = tubes.empty() ? 0 : cutTubes(mesh, tubes, longestEdge(), isCovered);
+    std::erase_if(gaps,
+      [&](const Triangle& triangle)
+      { return !mesh.isAlive(triangle[0]) || !mesh.contains(triangle); });
+    result.triangles = gaps.size();
+    if (!gaps.empty())
+    {
+      const std::vector<std::uint8_t> valences = valencesOf(mesh);
+      mesh.removeTriangles(gaps);
+      mesh.removeTriangles(leftOverPieces(mesh, places, valences, medianDistance, plan.leastPiece));
+    }
   }
   BoundaryManager boundaries(mesh);
   if (boundaries.loopCount() == 0)
   {
     return result;
   }
-  const SomePoints points(cloud, places.size(), executor);
-  const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
-  const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
-  const auto isCovered = [&](const Triangle& triangle)
-  { return points.distance(centerOf(mesh, triangle)) <= reach; };
-  // Holes as wide as a bridge are filled, and those in which there are points.
-  const double longest = std::max(plan.bridgeWidth, WidestHole * mesh.meanEdge());
-  result.filled = closeEndsOfTubes(mesh, boundaries, gaps, longest, isCovered);
   result.joined = mergeBoundaries(mesh, boundaries, plan.bridgeWidth, LoopDistance::Mean);
-  result.filled += fillBoundaries(
-    mesh, boundaries, longest, isCovered, std::numeric_limits<std::size_t>::max(), CosineOfHole);
+  result.filled = fillBoundaries(mesh, boundaries, longestEdge(), isCovered,
+    std::numeric_limits<std::size_t>::max(), CosineOfHole);
   return result;
 }
 }

@@ -15,8 +15,8 @@ namespace neuralmesh
 struct GapRules
 {
   bool mustBeFar = false; ///< pieces at a boundary must reach away from the points, too
-  /// The mesh fits as well as it ever will. Then samples that are farther from it than from each other show that it is
-  /// not where they are, and a piece on which very many samples are missing is a gap if it is less far from the points.
+  /// The mesh fits as well as it ever will. Then tubes on which many samples are missing are looked for, too. They may be
+  /// less far from the points, and samples that are farther from the mesh than from each other do not count there.
   bool isFitted = true;
 };
 
@@ -43,14 +43,15 @@ struct GapPlan
 
 struct OpenedGaps
 {
-  std::size_t triangles = 0; ///< number of removed triangles
+  std::size_t triangles = 0; ///< number of removed triangles, without those of tubes
+  std::size_t tubes = 0;     ///< number of tubes that were cut, see cutTubes()
   std::size_t joined = 0;    ///< number of pairs of boundaries that were joined
   std::size_t filled = 0;    ///< number of boundaries that were filled
 
-  bool any() const { return triangles + joined + filled > 0; }
+  bool any() const { return triangles + tubes + joined + filled > 0; }
 };
 
-/// Removes the triangles of gaps, and small pieces that are left over: those with no more than five
+/// Cuts tubes, see cutTubes(). Removes the triangles of gaps, and small pieces that are left over: those with no more than five
 /// times the part `leastPiece` of the samples, and those whose samples do not lie on them. Joins
 /// boundaries that face each other closer than `bridgeWidth` on average: they are the two sides of
 /// a web across a handle. Closes slits that are narrower than that and close to points all along:

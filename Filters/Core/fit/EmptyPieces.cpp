@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -110,5 +112,18 @@ std::vector<EmptyPiece> findEmptyPieces(const Mesh& mesh, const NumberedTriangle
       }
     });
   return pieces;
+}
+
+bool isTube(const EmptyPiece& piece, const NumberedTriangles& triangles)
+{
+  std::set<VertexIndex> vertices;
+  std::set<std::pair<VertexIndex, VertexIndex>> edges;
+  for (const std::uint32_t t : piece.triangles)
+  {
+    const auto& [a, b, c] = triangles.all()[t];
+    vertices.insert({ a, b, c });
+    edges.insert({ std::minmax(a, b), std::minmax(b, c), std::minmax(c, a) });
+  }
+  return vertices.size() + piece.triangles.size() <= edges.size();
 }
 }

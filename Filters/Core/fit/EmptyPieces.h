@@ -31,4 +31,7 @@ struct EmptyPiece
 std::vector<EmptyPiece> findEmptyPieces(const Mesh& mesh, const NumberedTriangles& triangles,
   std::span<const std::uint32_t> samples, std::span<const std::uint8_t> isEmpty,
   const Executor& executor = Executor::sequential());
+
+/// Whether a piece leads around something: it is no disc, by Euler's formula.
+bool isTube(const EmptyPiece& piece, const NumberedTriangles& triangles);
 }
