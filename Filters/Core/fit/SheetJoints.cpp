@@ -41,7 +41,7 @@ constexpr StripLimits Tubes{ .longestLoop = 11, .mostVertices = 60, .leastOnEach
 constexpr float MostAtBend = 0.9f;
 
 /// For the executor.
-constexpr std::size_t VerticesPerRange = 4096;
+constexpr std::size_t VerticesOfJointRange = 4096;
 
 /// Vertices at one end of a tube.
 struct TubeEnd
@@ -88,9 +88,9 @@ bool isBent(const Mesh& mesh, VertexIndex v)
 std::vector<std::uint8_t> verticesAtBends(const Mesh& mesh, const Executor& executor)
 {
   std::vector<std::uint8_t> isAtBend(mesh.indexEnd(), 0), isCandidate(mesh.indexEnd(), 0);
-  forEachVertex(mesh, executor, VerticesPerRange,
+  forEachVertex(mesh, executor, VerticesOfJointRange,
     [&](VertexIndex v) { isAtBend[v] = isBent(mesh, v) ? 1 : 0; });
-  forEachVertex(mesh, executor, VerticesPerRange,
+  forEachVertex(mesh, executor, VerticesOfJointRange,
     [&](VertexIndex v)
     {
       const Ring& ring = mesh.ring(v);

@@ -31,7 +31,7 @@ constexpr double LeastOfSide = 0.5;
 constexpr double LeastOfBentSide = 0.25;
 
 /// Parts for the executor.
-constexpr std::size_t PiecesPerRange = 64;
+constexpr std::size_t SidesPerRange = 64;
 constexpr std::size_t TrianglesOfPart = 4096;
 constexpr std::uint32_t NoneBehind = ~0u;
 constexpr std::size_t NoPiece = ~std::size_t(0);
@@ -186,7 +186,7 @@ std::vector<std::pair<std::size_t, std::size_t>> findWebs(const Mesh& mesh,
   }
   const WebSearch search(mesh, triangles, pieces, executor);
   std::vector<WebSearch::Behind> behind(pieces.size());
-  executor.forEachRange(pieces.size(), PiecesPerRange,
+  executor.forEachRange(pieces.size(), SidesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
