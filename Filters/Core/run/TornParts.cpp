@@ -2,6 +2,7 @@
 #include "run/TornParts.h"
 
 #include "cloud/NearestPoints.h"
+#include "mesh/BoxTree.h"
 
 #include <algorithm>
 #include <array>
@@ -30,7 +31,12 @@ constexpr double LeastPartAtTear = 0.15;
 /// A piece has so many points of its own: others are scraps that lie on something else.
 constexpr std::size_t FewestOfTornPiece = 8;
 
-constexpr std::size_t TornPerRange = 256;
+/// Points that follow each other, more than are looked for around one of them.
+constexpr std::size_t PointsPerBlock = 32;
+static_assert(PointsPerBlock > NeighborsAtTear);
+/// From the middle of a block to what is no farther than its diagonal from one of its points, and a little more.
+constexpr float ReachOfBlock = 1.51f;
+constexpr std::size_t BlocksPerRange = 8;
 constexpr std::uint32_t NoPiece = std::uint32_t(-1);
 
 class TearSearch
@@ -59,12 +65,21 @@ public:
   TornParts run(const Executor& executor) const
   {
     std::vector<Look> looks(places_.size());
-    executor.forEachRange(places_.size(), TornPerRange,
+    executor.forEachRange((places_.size() + PointsPerBlock - 1) / PointsPerBlock, BlocksPerRange,
       [&](std::size_t begin, std::size_t end)
       {
-        for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t block = begin; block < end; ++block)
         {
-          looks[i] = lookAround(std::uint32_t(i));
+          const std::size_t first = block * PointsPerBlock;
+          const std::size_t last = std::min(first + PointsPerBlock, places_.size());
+          if (isWithinPiece(first, last))
+          {
+            continue;
+          }
+          for (std::size_t i = first; i < last; ++i)
+          {
+            looks[i] = lookAround(std::uint32_t(i));
+          }
         }
       });
     return tearsOf(looks);
@@ -76,6 +91,26 @@ private:
     std::uint32_t other = NoPiece; ///< the piece that is near a point beside its own
     bool isAtEnd = false;          ///< whether its own ends there, and the other one goes on
   };
+
+  /// Whether all points around those of a full block belong to one piece. The nearest of a point lie no farther than the
+  /// diagonal of its block: nothing is to be found there.
+  bool isWithinPiece(std::size_t first, std::size_t last) const
+  {
+    if (last - first < PointsPerBlock)
+    {
+      return false;
+    }
+    Box box;
+    for (std::size_t i = first; i < last; ++i)
+    {
+      box.extend(places_[i]);
+    }
+    bool isOfOne = true;
+    nearest_->forEachWithin(0.5f * (box.low + box.high),
+      ReachOfBlock * std::sqrt(squaredNorm(box.high - box.low)),
+      [&](std::uint32_t i, float) { isOfOne = isOfOne && pieces_[i] == pieces_[first]; });
+    return isOfOne;
+  }
 
   Look lookAround(std::uint32_t i) const
   {
