@@ -3,6 +3,7 @@
 
 #include "base/OneLine.h"
 #include "cloud/PlyHeader.h"
+#include "file/GridCamera.h"
 #include "file/InputFile.h"
 #include "file/Lzf.h"
 #include "file/Words.h"
@@ -37,6 +38,7 @@ struct PcdHeader
 {
   std::vector<PcdField> fields;
   std::uint64_t points = 0;
+  std::uint64_t columns = 0;
   std::uint64_t stride = 0; ///< bytes of a record
   std::size_t numbers = 0;  ///< of a record
   std::optional<Eigen::Vector3d> viewpoint;
@@ -161,8 +163,8 @@ PcdHeader readPcdHeader(InputFile& file)
   readPcdFields(file, lines, header);
   readPcdViewpoint(file, lines, header);
   const bool hasPoints = lines.contains("POINTS"), hasHeight = lines.contains("HEIGHT");
-  header.points =
-    behind(0, countIn(file, lines, "WIDTH"), hasHeight ? countIn(file, lines, "HEIGHT") : 1);
+  header.columns = countIn(file, lines, "WIDTH");
+  header.points = behind(0, header.columns, hasHeight ? countIn(file, lines, "HEIGHT") : 1);
   if (hasPoints && countIn(file, lines, "POINTS") != header.points)
   {
     throw file.error("damaged: its POINTS are not WIDTH times HEIGHT");
@@ -250,6 +252,22 @@ private:
   std::optional<std::size_t> color_;
   std::vector<std::size_t> arrays_;
 };
+
+/// Where the sensor was: told, or what a grid of points shows.
+std::optional<Eigen::Vector3d> viewpointOf(const PcdHeader& header, const FileContents& contents)
+{
+  if (header.viewpoint || header.columns == 0)
+  {
+    return header.viewpoint;
+  }
+  return cameraOf({ std::size_t(header.columns), std::size_t(header.points / header.columns),
+    [&](std::size_t i) -> Eigen::Vector3d
+    {
+      return contents.doubles.empty()
+        ? Eigen::Map<const Eigen::Vector3f>(contents.floats.data() + 3 * i).cast<double>()
+        : Eigen::Vector3d(contents.doubles.data() + 3 * i);
+    } });
+}
 
 /// A colour in text: the number of its bytes, or the float that has these bytes.
 double pcdColorOf(double number, PlyType type)
@@ -376,9 +394,9 @@ FileContents readPcd(const std::string& path)
   {
     throw file.error("its points are neither ascii, binary nor binary_compressed");
   }
-  if (header.viewpoint)
+  if (const std::optional<Eigen::Vector3d> viewpoint = viewpointOf(header, contents))
   {
-    contents.viewpoints.push_back(*header.viewpoint);
+    contents.viewpoints.push_back(*viewpoint);
   }
   return contents;
 }

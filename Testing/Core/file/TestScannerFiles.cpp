@@ -130,6 +130,34 @@ TEST_F(ScannerFiles, PcdWithoutAViewpoint)
   EXPECT_EQ(turned.floats[1], 2.5f);
 }
 
+// Promise: a grid of rows and columns shows where its camera was, if the file does not tell; a file that tells is
+// believed.
+TEST_F(ScannerFiles, PcdThatIsADepthImage)
+{
+  std::string lines;
+  for (int i = 0; i < 16 * 16; ++i)
+  {
+    const double x = (i % 16 - 8) / 16., y = (i / 16 - 8) / 16., depth = 2. + x * y * y;
+    lines += i == 40 ? "nan nan nan\n"
+                     : std::to_string(depth * x + 5.) + " " + std::to_string(depth * y - 2.) + " " +
+        std::to_string(depth + 1.) + "\n";
+  }
+  const auto viewpointOf = [&](const std::string& size, const std::string& viewpoint)
+  {
+    return contentsOf("a.pcd",
+      "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n" + size + viewpoint + "POINTS 256\nDATA ascii\n" +
+        lines)
+      .viewpoints;
+  };
+  const std::string none = "VIEWPOINT 0 0 0 1 0 0 0\n";
+  ASSERT_EQ(viewpointOf("WIDTH 16\nHEIGHT 16\n", none).size(), 1u);
+  EXPECT_LT(
+    (viewpointOf("WIDTH 16\nHEIGHT 16\n", none)[0] - Eigen::Vector3d(5., -2., 1.)).norm(), 0.01);
+  EXPECT_TRUE(viewpointOf("WIDTH 256\nHEIGHT 1\n", none).empty());
+  EXPECT_EQ(viewpointOf("WIDTH 16\nHEIGHT 16\n", "VIEWPOINT 1 2 3 1 0 0 0\n")[0],
+    Eigen::Vector3d(1., 2., 3.));
+}
+
 // Promise: LZF's runs and copies come out, copies of what they write themselves, too; what refers to
 // before the beginning, or is not as long as told, is an error.
 TEST(Lzf, RunsAndCopies)
