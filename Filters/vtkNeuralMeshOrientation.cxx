@@ -184,7 +184,8 @@ void vtkNeuralMeshOrientation::FindViews()
 {
   const std::string named = this->Filter->GetViewArrayName();
   const std::string name = named.empty() ? ViewsName : named;
-  if (named.empty() && this->Viewpoints.size() < 2)
+  // Of a single viewpoint that is given the array of the input tells nothing: it may count others.
+  if (named.empty() && this->Viewpoints.size() < 2 && !this->ViewpointArray)
   {
     return;
   }

@@ -96,6 +96,11 @@ test_viewpoints()
     ptx $height < sheet.xyz > sheet.ptx
     looks $up $up 'by viewpoints' sheet.ptx
   done
+  # A depth image knows its camera, and that it saw all points, whatever the file says.
+  awk 'BEGIN { for (i = 0; i < 4096; ++i) { x = (i % 64 - 32) / 32; y = (int(i / 64) - 32) / 32
+    depth = 3 + 0.1 * x * x * x; print depth * x, depth * y, -depth } }' > image.xyz
+  pcd '0 0 0 1 0 0 0' < image.xyz | sed 's/^WIDTH.*/WIDTH 64/; s/^HEIGHT.*/HEIGHT 64/' > image.pcd
+  looks 1 1 'by viewpoints' image.pcd
   # What programs write which know none tells nothing.
   pcd '0 0 0 1 0 0 0' < sheet.xyz > sheet.pcd
   looks "$(upwards_of_plain)" "$(upwards_of_plain)" unknown sheet.pcd

@@ -70,6 +70,20 @@ class Sides(unittest.TestCase):
         self.assertEqual(names, {"Normals", "Activity", "Boundary", "Residual", "Support", "View"})
         self.assertEqual(dataset.GetPointData().GetNumberOfArrays(), 0)
 
+    # Promise: a dataset may bring its viewpoint, and which of its points were seen from there. Of another one, which
+    # is given, these tell nothing.
+    def test_own_viewpoint(self):
+        for number, told in ((0, "viewpoints"), (7, "nothing")):
+            dataset = support.point_set(sheet())
+            for data, name, values in ((dataset.GetFieldData(), "Viewpoints", np.array([[0., 0., -1.]])),
+                                       (dataset.GetPointData(), "View", np.full(3000, number))):
+                array = numpy_to_vtk(values, deep=True)
+                array.SetName(name)
+                data.AddArray(array)
+            self.assertEqual(told_by(neuralmesh.reconstruct(dataset, 200)), told)
+            mesh = neuralmesh.reconstruct(dataset, 200, viewpoints=(0, 0, -1))
+            self.assertEqual((upwards(mesh), told_by(mesh)), (False, "viewpoints"))
+
     # Promise: normals may be an array of the dataset, by its name, which counts in place of the active
     # ones; none count that are "off".
     def test_named_normals(self):

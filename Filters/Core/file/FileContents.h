@@ -37,8 +37,8 @@ struct FileContents
   std::vector<std::array<std::uint32_t, 3>> triangles;
   /// Where the scanner stood, in the coordinates of the points.
   std::vector<Eigen::Vector3d> viewpoints;
-  /// Of each point, from which of several viewpoints it was seen; OrientationHints::NoView: unknown.
-  /// Empty for a single viewpoint, which is that of all points.
+  /// Of each point, from which of the viewpoints it was seen; OrientationHints::NoView: unknown.
+  /// Empty where that is not told, as of a single viewpoint.
   std::vector<std::uint32_t> views;
   /// Read: what the file notes to have been taken off; it is in the coordinates again. Written: what
   /// has been taken off, and is to be noted.

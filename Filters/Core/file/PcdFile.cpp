@@ -253,20 +253,27 @@ private:
   std::vector<std::size_t> arrays_;
 };
 
-/// Where the sensor was: told, or what a grid of points shows.
-std::optional<Eigen::Vector3d> viewpointOf(const PcdHeader& header, const FileContents& contents)
+/// Sets where the points were seen from: the camera of a depth image, which saw all of them, or what the file tells.
+void setViewpoint(const PcdHeader& header, FileContents& contents)
 {
-  if (header.viewpoint || header.columns == 0)
+  const std::uint64_t rows = header.columns > 0 ? header.points / header.columns : 0;
+  const std::optional<Eigen::Vector3d> camera =
+    cameraOf({ std::size_t(header.columns), std::size_t(rows),
+      [&](std::size_t i) -> Eigen::Vector3d
+      {
+        return contents.doubles.empty()
+          ? Eigen::Map<const Eigen::Vector3f>(contents.floats.data() + 3 * i).cast<double>()
+          : Eigen::Vector3d(contents.doubles.data() + 3 * i);
+      } });
+  if (camera)
   {
-    return header.viewpoint;
+    contents.viewpoints = { *camera };
+    contents.views.assign(contents.size(), 0);
   }
-  return cameraOf({ std::size_t(header.columns), std::size_t(header.points / header.columns),
-    [&](std::size_t i) -> Eigen::Vector3d
-    {
-      return contents.doubles.empty()
-        ? Eigen::Map<const Eigen::Vector3f>(contents.floats.data() + 3 * i).cast<double>()
-        : Eigen::Vector3d(contents.doubles.data() + 3 * i);
-    } });
+  else if (header.viewpoint)
+  {
+    contents.viewpoints = { *header.viewpoint };
+  }
 }
 
 /// A colour in text: the number of its bytes, or the float that has these bytes.
@@ -394,10 +401,7 @@ FileContents readPcd(const std::string& path)
   {
     throw file.error("its points are neither ascii, binary nor binary_compressed");
   }
-  if (const std::optional<Eigen::Vector3d> viewpoint = viewpointOf(header, contents))
-  {
-    contents.viewpoints.push_back(*viewpoint);
-  }
+  setViewpoint(header, contents);
   return contents;
 }
 }

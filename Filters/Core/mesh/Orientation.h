@@ -53,6 +53,8 @@ struct OrientationReport
   std::optional<Vector4> contradiction;
   /// Where parts of a piece look away from what has told its side: the views of the points, or the normals.
   ContrarySides contrary;
+  /// Whether the views of the points told the sides of almost all of the area: `contrary` is all there is, then.
+  bool areViewsKnown = false;
 
   double share(SideEvidence evidence) const { return shares[std::size_t(evidence)]; }
   bool hasToldNothing(SideEvidence evidence) const { return toldNothing[std::size_t(evidence)]; }

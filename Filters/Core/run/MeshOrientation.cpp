@@ -24,6 +24,8 @@ constexpr double LeastVolume = 0.1;
 constexpr double CosineOfGround = 0.9;
 /// Of the area of a piece, projected onto the ground: with less it is upright, and has no upper side.
 constexpr double LeastUpwards = 0.05;
+/// Less may be small pieces to which no view came.
+constexpr double LeastShareSeen = 0.95;
 
 /// What of a piece looks up, less what looks down, of its area: of what is nearly level, and of all as far as it
 /// does.
@@ -209,6 +211,8 @@ OrientationReport orientMesh(
     report.contrary =
       findContrarySides(mesh, votesOf(mesh, pieces, sides, byViewpoints, byNormals), executor);
   }
+  report.areViewsKnown =
+    !byViewpoints.votes.empty() && report.share(SideEvidence::Viewpoints) >= LeastShareSeen;
   report.toldNothing[std::size_t(SideEvidence::Viewpoints)] = areViewpointsMute;
   report.toldNothing[std::size_t(SideEvidence::UpDirection)] = isUpMute;
   report.toldNothing[std::size_t(SideEvidence::Normals)] = areNormalsMute;

@@ -226,9 +226,10 @@ void warnOfSlivers(const SurfaceReport& surface, WarningList& warnings)
   }
 }
 
-void warnOfTurnedParts(double share, WarningList& warnings)
+/// Where the points know from where they were seen, that tells more than the shape: see warnOfSides().
+void warnOfTurnedParts(double share, bool areViewsKnown, WarningList& warnings)
 {
-  if (share > MostTurned)
+  if (share > MostTurned && !areViewsKnown)
   {
     warnings.add(WarningTopic::InsideOut,
       percent(share) +
@@ -392,7 +393,7 @@ std::vector<std::string> warningsOf(
   {
     warnOfDefects(result, CutsOfCloud, warnings);
     warnOfSlivers(result.quality->surface, warnings);
-    warnOfTurnedParts(result.quality->turnedShare, warnings);
+    warnOfTurnedParts(result.quality->turnedShare, result.orientation.areViewsKnown, warnings);
     warnOfHandles(result.quality->narrowHandles, cloud, warnings);
     warnOfVertices(result, cloud, warnings);
   }

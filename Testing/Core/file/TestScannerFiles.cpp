@@ -130,8 +130,7 @@ TEST_F(ScannerFiles, PcdWithoutAViewpoint)
   EXPECT_EQ(turned.floats[1], 2.5f);
 }
 
-// Promise: a grid of rows and columns shows where its camera was, if the file does not tell; a file that tells is
-// believed.
+// Promise: a grid of rows and columns shows where its camera was, which saw all its points, whatever VIEWPOINT says.
 TEST_F(ScannerFiles, PcdThatIsADepthImage)
 {
   std::string lines;
@@ -142,20 +141,22 @@ TEST_F(ScannerFiles, PcdThatIsADepthImage)
                      : std::to_string(depth * x + 5.) + " " + std::to_string(depth * y - 2.) + " " +
         std::to_string(depth + 1.) + "\n";
   }
-  const auto viewpointOf = [&](const std::string& size, const std::string& viewpoint)
+  const auto contentsOfSize = [&](const std::string& size, const std::string& viewpoint)
   {
     return contentsOf("a.pcd",
       "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n" + size + viewpoint + "POINTS 256\nDATA ascii\n" +
-        lines)
-      .viewpoints;
+        lines);
   };
-  const std::string none = "VIEWPOINT 0 0 0 1 0 0 0\n";
-  ASSERT_EQ(viewpointOf("WIDTH 16\nHEIGHT 16\n", none).size(), 1u);
-  EXPECT_LT(
-    (viewpointOf("WIDTH 16\nHEIGHT 16\n", none)[0] - Eigen::Vector3d(5., -2., 1.)).norm(), 0.01);
-  EXPECT_TRUE(viewpointOf("WIDTH 256\nHEIGHT 1\n", none).empty());
-  EXPECT_EQ(viewpointOf("WIDTH 16\nHEIGHT 16\n", "VIEWPOINT 1 2 3 1 0 0 0\n")[0],
-    Eigen::Vector3d(1., 2., 3.));
+  const std::string none = "VIEWPOINT 0 0 0 1 0 0 0\n", other = "VIEWPOINT 1 2 3 1 0 0 0\n";
+  for (const std::string& told : { none, other })
+  {
+    const FileContents image = contentsOfSize("WIDTH 16\nHEIGHT 16\n", told);
+    ASSERT_EQ(image.viewpoints.size(), 1u);
+    EXPECT_LT((image.viewpoints[0] - Eigen::Vector3d(5., -2., 1.)).norm(), 0.01);
+    EXPECT_EQ(image.views, std::vector<std::uint32_t>(256, 0));
+  }
+  EXPECT_TRUE(contentsOfSize("WIDTH 256\nHEIGHT 1\n", none).viewpoints.empty());
+  EXPECT_EQ(contentsOfSize("WIDTH 256\nHEIGHT 1\n", other).viewpoints.size(), 1u);
 }
 
 // Promise: LZF's runs and copies come out, copies of what they write themselves, too; what refers to

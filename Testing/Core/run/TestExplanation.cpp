@@ -333,6 +333,21 @@ TEST(Warnings, LostRod)
   EXPECT_TRUE(hasWarning(reconstructed(PointCloud(points), 2000), "missing in the mesh"));
 }
 
+// Promise: parts that seem to be turned are told, unless the points know from where they were seen: a room and what is
+// seen from outside may hang together.
+TEST(Warnings, TurnedPartsThatWereSeen)
+{
+  Reconstruction result;
+  result.quality = MeshQuality{};
+  result.quality->turnedShare = 0.3;
+  const PointCloud cloud(sphere(1000));
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_TRUE(hasWarning(result, "30 % of the surface is inside out"));
+  result.orientation.areViewsKnown = true;
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_FALSE(hasWarning(result, "inside out"));
+}
+
 // Promise: parts that look to opposite sides where they face each other are told, with the place; but not before the
 // fit, which opens gaps that are still spanned.
 TEST(Warnings, PartsThatContradictEachOther)

@@ -168,7 +168,9 @@ TEST(MeshOrientation, PartsThatLookAway)
       hints = seenFrom(std::move(viewpoints));
       hints.viewOf = [](std::uint32_t point) { return point; };
     }
-    const ContrarySides contrary = scene.orient(hints).contrary;
+    const OrientationReport report = scene.orient(hints);
+    EXPECT_EQ(report.areViewsKnown, areViews);
+    const ContrarySides contrary = report.contrary;
     EXPECT_NEAR(contrary.share, 0.2, 0.03);
     EXPECT_TRUE(isInCap(scene.cloud.toInput(contrary.place)));
   }
@@ -180,6 +182,7 @@ TEST(MeshOrientation, PartsThatLookAway)
     EXPECT_EQ(report.main(), SideEvidence::Viewpoints);
     EXPECT_EQ(scene.facingOutwards(), 1.);
     EXPECT_EQ(report.contrary.share, 0.);
+    EXPECT_FALSE(report.areViewsKnown);
   }
   for (const double share : { 0., 0.3 })
   {

@@ -168,7 +168,9 @@ class NeuralMeshAlgorithm:
             normals = cloud.normals(self._normal_array_name)
             problems += [] if self._normal_array_name else cloud.normal_problems[:1]
         views = None
-        if cloud is not None and (self._view_array_name or len(viewpoints) > 1):
+        # Of a single viewpoint that is given the array of the input tells nothing: it may count others.
+        is_own = not self._viewpoints and len(viewpoints) > 0
+        if cloud is not None and (self._view_array_name or is_own or len(viewpoints) > 1):
             name = self._view_array_name or "View"
             views = cloud.values(name)
             if views is None and self._view_array_name:
