@@ -158,10 +158,6 @@ FileContents readPtx(const std::string& path)
   {
     throw file.error("there is no scan in it");
   }
-  if (contents.viewpoints.size() == 1)
-  {
-    contents.views.clear();
-  }
   return contents;
 }
 }

@@ -200,7 +200,7 @@ TEST_F(ScannerFiles, PtxOfOneScan)
 {
   const FileContents contents = contentsOf("a.ptx", ptxScan(1, "1 0 0 0.5\n"));
   EXPECT_EQ(contents.viewpoints.size(), 1u);
-  EXPECT_TRUE(contents.views.empty());
+  EXPECT_EQ(contents.views, std::vector<std::uint32_t>{ 0 });
   EXPECT_TRUE(contents.colors.empty());
 }
 
