@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FileTest.h"
+#include "JSON.h"
 #include "MeshWriter.h"
 
 #include "vtkFloatArray.h"
@@ -8,8 +9,6 @@
 #include "vtkPolyData.h"
 #include "vtkSphereSource.h"
 #include "vtkUnsignedCharArray.h"
-
-#include <nlohmann/json.hpp>
 
 #include <gtest/gtest.h>
 
