@@ -3,6 +3,7 @@
 #include "FilterTesting.h"
 
 #include "vtkNeuralMesh.h"
+#include "vtkNeuralMeshEnsemble.h"
 
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
@@ -46,9 +47,9 @@ public:
 };
 
 /** While a cloud is made that takes long, nothing is learnt yet: there is no mesh, and no error. */
-int AbortInTheCloud()
+template <typename Filter>
+int AbortInTheCloud(Filter* filter)
 {
-  vtkNew<vtkNeuralMesh> filter;
   filter->SetNumberOfThreads(1);
   filter->SetNumberOfVertices(500);
   filter->SetInputData(FilterTesting::SphereCloud(4000000));
@@ -60,8 +61,17 @@ int AbortInTheCloud()
   CHECK(filter->GetOutput()->GetNumberOfPoints() == 0);
   CHECK(filter->GetLearningCurve()->GetNumberOfColumns() > 0);
   CHECK(filter->GetLearningCurve()->GetNumberOfRows() == 0);
-
   filter->RemoveAllObservers();
+  return EXIT_SUCCESS;
+}
+
+int AbortInTheClouds()
+{
+  vtkNew<vtkNeuralMesh> filter;
+  vtkNew<vtkNeuralMeshEnsemble> ensemble;
+  CHECK(AbortInTheCloud(ensemble.Get()) == EXIT_SUCCESS);
+  CHECK(AbortInTheCloud(filter.Get()) == EXIT_SUCCESS);
+
   filter->SetInputData(FilterTesting::SphereCloud(5000));
   filter->Update();
   CHECK(std::string(filter->GetStopReason()) == "vertices");
@@ -96,5 +106,5 @@ int TestNeuralMeshAbort(int, char*[])
   filter->Update();
   CHECK(std::string(filter->GetStopReason()) == "vertices");
   CHECK(filter->GetOutput()->GetNumberOfPoints() == 500);
-  return AbortInTheCloud();
+  return AbortInTheClouds();
 }

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Morton.h"
 
+#include "base/TouchedVector.h"
+#include "base/ZeroedArray.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace neuralmesh
@@ -14,6 +18,7 @@ constexpr int BitsPerDigit = 12;
 constexpr std::size_t DigitCount = std::size_t(1) << BitsPerDigit;
 /// Parts for the executor, about so many, but none smaller than there are digits to count.
 constexpr std::size_t PartsOfSort = 64;
+constexpr std::size_t DigitsPerRange = 1024;
 constexpr std::size_t LeastSortedPerRange = 4 * DigitCount;
 
 std::size_t sortedPerRange(std::size_t count)
@@ -29,7 +34,7 @@ struct MortonEntry
 
 /// Sorts by the digit of the keys that begins at the bit `shift`; entries of the same digit keep
 /// their order.
-void sortByDigit(const std::vector<MortonEntry>& entries, std::vector<MortonEntry>& sorted,
+void sortByDigit(const ZeroedArray<MortonEntry>& entries, ZeroedArray<MortonEntry>& sorted,
   int shift, const Executor& executor)
 {
   const auto digit = [shift](const MortonEntry& entry)
@@ -47,18 +52,28 @@ void sortByDigit(const std::vector<MortonEntry>& entries, std::vector<MortonEntr
         ++counts[digit(entries[i])];
       }
     });
-  std::uint32_t next = 0;
-  for (std::size_t d = 0; d < DigitCount; ++d)
-  {
-    for (std::size_t range = 0; range < ranges; ++range)
+  // Within each digit first, then behind those of lower digits.
+  std::vector<std::uint32_t> digitCounts(DigitCount);
+  executor.forEachRange(DigitCount, DigitsPerRange,
+    [&](std::size_t begin, std::size_t end)
     {
-      next += std::exchange(places[range * DigitCount + d], next);
-    }
-  }
+      for (std::size_t range = 0; range < ranges; ++range)
+      {
+        for (std::size_t d = begin; d < end; ++d)
+        {
+          digitCounts[d] += std::exchange(places[range * DigitCount + d], digitCounts[d]);
+        }
+      }
+    });
+  std::exclusive_scan(digitCounts.begin(), digitCounts.end(), digitCounts.begin(), 0u);
   executor.forEachRange(entries.size(), grain,
     [&](std::size_t begin, std::size_t end)
     {
       std::uint32_t* const place = &places[begin / grain * DigitCount];
+      for (std::size_t d = 0; d < DigitCount; ++d)
+      {
+        place[d] += digitCounts[d];
+      }
       for (std::size_t i = begin; i < end; ++i)
       {
         sorted[place[digit(entries[i])]++] = entries[i];
@@ -84,7 +99,8 @@ std::vector<std::uint32_t> mortonOrder(
 {
   const MortonCurve curve(boxMin, boxMax);
   const std::size_t grain = sortedPerRange(points.size());
-  std::vector<MortonEntry> entries(points.size()), sorted(points.size());
+  ZeroedArray<MortonEntry> entries(points.size()), sorted(points.size());
+  touchPages(sorted.data(), sorted.size() * sizeof(MortonEntry), executor);
   executor.forEachRange(points.size(), grain,
     [&](std::size_t begin, std::size_t end)
     {
@@ -96,9 +112,9 @@ std::vector<std::uint32_t> mortonOrder(
   for (int shift = 0; shift < MortonCurve::KeyBits; shift += BitsPerDigit)
   {
     sortByDigit(entries, sorted, shift, executor);
-    entries.swap(sorted);
+    std::swap(entries, sorted);
   }
-  std::vector<MortonEntry>().swap(sorted);
+  sorted = {};
   std::vector<std::uint32_t> order(points.size());
   executor.forEachRange(points.size(), grain,
     [&](std::size_t begin, std::size_t end)

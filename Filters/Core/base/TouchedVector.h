@@ -4,19 +4,17 @@
 #include "base/Executor.h"
 
 #include <cstddef>
+#include <utility>
 
 namespace neuralmesh
 {
-/// A vector of so many values without arguments. All threads touch its pages before one writes the values: the system
-/// clears new pages for the thread that touches them, which takes longer than all that is written.
-template <typename Vector>
-Vector touchedVector(std::size_t count, const Executor& executor)
+/// Touches the pages of new memory, on all threads, before one writes there: the system clears new pages for the thread
+/// that touches them, which takes longer than all that is written.
+inline void touchPages(void* memory, std::size_t size, const Executor& executor)
 {
   constexpr std::size_t BytesOfPart = std::size_t(1) << 21, BytesOfPage = 4096;
-  Vector result;
-  result.reserve(count);
-  auto* const bytes = reinterpret_cast<volatile unsigned char*>(result.data());
-  executor.forEachRange(count * sizeof(*result.data()), BytesOfPart,
+  auto* const bytes = static_cast<volatile unsigned char*>(memory);
+  executor.forEachRange(size, BytesOfPart,
     [bytes](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; i += BytesOfPage)
@@ -24,7 +22,37 @@ Vector touchedVector(std::size_t count, const Executor& executor)
         bytes[i] = 0;
       }
     });
+}
+
+/// Those of the memory that an empty vector has reserved.
+template <typename Vector>
+void touchReserved(Vector& empty, const Executor& executor)
+{
+  touchPages(empty.data(), empty.capacity() * sizeof(*empty.data()), executor);
+}
+
+/// A vector of so many values without arguments.
+template <typename Vector>
+Vector touchedVector(std::size_t count, const Executor& executor)
+{
+  Vector result;
+  result.reserve(count);
+  touchReserved(result, executor);
   result.resize(count);
   return result;
+}
+
+/// As `values.reserve(count)`.
+template <typename Vector>
+void reserveTouched(Vector& values, std::size_t count, const Executor& executor)
+{
+  if (values.capacity() < count)
+  {
+    Vector result;
+    result.reserve(count);
+    touchReserved(result, executor);
+    result.assign(values.begin(), values.end());
+    values = std::move(result);
+  }
 }
 }

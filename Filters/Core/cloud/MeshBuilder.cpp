@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/MeshBuilder.h"
 
+#include "mesh/EachVertex.h"
 #include "mesh/TriangleFans.h"
+#include "mesh/TriangleList.h"
 #include "mesh/VertexSplit.h"
 
 #include <algorithm>
@@ -260,19 +262,13 @@ Mesh buildMesh(TriangleMesh triangles, const PointCloud& cloud)
   }
 }
 
-TriangleMesh trianglesOf(const Mesh& mesh, const PointCloud& cloud)
+TriangleMesh trianglesOf(const Mesh& mesh, const PointCloud& cloud, const Executor& executor)
 {
-  TriangleMesh result;
-  result.points.reserve(mesh.vertexCount());
-  result.triangles.reserve(mesh.triangleCount());
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-  {
-    result.points.push_back(cloud.toInput(mesh.position(v)));
-  }
-  mesh.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
-      result.triangles.push_back({ a, b, c });
-    });
+  constexpr std::size_t PointsPerRange = 4096;
+  TriangleMesh result{ std::vector<Eigen::Vector3d>(mesh.indexEnd()),
+    triangleList(mesh, executor) };
+  forEachVertex(mesh, executor, PointsPerRange,
+    [&](VertexIndex v) { result.points[v] = cloud.toInput(mesh.position(v)); });
   return result;
 }
 }

@@ -20,5 +20,6 @@ namespace neuralmesh
 Mesh buildMesh(TriangleMesh triangles, const PointCloud& cloud);
 
 /// The way back. No vertex may be erased, so that indices are those of the mesh.
-TriangleMesh trianglesOf(const Mesh& mesh, const PointCloud& cloud);
+TriangleMesh trianglesOf(
+  const Mesh& mesh, const PointCloud& cloud, const Executor& executor = Executor::sequential());
 }

@@ -172,7 +172,7 @@ VotedSides OrientationVote::countPoints(
 /// By triangles with nothing between them and a viewpoint.
 VotedSides OrientationVote::countLinesOfSight() const
 {
-  const TriangleMesh surface = trianglesOf(mesh_, cloud_);
+  const TriangleMesh surface = trianglesOf(mesh_, cloud_, executor_);
   const Visibility visibility(surface);
   const std::size_t viewpoints = hints_.viewpoints.size();
   const std::size_t all = surface.triangles.size() * viewpoints;

@@ -9,6 +9,7 @@
 #include "mesh/StoredMesh.h"
 #include "mesh/TriangleShape.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -22,6 +23,8 @@ constexpr float CosineOfCrease = 0.6f;
 constexpr double TimesAcross = 2.;
 /// Number of rounds in which the vertices move.
 constexpr int Rounds = 2;
+/// A part for the executor.
+constexpr std::size_t VerticesOfCreasePart = 4096;
 
 /// Calls `body` with the ends of each edge, once.
 template <typename Body>
@@ -118,11 +121,15 @@ bool refineAndFit(const PointCloud& cloud, const StoredMesh& before, Mesh& mesh,
 }
 }
 
-bool hasCreases(const Mesh& mesh)
+bool hasCreases(const Mesh& mesh, const Executor& executor)
 {
-  double count = 0.;
-  forEachEdge(
-    mesh, [&](VertexIndex a, VertexIndex b) { count += isOfCrease(mesh, a, b) ? 1. : 0.; });
+  const double count = executor.sum(mesh.indexEnd(), VerticesOfCreasePart,
+    [&](std::size_t v)
+    {
+      const Ring& ring = mesh.ring(VertexIndex(v));
+      return std::count_if(ring.begin(), ring.end(),
+        [&](VertexIndex other) { return v < other && isOfCrease(mesh, VertexIndex(v), other); });
+    });
   return count > TimesAcross * std::sqrt(double(mesh.vertexCount()));
 }
 

@@ -16,7 +16,7 @@ inline constexpr std::size_t PointsThatTellCreases = 10;
 
 /// Whether creases are a large part of the surface: whether their length exceeds twice the width of
 /// the surface.
-bool hasCreases(const Mesh& mesh);
+bool hasCreases(const Mesh& mesh, const Executor& executor = Executor::sequential());
 
 /// Refines a finished mesh with creases to `count` vertices and keeps the creases as they are.
 /// Halves edges, flips flat edges to make the mesh more regular, and fits the vertices beside

@@ -219,8 +219,8 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
   std::vector<std::uint32_t> samples(triangles.all().size(), 0);
   // Samples that are farther from the mesh than from each other hold no tube.
   std::vector<std::uint8_t> isHeld(rules.isFitted ? samples.size() : 0, 0);
-  const double most = std::max(
-    LeastMedians * double(medianDistance), std::sqrt(areaOf(mesh) / double(places.size())));
+  const double most = std::max(LeastMedians * double(medianDistance),
+    std::sqrt(areaOf(mesh, executor) / double(places.size())));
   executor.forEachRange(places.size(), PlacesCountedPerRange,
     [&](std::size_t begin, std::size_t end)
     {
@@ -253,7 +253,7 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
       distance(t) <= LeastSpacingsIfEmpty * spacing;
   };
   const bool isFine = places.size() < LeastSamplesPerTriangle * triangles.all().size();
-  const double meanDensity = isFine ? double(places.size()) / areaOf(mesh) : 0.;
+  const double meanDensity = isFine ? double(places.size()) / areaOf(mesh, executor) : 0.;
   const double meanSpacing = isFine ? 1. / std::sqrt(meanDensity) : 0.;
   if (isFine)
   {
@@ -369,7 +369,7 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   {
     if (!points)
     {
-      const double spacing = std::sqrt(areaOf(mesh) / double(places.size()));
+      const double spacing = std::sqrt(areaOf(mesh, executor) / double(places.size()));
       reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
       points.emplace(cloud, places.size(), executor);
     }

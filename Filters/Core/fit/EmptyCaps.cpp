@@ -82,14 +82,16 @@ void EmptyCaps::offer(VertexIndex v, Cap& cap, std::uint32_t sample) const
 /// Where triangles are without samples, the nearest one lies on others.
 void EmptyCaps::lookAround()
 {
+  std::vector<Cap> before(caps_.size());
   for (int ring = 0; ring < RingsOfNearest; ++ring)
   {
-    const std::vector<Cap> before = caps_;
+    before.swap(caps_);
     executor_.forEachRange(caps_.size(), CapsPerRange,
       [&](std::size_t begin, std::size_t end)
       {
         for (auto v = VertexIndex(begin); v < end; ++v)
         {
+          caps_[v] = before[v];
           for (const VertexIndex neighbor : mesh_.ring(v))
           {
             if (before[neighbor].nearest != None)

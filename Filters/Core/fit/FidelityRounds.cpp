@@ -79,7 +79,7 @@ bool FidelityRounds::run(Fidelity fidelity, int rounds, bool isClean, bool isFix
       return false;
     }
   }
-  if (isClean && rounds > 0 && !keepsPlaces_ && hasCreases(mesh_) &&
+  if (isClean && rounds > 0 && !keepsPlaces_ && hasCreases(mesh_, executor_) &&
     !sharpenCorners(partOf(progress, 1., 1.)))
   {
     return false;

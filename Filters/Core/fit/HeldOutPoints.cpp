@@ -27,7 +27,7 @@ void measureToAll(const PointCloud& cloud, const std::vector<std::size_t>& point
   {
     return;
   }
-  const NearestTriangle nearest(trianglesIn(mesh), executor);
+  const NearestTriangle nearest(trianglesIn(mesh, executor), executor);
   executor.forEachRange(points.size(), HeldOutPerRange,
     [&](std::size_t begin, std::size_t end)
     {

@@ -129,6 +129,7 @@ public:
       lockDiamond(split);
       chosen.push_back(split);
     }
+    mesh_.reserve(mesh_.indexEnd() + chosen.size(), executor_);
     std::size_t left = missing;
     for (const CheapRemoval& removal : paid)
     {

@@ -32,7 +32,7 @@ constexpr float LaterOutlierEdges = 0.5f;
 /// A sample among sparse ones is no outlier either within so many times the local distance between
 /// samples.
 constexpr float OutlierSpacings = 3.f;
-constexpr std::size_t SamplesPerAbortCheck = 65536;
+constexpr std::size_t SamplesPerAbortCheck = 262144;
 /// A place elsewhere on the mesh counts if its squared distance is less than this part of the
 /// present one.
 constexpr double NearerPart = 0.9;
@@ -166,7 +166,7 @@ void SurfaceFit::findPlace(std::size_t sample, const VertexGrid& grid)
 /// elsewhere. Places on the other side of a thin part do not count.
 void SurfaceFit::findNearerPlaces()
 {
-  const TriangleMesh triangles = trianglesIn(mesh_);
+  const TriangleMesh triangles = trianglesIn(mesh_, executor_);
   const NearestTriangle nearest(triangles, executor_);
   executor_.forEachRange(samples_.size(), SamplesPerRange,
     [&](std::size_t begin, std::size_t end)

@@ -2,6 +2,7 @@
 #include "learn/ParallelLearner.h"
 
 #include "base/Archive.h"
+#include "base/InterruptibleExecutor.h"
 #include "cloud/OppositeLayer.h"
 #include "learn/OutlierDistance.h"
 #include "mesh/MortonPermutation.h"
@@ -89,7 +90,7 @@ ParallelLearner::ParallelLearner(const PointCloud& cloud, const Parameters& para
   isCoarse_ = mesh_.vertexCount() < std::size_t(PartOfCoarse * double(parameters.numberOfVertices));
   nextRemoval_ = removalInterval();
   updateDecay();
-  compact();
+  tidy();
   makeGrid();
   lookForThinParts();
   observeFirstMesh();
@@ -450,7 +451,7 @@ void ParallelLearner::tidyIfGrown()
 {
   if (mesh_.vertexCount() >= nextRenumbering_)
   {
-    compact();
+    tidy();
   }
   if (hasThinParts_ && mesh_.vertexCount() >= nextLook_)
   {
@@ -460,6 +461,21 @@ void ParallelLearner::tidyIfGrown()
 }
 
 void ParallelLearner::compact()
+{
+  try
+  {
+    sortAlongCurve(mesh_, interruptible_);
+  }
+  catch (const Interrupted&)
+  {
+    // Only their order in memory would be better.
+    return;
+  }
+  noteCompact();
+}
+
+/// The same to its end: how learning goes on depends on the order.
+void ParallelLearner::tidy()
 {
   sortAlongCurve(mesh_, executor_);
   noteCompact();
@@ -489,7 +505,7 @@ void ParallelLearner::changeCloud(
     mesh_.setPosition(v, to.fromInput(from.toInput(mesh_.position(v))));
   }
   mesh_.releaseErased();
-  compact();
+  tidy();
 }
 
 LearntMesh ParallelLearner::learntMesh() const

@@ -91,6 +91,7 @@ private:
   std::vector<Vector4> normals() const;
   void subdivideAll();
   void sortAlongCurve(Mesh& mesh, const Executor& executor) const;
+  void tidy();
   void noteCompact();
 
   void lookForThinParts();

@@ -2,6 +2,7 @@
 // The other half of the algorithm: growth, with all splits and collapses that lie apart at once.
 #include "learn/ParallelLearner.h"
 
+#include "base/ParallelSort.h"
 #include "base/Scattered.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/HalfEdgeCollapse.h"
@@ -213,8 +214,8 @@ void ParallelLearner::commit(const Quota& quota)
   std::vector<Operation> collapses(firstCollapse, operations_.end());
   const auto byUrgency = [](const Operation& a, const Operation& b)
   { return a.request.key > b.request.key; };
-  std::sort(splits.begin(), splits.end(), byUrgency);
-  std::sort(collapses.begin(), collapses.end(), byUrgency);
+  stableSort(splits, byUrgency, executor_);
+  stableSort(collapses, byUrgency, executor_);
   const auto keep = [](std::vector<Operation>& operations, std::size_t most)
   { operations.resize(std::min(operations.size(), most)); };
 
@@ -238,8 +239,8 @@ void ParallelLearner::commit(const Quota& quota)
 
   const auto byVertex = [](const Operation& a, const Operation& b)
   { return a.request.vertex < b.request.vertex; };
-  std::sort(splits.begin(), splits.end(), byVertex);
-  std::sort(collapses.begin(), collapses.end(), byVertex);
+  stableSort(splits, byVertex, executor_);
+  stableSort(collapses, byVertex, executor_);
   reserve(splits.size());
   const std::vector<VertexIndex> added = mesh_.addVertices(splits.size());
   reservations_.resize(mesh_.indexEnd());
@@ -314,7 +315,7 @@ void ParallelLearner::reserve(std::size_t added)
     const double all = RoomForBatch * double(parameters_.numberOfVertices);
     const double next = 1.1 * double(nextRenumbering_);
     reserved_ = std::max(needed, std::size_t(std::min(all, next)));
-    mesh_.reserve(reserved_);
+    mesh_.reserve(reserved_, executor_);
   }
 }
 }

@@ -324,10 +324,12 @@ void Mesh::flip(VertexIndex a, VertexIndex b)
   ringD.insert(ringD.find(b) + 1, c);
 }
 
-void Mesh::reserve(std::size_t count)
+void Mesh::reserve(std::size_t count) { reserve(count, Executor::sequential()); }
+
+void Mesh::reserve(std::size_t count, const Executor& executor)
 {
-  rings_.reserve(count);
-  positions_.reserve(count);
+  reserveTouched(rings_, count, executor);
+  reserveTouched(positions_, count, executor);
   properties_.reserve(count);
   erased_.reserve(count);
   reusable_.reserve(count);
@@ -369,7 +371,7 @@ void Mesh::renumber(std::span<const VertexIndex> permutation)
 void Mesh::renumber(std::span<const VertexIndex> permutation, const Executor& executor)
 {
   assert(permutation.size() == vertexCount());
-  const std::vector<VertexIndex> newIndex = newIndices(permutation);
+  const std::vector<VertexIndex> newIndex = newIndices(permutation, indexEnd(), executor);
   auto rings = touchedVector<LargeVector<Ring>>(permutation.size(), executor);
   auto positions = touchedVector<LargeVector<Vector4>>(permutation.size(), executor);
   executor.forEachRange(permutation.size(), MeshVerticesPerRange,
@@ -387,7 +389,7 @@ void Mesh::renumber(std::span<const VertexIndex> permutation, const Executor& ex
     });
   rings_ = std::move(rings);
   positions_ = std::move(positions);
-  properties_.renumber(permutation);
+  properties_.renumber(permutation, executor.uninterrupted());
   erased_.clear();
   reusable_.clear();
 }

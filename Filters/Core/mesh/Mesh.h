@@ -159,6 +159,7 @@ public:
 
   /// Memory for `count` indices: up to there no operation allocates.
   void reserve(std::size_t count);
+  void reserve(std::size_t count, const Executor& executor);
   /// Lets the indices of erased vertices be used again.
   void releaseErased();
   /// Closes the gaps in the indices that erased vertices leave; vertices keep their order. Returns

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/NearestTriangle.h"
 
+#include "base/TouchedVector.h"
 #include "mesh/BoxTree.h"
+#include "mesh/EachVertex.h"
+#include "mesh/TriangleList.h"
 
 #include <algorithm>
 #include <utility>
@@ -130,11 +133,12 @@ private:
 
 NearestTriangle::NearestTriangle(const TriangleMesh& mesh, const Executor& executor)
   : points_(mesh.points)
-  , triangles_(mesh.triangles.size())
-  , nodes_(BoxTreeShape::nodeCount(std::uint32_t(mesh.triangles.size())))
+  , triangles_(touchedVector<LargeVector<Triangle>>(mesh.triangles.size(), executor))
+  , nodes_(touchedVector<LargeVector<Node>>(
+      BoxTreeShape::nodeCount(std::uint32_t(mesh.triangles.size())), executor))
 {
   const auto count = std::uint32_t(mesh.triangles.size());
-  std::vector<Item> items(count);
+  auto items = touchedVector<LargeVector<Item>>(count, executor);
   executor.forEachRange(count, TreeTrianglesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
@@ -284,18 +288,12 @@ NearestTriangle::Found NearestTriangle::find(
   return nearest.found();
 }
 
-TriangleMesh trianglesIn(const Mesh& mesh)
+TriangleMesh trianglesIn(const Mesh& mesh, const Executor& executor)
 {
-  TriangleMesh result;
-  result.points.reserve(mesh.indexEnd());
-  for (const Vector4 position : mesh.positions())
-  {
-    result.points.push_back(position.toDouble());
-  }
-  mesh.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
-      result.triangles.push_back({ a, b, c });
-    });
+  TriangleMesh result{ std::vector<Eigen::Vector3d>(mesh.indexEnd()),
+    triangleList(mesh, executor) };
+  forEachVertex(mesh, executor, TreeTrianglesPerRange,
+    [&](VertexIndex v) { result.points[v] = mesh.position(v).toDouble(); });
   return result;
 }
 }

@@ -96,5 +96,5 @@ private:
 };
 
 /// The triangles of a mesh, in its coordinates, with the indices of its vertices, to be searched.
-TriangleMesh trianglesIn(const Mesh& mesh);
+TriangleMesh trianglesIn(const Mesh& mesh, const Executor& executor = Executor::sequential());
 }

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "base/Executor.h"
-#include "mesh/Mesh.h"
+#include "mesh/TriangleList.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -20,54 +19,42 @@ class NumberedTriangles
 public:
   explicit NumberedTriangles(const Mesh& mesh, const Executor& executor = Executor::sequential())
     : mesh_(mesh)
+    , triangles_(triangleList(mesh, executor))
     , first_(mesh.indexEnd() + 1, 0)
   {
-    // Those of each part of the vertices, and how many come before it.
-    const std::size_t parts = (mesh.indexEnd() + VerticesPerPart - 1) / VerticesPerPart;
-    std::vector<std::size_t> before(parts + 1, 0);
-    const auto forEachVertex = [&](std::size_t part, const auto& body)
-    {
-      const std::size_t end = std::min(mesh.indexEnd(), (part + 1) * VerticesPerPart);
-      for (auto v = VertexIndex(part * VerticesPerPart); v < end; ++v)
+    std::vector<std::size_t> before((mesh.indexEnd() + ItemsPerRange - 1) / ItemsPerRange + 1, 0);
+    executor.forEachRange(mesh.indexEnd(), ItemsPerRange,
+      [&](std::size_t begin, std::size_t end)
       {
-        body(v);
-      }
-    };
-    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-    {
-      first_[v + 1] = first_[v] + mesh.ring(v).triangleCount();
-    }
-    executor.forEachPart(parts,
-      [&](std::size_t part)
-      {
-        forEachVertex(part,
-          [&](VertexIndex v)
-          {
-            mesh.forEachTriangleFrom(
-              v, [&](VertexIndex, VertexIndex, VertexIndex) { ++before[part + 1]; });
-          });
+        std::size_t count = 0;
+        for (auto v = VertexIndex(begin); v < end; ++v)
+        {
+          count += mesh.ring(v).triangleCount();
+          first_[v + 1] = count;
+        }
+        before[begin / ItemsPerRange + 1] = count;
       });
     std::partial_sum(before.begin(), before.end(), before.begin());
-    triangles_.resize(before.back());
-    numbers_.resize(first_.back());
-    executor.forEachPart(parts,
-      [&](std::size_t part)
+    executor.forEachRange(mesh.indexEnd(), ItemsPerRange,
+      [&](std::size_t begin, std::size_t end)
       {
-        std::size_t number = before[part];
-        forEachVertex(part,
-          [&](VertexIndex v)
+        for (std::size_t v = begin; v < end; ++v)
+        {
+          first_[v + 1] += before[begin / ItemsPerRange];
+        }
+      });
+    numbers_.resize(first_.back());
+    executor.forEachRange(triangles_.size(), ItemsPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t number = begin; number < end; ++number)
+        {
+          const auto& [a, b, c] = triangles_[number];
+          for (const std::size_t at : { place(a, b), place(b, c), place(c, a) })
           {
-            mesh.forEachTriangleFrom(v,
-              [&](VertexIndex a, VertexIndex b, VertexIndex c)
-              {
-                triangles_[number] = { a, b, c };
-                for (const std::size_t at : { place(a, b), place(b, c), place(c, a) })
-                {
-                  numbers_[at] = std::uint32_t(number);
-                }
-                ++number;
-              });
-          });
+            numbers_[at] = std::uint32_t(number);
+          }
+        }
       });
   }
 
@@ -82,7 +69,7 @@ public:
 
 private:
   /// For the executor.
-  static constexpr std::size_t VerticesPerPart = 4096;
+  static constexpr std::size_t ItemsPerRange = 4096;
 
   std::size_t place(VertexIndex v, VertexIndex next) const
   {
@@ -90,8 +77,8 @@ private:
   }
 
   const Mesh& mesh_;
+  std::vector<Triangle> triangles_;
   std::vector<std::size_t> first_;
   std::vector<std::uint32_t> numbers_;
-  std::vector<Triangle> triangles_;
 };
 }

@@ -147,14 +147,18 @@ double areaOf(const Mesh& mesh, const Triangle& triangle)
       double(squaredNorm(cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a))));
 }
 
-double areaOf(const Mesh& mesh)
+double areaOf(const Mesh& mesh, const Executor& executor)
 {
-  double area = 0.;
-  mesh.forEachTriangle(
-    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
-      area += areaOf(mesh, { a, b, c });
+  return executor.sum(mesh.indexEnd(), VerticesOfPiecesPart,
+    [&](std::size_t v)
+    {
+      double area = 0.;
+      mesh.forEachTriangleFrom(VertexIndex(v),
+        [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+          area += areaOf(mesh, { a, b, c });
+        });
+      return area;
     });
-  return area;
 }
 
 std::size_t pieceCount(const Mesh& mesh, const Executor& executor)

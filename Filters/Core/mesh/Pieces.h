@@ -25,7 +25,7 @@ std::vector<Piece> findPieces(const Mesh& mesh, const Executor& executor = Execu
 
 double areaOf(const Mesh& mesh, const Triangle& triangle);
 /// Of all triangles.
-double areaOf(const Mesh& mesh);
+double areaOf(const Mesh& mesh, const Executor& executor = Executor::sequential());
 
 std::size_t pieceCount(const Mesh& mesh, const Executor& executor = Executor::sequential());
 /// Handles of all pieces together.

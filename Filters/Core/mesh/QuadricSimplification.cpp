@@ -33,6 +33,8 @@ constexpr double WeightOfNear = 1e-3;
 constexpr double Never = std::numeric_limits<double>::infinity();
 /// Of a closed mesh.
 constexpr std::size_t EdgesPerVertex = 3;
+/// Vertices, or edges, between two questions whether to go on: a hundredth of a second.
+constexpr std::size_t StepsPerAsk = 1024;
 
 /// The mean squared distance of a point from some planes, by their weights, as a quadratic form. Were it the
 /// sum, what is thin would go first: its planes have little area.
@@ -91,38 +93,41 @@ public:
     , quadrics_(mesh.indexEnd())
     , waiting_(EdgesPerVertex * mesh.vertexCount())
   {
-    mesh.forEachTriangle(
-      [this](VertexIndex a, VertexIndex b, VertexIndex c)
-      {
-        const Vector4 normal = normalOf(a, b, c);
-        for (const VertexIndex v : { a, b, c })
-        {
-          quadrics_[v].addPlane(mesh_.position(v), normal);
-        }
-        for (const auto& [from, to] : { std::pair(a, b), std::pair(b, c), std::pair(c, a) })
-        {
-          if (mesh_.isBoundaryEdge(from, to))
-          {
-            addBoundary(from, to, normal);
-          }
-        }
-      });
-    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
-    {
-      for (const VertexIndex neighbor : mesh.ring(v))
-      {
-        if (v < neighbor)
-        {
-          pushBothWays(v, neighbor, waiting_.at(v, neighbor));
-        }
-      }
-    }
   }
 
-  void simplify(std::size_t count)
+  /// To be called first. Returns false if `progress` ended it.
+  bool lookAtAll(const Progress& progress)
   {
-    while (mesh_.vertexCount() > count && !edges_.empty())
+    return forEachVertex(progress,
+             [this](VertexIndex v)
+             {
+               mesh_.forEachTriangleFrom(
+                 v, [this](VertexIndex a, VertexIndex b, VertexIndex c) { addTriangle(a, b, c); });
+             }) &&
+      forEachVertex(progress,
+        [this](VertexIndex v)
+        {
+          for (const VertexIndex neighbor : mesh_.ring(v))
+          {
+            if (v < neighbor)
+            {
+              pushBothWays(v, neighbor, waiting_.at(v, neighbor));
+            }
+          }
+        });
+  }
+
+  /// Returns false if `progress` ended it.
+  bool simplify(std::size_t count, const Progress& progress)
+  {
+    const std::size_t before = mesh_.vertexCount();
+    for (std::size_t step = 0; mesh_.vertexCount() > count && !edges_.empty(); ++step)
     {
+      if (step % StepsPerAsk == 0 &&
+        !progress(double(before - mesh_.vertexCount()) / double(before - count)))
+      {
+        return false;
+      }
       const auto [cost, removed, kept] = edges_.top();
       edges_.pop();
       // An edge is there as long as both its ends.
@@ -131,6 +136,7 @@ public:
         collapse(removed, kept, cost);
       }
     }
+    return true;
   }
 
 private:
@@ -151,6 +157,36 @@ private:
     double cost = Never;
     Vector4 place;
   };
+
+  template <typename Visit>
+  bool forEachVertex(const Progress& progress, const Visit& visit) const
+  {
+    for (VertexIndex v = 0; v < mesh_.indexEnd(); ++v)
+    {
+      if (v % StepsPerAsk == 0 && !progress(0.))
+      {
+        return false;
+      }
+      visit(v);
+    }
+    return true;
+  }
+
+  void addTriangle(VertexIndex a, VertexIndex b, VertexIndex c)
+  {
+    const Vector4 normal = normalOf(a, b, c);
+    for (const VertexIndex v : { a, b, c })
+    {
+      quadrics_[v].addPlane(mesh_.position(v), normal);
+    }
+    for (const auto& [from, to] : { std::pair(a, b), std::pair(b, c), std::pair(c, a) })
+    {
+      if (mesh_.isBoundaryEdge(from, to))
+      {
+        addBoundary(from, to, normal);
+      }
+    }
+  }
 
   Vector4 normalOf(VertexIndex a, VertexIndex b, VertexIndex c) const
   {
@@ -313,28 +349,40 @@ private:
   EdgeValues<WaitingCosts> waiting_;
 };
 
-void simplifyBy(Mesh& mesh, std::size_t count, double evenness, float leastShape)
+bool isNeverEnded(double) { return true; }
+
+bool simplifyBy(
+  Mesh& mesh, std::size_t count, double evenness, float leastShape, const Progress& progress)
 {
-  if (mesh.vertexCount() > count)
+  if (mesh.vertexCount() <= count)
   {
-    QuadricSimplifier(mesh, evenness, leastShape).simplify(count);
-    mesh.dropErased();
+    return true;
   }
+  QuadricSimplifier simplifier(mesh, evenness, leastShape);
+  const bool isDone = simplifier.lookAtAll(progress) && simplifier.simplify(count, progress);
+  mesh.dropErased();
+  return isDone;
 }
 }
 
 void simplifyByQuadrics(Mesh& mesh, std::size_t count)
 {
-  simplifyBy(mesh, count, UsualEvenness, 0.f);
+  simplifyByQuadrics(mesh, count, isNeverEnded);
+}
+
+bool simplifyByQuadrics(Mesh& mesh, std::size_t count, const Progress& progress)
+{
+  return simplifyBy(mesh, count, UsualEvenness, 0.f, progress);
 }
 
 void simplifyByQuadricsToEach(
   Mesh& mesh, std::span<const std::size_t> counts, const std::function<bool()>& reached)
 {
   QuadricSimplifier simplifier(mesh, UsualEvenness, 0.f);
+  simplifier.lookAtAll(isNeverEnded);
   for (const std::size_t count : counts)
   {
-    simplifier.simplify(count);
+    simplifier.simplify(count, isNeverEnded);
     if (!reached())
     {
       return;
@@ -345,6 +393,6 @@ void simplifyByQuadricsToEach(
 
 void simplifySurface(Mesh& mesh, std::size_t count)
 {
-  simplifyBy(mesh, count, EvennessOfSurface, LeastShape);
+  simplifyBy(mesh, count, EvennessOfSurface, LeastShape, isNeverEnded);
 }
 }

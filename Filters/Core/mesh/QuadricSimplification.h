@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Progress.h"
 #include "mesh/Mesh.h"
 
 #include <cstddef>
@@ -15,6 +16,8 @@ namespace neuralmesh
 /// P. Heckbert, *Surface simplification using quadric error metrics*, 1997). Handles, boundaries and pieces
 /// stay. In the end, no vertex is erased.
 void simplifyByQuadrics(Mesh& mesh, std::size_t count);
+/// The same; returns false if `progress` ended it, with more vertices.
+bool simplifyByQuadrics(Mesh& mesh, std::size_t count, const Progress& progress);
 
 /// The same for several meshes, in little more time than for the smallest: the numbers of vertices
 /// descend, and `reached` is called at each. It returns false to end. Then, and while it is called,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/Ring.h"
 
 #include <algorithm>
@@ -19,6 +20,23 @@ inline std::vector<VertexIndex> newIndices(std::span<const VertexIndex> permutat
   {
     result[permutation[i]] = VertexIndex(i);
   }
+  return result;
+}
+
+/// The same on all threads, where all indices are below `indexEnd`.
+inline std::vector<VertexIndex> newIndices(
+  std::span<const VertexIndex> permutation, std::size_t indexEnd, const Executor& executor)
+{
+  constexpr std::size_t VerticesPerRange = 16384;
+  std::vector<VertexIndex> result(indexEnd, NoVertex);
+  executor.forEachRange(permutation.size(), VerticesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        result[permutation[i]] = VertexIndex(i);
+      }
+    });
   return result;
 }
 }

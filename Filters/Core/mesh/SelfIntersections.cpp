@@ -2,6 +2,7 @@
 #include "mesh/SelfIntersections.h"
 
 #include "base/Morton.h"
+#include "base/TouchedVector.h"
 #include "mesh/BoxTree.h"
 #include "mesh/TriangleIntersection.h"
 
@@ -138,7 +139,7 @@ bool doIntersect(const Mesh& mesh, SimpleStars& isSimple, Triangle first, Triang
 std::vector<VertexIndex> verticesAlongCurve(
   const Mesh& mesh, const std::vector<VertexIndex>& vertices, const Executor& executor)
 {
-  std::vector<Vector4> positions(vertices.size());
+  auto positions = touchedVector<LargeVector<Vector4>>(vertices.size(), executor);
   std::vector<Box> bounds((vertices.size() + CandidatesPerRange - 1) / CandidatesPerRange);
   executor.forEachRange(vertices.size(), CandidatesPerRange,
     [&](std::size_t begin, std::size_t end)
@@ -230,7 +231,7 @@ public:
           }
         });
     };
-    triangles_.reserve(2 * mesh.vertexCount());
+    reserveTouched(triangles_, 2 * mesh.vertexCount(), executor);
     addFound(vertices.size(), executor, triangles_,
       [&](std::size_t i, std::vector<Triangle>& found) { addTriangles(vertices[i], true, found); });
     askedCount_ = triangles_.size();

@@ -2,6 +2,7 @@
 #include "mesh/SurfaceReport.h"
 
 #include "base/ConcurrentSets.h"
+#include "base/ZeroedArray.h"
 
 #include <Eigen/Geometry>
 
@@ -132,7 +133,7 @@ private:
     {
       double twiceArea, volume, quality;
     };
-    std::vector<Shape> shapes(mesh_.triangles.size());
+    ZeroedArray<Shape> shapes(mesh_.triangles.size());
     std::vector<Eigen::AlignedBox3d> boxes(
       (mesh_.triangles.size() + ReportedPerRange - 1) / ReportedPerRange);
     forEachTriangle(
@@ -205,7 +206,7 @@ private:
     std::vector<std::size_t> ends(points + 1, 0);
     forEachSide([&](const EdgeSide& side) { increased(ends[side.low + 1]); });
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::vector<EdgeSide> sides(ends.back());
+    ZeroedArray<EdgeSide> sides(ends.back());
     forEachSide([&](const EdgeSide& side) { sides[increased(ends[side.low])] = side; });
     std::vector<EdgeCounts> counts((points + ReportedPerRange - 1) / ReportedPerRange);
     executor_.forEachRange(points, ReportedPerRange,
@@ -215,7 +216,7 @@ private:
         {
           const std::size_t first = point > 0 ? ends[point - 1] : 0;
           visitEdgesAt(
-            std::span(sides).subspan(first, ends[point] - first), counts[begin / ReportedPerRange]);
+            std::span(sides.data() + first, ends[point] - first), counts[begin / ReportedPerRange]);
         }
       });
     for (const EdgeCounts& some : counts)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "mesh/Ring.h"
 
 #include <cstddef>
@@ -83,17 +84,21 @@ public:
   }
 
   /// As Mesh::renumber().
-  void renumber(std::span<const VertexIndex> permutation)
+  void renumber(std::span<const VertexIndex> permutation, const Executor& executor)
   {
+    constexpr std::size_t VerticesPerRange = 16384;
     forEachColumn(
-      [=](auto& column)
+      [&](auto& column)
       {
-        std::remove_reference_t<decltype(column.values)> values;
-        values.reserve(permutation.size());
-        for (const VertexIndex v : permutation)
-        {
-          values.push_back(column.values[v]);
-        }
+        std::remove_reference_t<decltype(column.values)> values(permutation.size());
+        executor.forEachRange(permutation.size(), VerticesPerRange,
+          [&](std::size_t begin, std::size_t end)
+          {
+            for (std::size_t i = begin; i < end; ++i)
+            {
+              values[i] = column.values[permutation[i]];
+            }
+          });
         column.values = std::move(values);
       });
   }

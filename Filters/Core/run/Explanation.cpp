@@ -128,7 +128,7 @@ private:
       spacings[i] = spacingOf(i * all / asked);
     }
     usualSpacing_ = medianOf(std::move(spacings));
-    float median = medianOf(distances);
+    float median = medianOf(distances, executor_);
     if (median > SpacingsOfNoise * usualSpacing_ || liesOffTheLayers(median))
     {
       std::vector<float> moves;

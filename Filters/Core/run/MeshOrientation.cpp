@@ -202,7 +202,7 @@ OrientationReport orientMesh(
   }
   OrientationReport report = turn(mesh, pieces, sides);
   const FacingBoundaries facing = findFacingBoundaries(mesh);
-  if (facing.doContradict(areaOf(mesh)))
+  if (facing.doContradict(areaOf(mesh, executor)))
   {
     report.contradiction = facing.place;
   }

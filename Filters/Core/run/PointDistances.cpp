@@ -4,6 +4,7 @@
 #include "base/Median.h"
 #include "cloud/CloudDistance.h"
 #include "cloud/PlaceOnMesh.h"
+#include "fit/PlacesByRows.h"
 #include "mesh/NearestTriangle.h"
 #include "mesh/Pieces.h"
 #include "mesh/TriangleMesh.h"
@@ -19,7 +20,7 @@ namespace
 {
 constexpr std::size_t DistancesPerRange = 256;
 /// Places found at a time: what is kept of them is less.
-constexpr std::size_t PointsPerBlock = 65536;
+constexpr std::size_t PointsPerBlock = 262144;
 /// The triangles of the closest vertex need not have the closest place of the mesh: where a point is farther
 /// than so many medians, those around it are looked at, too.
 constexpr float MediansToLookAgain = 4.f;
@@ -103,15 +104,15 @@ private:
 };
 
 /// By the index of the vertex; empty if there is but one.
-std::vector<std::uint32_t> piecesOf(const Mesh& mesh)
+std::vector<std::uint32_t> piecesOf(const Mesh& mesh, const Executor& executor)
 {
-  if (pieceCount(mesh) < 2)
+  if (pieceCount(mesh, executor) < 2)
   {
     return {};
   }
   std::vector<std::uint32_t> result(mesh.indexEnd(), 0);
   std::uint32_t number = 0;
-  for (const Piece& piece : findPieces(mesh))
+  for (const Piece& piece : findPieces(mesh, executor))
   {
     for (const VertexIndex v : piece.vertices)
     {
@@ -141,7 +142,7 @@ void findExactly(const Mesh& mesh, const PointCloud& cloud, float least,
   {
     return;
   }
-  const TriangleMesh triangles = trianglesIn(mesh);
+  const TriangleMesh triangles = trianglesIn(mesh, executor);
   const NearestTriangle nearest(triangles, executor);
   executor.forEachRange(result.points.size(), DistancesPerRange,
     [&](std::size_t begin, std::size_t end)
@@ -174,14 +175,18 @@ public:
   {
   }
 
-  void add(std::size_t point, const PlaceOnMesh& place)
+  /// At those of its corners that are among the rows.
+  void add(std::size_t point, const PlaceOnMesh& place, const VertexRows& rows)
   {
     for (unsigned corner = 0; corner < 3; ++corner)
     {
-      const double weight =
-        double(cloud_.weight(point)) * std::max(0., double(place.weights()[int(corner)]));
-      weights_[place.triangle[corner]] += weight;
-      squares_[place.triangle[corner]] += weight * double(place.squaredDistance);
+      if (rows.has(place.triangle[corner]))
+      {
+        const double weight =
+          double(cloud_.weight(point)) * std::max(0., double(place.weights()[int(corner)]));
+        weights_[place.triangle[corner]] += weight;
+        squares_[place.triangle[corner]] += weight * double(place.squaredDistance);
+      }
     }
   }
 
@@ -229,7 +234,7 @@ std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cl
   const std::size_t count = result.points.size();
   result.distances.resize(count);
   result.isBeyondBoundary.resize(count);
-  const std::vector<std::uint32_t> pieceOf = piecesOf(mesh);
+  const std::vector<std::uint32_t> pieceOf = piecesOf(mesh, executor);
   result.pieces.resize(pieceOf.empty() ? 0 : count);
   result.meanEdge = mesh.meanEdge(executor);
   const float median = places.medianOfSome(result.points, executor);
@@ -267,7 +272,7 @@ std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cl
 PointDistances exactly(
   PointDistances distances, const Mesh& mesh, const PointCloud& cloud, const Executor& executor)
 {
-  findExactly(mesh, cloud, -1.f, piecesOf(mesh), executor, distances);
+  findExactly(mesh, cloud, -1.f, piecesOf(mesh, executor), executor, distances);
   return distances;
 }
 
@@ -276,8 +281,8 @@ PointDistances withExactTail(
 {
   if (!distances.distances.empty())
   {
-    const float least = MediansToLookAgain * medianOf(distances.distances);
-    findExactly(mesh, cloud, least, piecesOf(mesh), executor, distances);
+    const float least = MediansToLookAgain * medianOf(distances.distances, executor);
+    findExactly(mesh, cloud, least, piecesOf(mesh, executor), executor, distances);
   }
   return distances;
 }
@@ -297,6 +302,7 @@ std::optional<VertexSupport> supportOf(const Mesh& mesh, const PointCloud& cloud
   const float farthest =
     outlierDistance(places.medianOfSome(points, executor), mesh.meanEdge(executor));
   SupportSum sum(mesh, cloud);
+  const RowParts rows(mesh.indexEnd(), executor);
   std::vector<PlaceOnMesh> found(std::min(points.size(), PointsPerBlock));
   for (std::size_t first = 0; first < points.size(); first += PointsPerBlock)
   {
@@ -313,13 +319,10 @@ std::optional<VertexSupport> supportOf(const Mesh& mesh, const PointCloud& cloud
           found[i] = places.of(points[first + i]);
         }
       });
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      if (found[i].squaredDistance <= farthest * farthest)
-      {
-        sum.add(points[first + i], found[i]);
-      }
-    }
+    forEachPlaceByRows(
+      std::span(found).first(size), rows, executor,
+      [&](std::size_t i) { return found[i].squaredDistance <= farthest * farthest; },
+      [&](const VertexRows& some, std::size_t i) { sum.add(points[first + i], found[i], some); });
   }
   return sum.result(
     double(cloud.points().size()) / double(std::max<std::size_t>(1, points.size())), executor);

@@ -73,14 +73,14 @@ bool isRight(const Reconstruction& simplified, std::uint64_t vertices)
 
 /// Whether a coarser mesh may have sharper creases: the mesh has creases, but too few points per
 /// vertex for them.
-bool mayHaveRoundedCreases(
-  const Reconstruction& result, const PointCloud& cloud, const Parameters& parameters)
+bool mayHaveRoundedCreases(const Reconstruction& result, const RunRequest& request)
 {
+  const Parameters& parameters = request.parameters;
   return result.stopReason == StopReason::Vertices && result.finish && result.finish->isClean &&
     parameters.fidelity != Fidelity::Draft && parameters.fitSmoothness == 0. &&
     !parameters.computeFeatureStrength &&
-    result.surface.vertexCount() > cloud.differentCount() / PointsThatTellCreases &&
-    hasCreases(result.surface);
+    result.surface.vertexCount() > request.cloud.differentCount() / PointsThatTellCreases &&
+    hasCreases(result.surface, request.executor);
 }
 
 /// Whether the first mesh has so many vertices, and a residual below `times` that of the second.
@@ -194,7 +194,7 @@ Reconstruction betterRun(Reconstruction result, const RunRequest& request, const
           [&](const Reconstruction& other, const Reconstruction& first)
           { return !isCloser(first, other, asked); });
   }
-  if (!mayHaveRoundedCreases(result, request.cloud, request.parameters))
+  if (!mayHaveRoundedCreases(result, request))
   {
     return result;
   }

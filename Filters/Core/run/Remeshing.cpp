@@ -81,7 +81,7 @@ Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, M
 {
   Reconstruction result;
   result.times.enter(Phase::Start);
-  const NearestTriangle nearest(trianglesIn(surface), executor);
+  const NearestTriangle nearest(trianglesIn(surface, executor), executor);
   // All of it alike: sheets whose vertices are all at the boundary, too.
   while (surface.vertexCount() < std::size_t(parameters.numberOfVertices))
   {
@@ -108,7 +108,7 @@ Reconstruction remesh(const PointCloud& samples, const Parameters& parameters, M
   }
   result.stopReason = isCancelled ? StopReason::Cancelled : StopReason::Vertices;
   result.orientation = sidesOf(surface);
-  result.mesh = trianglesOf(surface, samples);
+  result.mesh = trianglesOf(surface, samples, executor.uninterrupted());
   result.normals = pointNormals(result.mesh);
   result.activities.assign(surface.vertexCount(), 0.);
   if (!isCancelled)

@@ -185,11 +185,16 @@ bool Run::remake(LearntRun& run, std::uint64_t asked, ProgressPart part, const R
         std::size_t(asked), inTime(run, partOf(progress_, part.begin, part.end)), interruptible_,
         request_.hints);
     });
-  result.curve.endWith(run.learnt.mesh);
   if (!result.finish)
   {
     result.stopReason = whyEnded();
+    if (result.stopReason == StopReason::TimeLimit)
+    {
+      // The limit may have ended the simplification.
+      simplifyByQuadrics(run.learnt.mesh, std::size_t(asked));
+    }
   }
+  result.curve.endWith(run.learnt.mesh);
   return result.isComplete();
 }
 

@@ -47,7 +47,7 @@ std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& suppo
   {
     return {};
   }
-  const double all = areaOf(mesh);
+  const double all = areaOf(mesh, executor);
   if (!(all > 0.))
   {
     return {};

@@ -270,7 +270,10 @@ std::optional<FinishReport> finishSimplified(LearntMesh& learnt, const FinishRep
   const PointCloud& cloud, const Parameters& parameters, std::size_t vertexCount,
   const Progress& progress, const Executor& executor, const OrientationHints& hints)
 {
-  simplifyByQuadrics(learnt.mesh, vertexCount);
+  if (!simplifyByQuadrics(learnt.mesh, vertexCount, partOf(progress, 0., 0.)))
+  {
+    return {};
+  }
   FinishPlan plan = finishPlan(parameters);
   leaveOutFidelity(plan);
   plan.vertexCount = learnt.mesh.vertexCount();
@@ -301,7 +304,10 @@ std::optional<FinishReport> finishAgain(LearntMesh& learnt, const FinishReport& 
   const bool isSimplified = learnt.mesh.vertexCount() > vertexCount;
   if (isSimplified)
   {
-    simplifyByQuadrics(learnt.mesh, vertexCount);
+    if (!simplifyByQuadrics(learnt.mesh, vertexCount, partOf(progress, 0., 0.)))
+    {
+      return {};
+    }
     // On a clean cloud, the vertices are where they are needed already.
     plan.fidelity = before.isClean ? Fidelity::Draft : plan.fidelity;
   }
@@ -367,7 +373,7 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
   bool goesOn = progress(0.);
   result.orientation = orientMesh(learnt.mesh, cloud, hints, executor.uninterrupted());
   goesOn = goesOn && progress(0.);
-  result.mesh = trianglesOf(learnt.mesh, cloud);
+  result.mesh = trianglesOf(learnt.mesh, cloud, executor.uninterrupted());
   result.normals = pointNormals(result.mesh);
   const auto activities = learnt.mesh.values(learnt.activity);
   result.activities.assign(activities.begin(), activities.end());

@@ -238,6 +238,32 @@ TEST(ParallelLearner, GoesOnFromAnInterruption)
   }
 }
 
+// Promise: an interruption comes before any part of what puts the vertices in order at the end, too. It leaves the mesh as
+// it was.
+TEST(ParallelLearner, StaysValidWhereItIsPutInOrder)
+{
+  static constexpr std::uint64_t Vertices = 3000;
+  const auto partsUntilOrdered = [](std::size_t interrupted, std::size_t& learnt)
+  {
+    const ExecutorToInterrupt executor(interrupted);
+    ParallelLearner learner(cleanSphere(), ofSize(Vertices), firstSphere(), {}, executor);
+    learner.learn(All);
+    learnt = executor.partCount();
+    EXPECT_TRUE(interrupted < learnt || learner.isComplete());
+    learner.compact();
+    EXPECT_EQ(defectOf(learner.mesh()), "");
+    EXPECT_EQ(learner.learntMesh().mesh.vertexCount(), learner.mesh().vertexCount());
+    return executor.partCount();
+  };
+  std::size_t before = 0, ignored = 0;
+  const std::size_t all = partsUntilOrdered(All, before);
+  EXPECT_GT(all, before + 8);
+  for (std::size_t part = before; part < all; part += 5)
+  {
+    EXPECT_EQ(partsUntilOrdered(part, ignored), part + 1) << part;
+  }
+}
+
 // Points with a larger weight get more of the vertices.
 TEST(ParallelLearner, WeightsDrawVertices)
 {

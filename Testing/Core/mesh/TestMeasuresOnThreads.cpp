@@ -4,17 +4,21 @@
 #include "base/ThreadPool.h"
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
+#include "fit/CreaseRefinement.h"
 #include "fit/DataFlips.h"
 #include "fit/EmptyPieces.h"
 #include "fit/PlacesByRows.h"
 #include "fit/SurfaceFit.h"
 #include "mesh/EdgeFlips.h"
+#include "mesh/MortonPermutation.h"
 #include "mesh/NarrowHandles.h"
 #include "mesh/NearestTriangle.h"
 #include "mesh/NumberedTriangles.h"
 #include "mesh/Pieces.h"
 #include "mesh/SelfIntersections.h"
 #include "mesh/SurfaceReport.h"
+#include "mesh/TriangleList.h"
+#include "run/PointDistances.h"
 #include "Shapes.h"
 #include "SphereRuns.h"
 
@@ -124,6 +128,67 @@ TEST(MeasuresOnThreads, Mesh)
     other.renumber(backwards, pool);
     EXPECT_EQ(intersectingTriangles(other), intersectingTriangles(turned));
     EXPECT_EQ(other.meanEdge(), turned.meanEdge());
+  }
+}
+
+// Promise: triangles and their numbers, the area, and the order along a curve are the same on any number of threads, and
+// those of a plain loop. Vertices that come into room made by threads are where they would be.
+TEST(MeasuresOnThreads, Lists)
+{
+  Mesh mesh = testing::meshOf(makeTorus(0.4, 160));
+  const VertexIndex kept = mesh.ring(7000).front();
+  ASSERT_TRUE(mesh.canCollapse(7000, kept));
+  mesh.collapse(7000, kept);
+  std::vector<Triangle> triangles;
+  mesh.forEachTriangle(
+    [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+      triangles.push_back({ a, b, c });
+    });
+  const NumberedTriangles numbered(mesh);
+  ASSERT_EQ(numbered.all(), triangles);
+  const Vector4 low(-2.f, -2.f, -2.f), high(2.f, 2.f, 2.f);
+  for (const unsigned threads : CountsOfThreads)
+  {
+    SCOPED_TRACE(threads);
+    const ThreadPool pool(threads);
+    EXPECT_EQ(triangleList(mesh, pool), triangles);
+    EXPECT_EQ(areaOf(mesh, pool), areaOf(mesh));
+    EXPECT_EQ(hasCreases(mesh, pool), hasCreases(mesh));
+    EXPECT_EQ(mortonPermutation(mesh, low, high, pool),
+      mortonPermutation(mesh, low, high, Executor::sequential()));
+    const NumberedTriangles other(mesh, pool);
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      ASSERT_TRUE(std::ranges::equal(other.at(v), numbered.at(v))) << v;
+    }
+    Mesh large = mesh;
+    large.reserve(4 * mesh.indexEnd(), pool);
+    EXPECT_EQ(triangleList(large, pool), triangles);
+    EXPECT_TRUE(std::ranges::equal(large.positions(), mesh.positions(),
+      [](Vector4 a, Vector4 b) { return !(squaredNorm(a - b) > 0.f); }));
+  }
+}
+
+// Promise: distances of points, and what vertices rest on, are the same to the last bit on any number of threads.
+TEST(MeasuresOnThreads, Points)
+{
+  CloudOptions options;
+  options.count = 300000;
+  options.noise = 0.01;
+  const PointCloud cloud(generateCloud(makeTorus(), options));
+  const Mesh mesh = buildMesh(makeTorus(0.4, 96), cloud);
+  const std::size_t some = 280000;
+  const PointDistances distances = withExactTail(distancesTo(mesh, cloud, some), mesh, cloud);
+  const VertexSupport support = supportOf(mesh, cloud, some);
+  for (const unsigned threads : CountsOfThreads)
+  {
+    SCOPED_TRACE(threads);
+    const ThreadPool pool(threads);
+    const PointDistances others =
+      withExactTail(distancesTo(mesh, cloud, some, pool), mesh, cloud, pool);
+    EXPECT_EQ(others.distances, distances.distances);
+    EXPECT_EQ(others.isBeyondBoundary, distances.isBeyondBoundary);
+    EXPECT_EQ(supportOf(mesh, cloud, some, pool).weights, support.weights);
   }
 }
 

@@ -187,15 +187,18 @@ TEST(NearestTriangle, FirstOfEquallyNear)
 TEST(NearestTriangle, OrderDoesNotMatter)
 {
   Random random(4);
-  TriangleMesh mesh = anyTriangles(500, random);
-  const NearestTriangle nearest(mesh);
-  std::reverse(mesh.triangles.begin(), mesh.triangles.end());
-  std::rotate(mesh.triangles.begin(), mesh.triangles.begin() + 123, mesh.triangles.end());
-  const NearestTriangle other(mesh);
-  for (int i = 0; i < 500; ++i)
+  for (const std::size_t count : { 500u, 9000u })
   {
-    const Eigen::Vector3d point = randomPlace(random);
-    EXPECT_EQ(nearest.find(point).squaredDistance, other.find(point).squaredDistance);
+    TriangleMesh mesh = anyTriangles(count, random);
+    const NearestTriangle nearest(mesh);
+    std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+    std::rotate(mesh.triangles.begin(), mesh.triangles.begin() + 123, mesh.triangles.end());
+    const NearestTriangle other(mesh);
+    for (int i = 0; i < 500; ++i)
+    {
+      const Eigen::Vector3d point = randomPlace(random);
+      EXPECT_EQ(nearest.find(point).squaredDistance, other.find(point).squaredDistance);
+    }
   }
 }
 
@@ -215,7 +218,8 @@ TEST(NearestTriangle, NothingToFind)
 // Where squares of lengths overflow, a triangle is found all the same.
 TEST(NearestTriangle, HugeTriangles)
 {
-  TriangleMesh cube = makeCube(2);
+  TriangleMesh cube = makeCube(40);
+  ASSERT_GT(cube.triangles.size(), 8192u);
   for (Eigen::Vector3d& point : cube.points)
   {
     point *= 1e200;

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -19,7 +20,8 @@ namespace neuralmesh::testing
 {
 namespace
 {
-constexpr auto Ways = { &simplify, &simplifyByQuadrics };
+using Way = void (*)(Mesh&, std::size_t);
+constexpr std::array<Way, 2> Ways{ &simplify, &simplifyByQuadrics };
 }
 
 // Down to any number of vertices, a manifold keeps its handles, boundaries and pieces.
@@ -112,7 +114,7 @@ TEST(Simplification, QuadricsKeepWhatIsThin)
   {
     point.z() *= 0.1;
   }
-  const auto lossBy = [&](const auto way)
+  const auto lossBy = [&](const Way way)
   {
     Mesh mesh = buildMesh(lens, cleanSphere());
     way(mesh, 60);
@@ -158,5 +160,31 @@ TEST(Simplification, ToEachNumberGivesWhatOneGives)
   simplifyByQuadricsToEach(ended, counts, [&calls] { return ++calls < 2; });
   EXPECT_EQ(calls, 2);
   EXPECT_EQ(ended.vertexCount(), counts[1]);
+}
+
+// Promise: a simplification asks whether to go on for each thousand of its steps. Where it is ended, a valid mesh is left,
+// without erased vertices.
+TEST(Simplification, CanBeEndedAnywhere)
+{
+  const Mesh original = buildMesh(makeTorus(0.4, 96), cleanSphere());
+  const std::size_t before = original.vertexCount();
+  constexpr std::size_t Count = 200;
+  std::size_t all = 0;
+  Mesh whole = original;
+  EXPECT_TRUE(simplifyByQuadrics(whole, Count, [&](double) { return ++all > 0; }));
+  EXPECT_EQ(whole.vertexCount(), Count);
+  EXPECT_GT(all, 3 * (before - Count) / 1024);
+  for (std::size_t most = 0; most < all; ++most)
+  {
+    Mesh ended = original;
+    std::size_t asked = 0;
+    EXPECT_FALSE(simplifyByQuadrics(ended, Count, [&](double) { return asked++ < most; }));
+    EXPECT_EQ(asked, most + 1);
+    EXPECT_EQ(ended.vertexCount(), ended.indexEnd());
+    EXPECT_GT(ended.vertexCount(), Count);
+    EXPECT_EQ(defectOf(ended), "");
+    simplifyByQuadrics(ended, Count);
+    EXPECT_EQ(ended.vertexCount(), Count);
+  }
 }
 }
