@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -18,8 +18,12 @@ namespace
 {
 /// The part of growth in the progress of a level.
 constexpr double PartOfGrowth = 0.5;
-/// The part of the levels that grow in the whole progress, if others are simplified.
-constexpr double EndOfGrownLevels = 0.7;
+/// Of the whole progress, the ends of the largest level, of those that grow, of those that are simplified from it, and of
+/// the mesh for those that have lost parts.
+constexpr double EndOfLargest = 0.6, EndOfGrown = 0.75, EndOfSimplified = 0.9,
+                 EndOfSecondLargest = 0.95;
+/// Rounds of the fidelity smooth noise. In a mesh of fewer than half of the vertices they would smooth thin parts, too.
+constexpr std::uint64_t TimesFewerIfNoisy = 2;
 
 /// The levels [first, last) through which one mesh grows.
 struct Chain
@@ -59,111 +63,293 @@ Beginning simplified(Beginning beginning, std::uint64_t vertices, std::uint64_t 
   return beginning;
 }
 
-/// The number of levels below a first surface that has more vertices than planned. Only a front has
-/// more, as thin parts need them: a coarser mesh that grows would lose these.
-std::size_t levelsBelowFront(
-  const Beginning& beginning, std::span<const std::uint64_t> levels, const Parameters& parameters)
+/// Whether a level may be simplified from the largest one. Without a fit, it would stay as it is then, and feature
+/// strength belongs to the places where vertices have learnt.
+bool maySimplify(const Parameters& parameters)
 {
-  const std::size_t there = beginning.mesh ? beginning.mesh->vertexCount() : 0;
-  if (parameters.fitRounds == 0 || there <= firstVertices(levels.back()))
-  {
-    return 0;
-  }
-  const auto end = std::lower_bound(levels.begin(), levels.end() - 1, there);
-  return std::size_t(end - levels.begin());
+  return parameters.fitRounds > 0 && !parameters.computeFeatureStrength;
 }
 
-/// A level that is simplified from the last one.
-struct DoubtfulLevel
+/// What a level is asked for.
+Parameters parametersOf(std::uint64_t vertices, const RunRequest& request)
+{
+  Parameters result = request.parameters;
+  result.numberOfVertices = vertices;
+  return result;
+}
+
+/// A level that is not the largest.
+struct SmallerLevel
 {
   std::size_t number;
   std::uint64_t vertices;
-  std::optional<Reconstruction> mesh; ///< that has grown, but may have lost thin parts
+  std::optional<Reconstruction> mesh;
 };
 
-/// Simplifies a fitted mesh to the doubtful levels, and fits each. Keeps those that have grown and
-/// hold more of the cloud. Returns false if that was ended.
-bool simplifyTo(std::span<DoubtfulLevel> doubtful, Run& run, LearntRun& fitted,
-  const RunRequest& request, ProgressPart part, const Progress& progress)
+/// The mesh from which levels are simplified.
+enum class Source
 {
-  std::vector<std::size_t> counts;
-  for (const DoubtfulLevel& level : doubtful)
+  Finished,  ///< like any other
+  ToSimplify ///< as that of a run whose mesh has lost thin parts
+};
+
+/// Simplifies a mesh to the levels, fits each, and keeps those that hold more of the cloud than what they had. Returns
+/// false if that was ended.
+bool simplifyTo(std::span<SmallerLevel* const> levels, Source source, std::uint64_t largest,
+  Run& run, LearntRun& made, const RunRequest& request, ProgressPart part, const Progress& progress)
+{
+  if (levels.empty())
   {
-    counts.insert(counts.begin(), std::size_t(level.vertices));
+    return true;
+  }
+  std::vector<std::size_t> counts;
+  for (const SmallerLevel* level : levels)
+  {
+    counts.insert(counts.begin(), std::size_t(level->vertices));
   }
   bool isComplete = true;
-  auto level = doubtful.rbegin();
-  simplifyByQuadricsToEach(fitted.learnt.mesh, counts,
+  auto next = levels.rbegin();
+  simplifyByQuadricsToEach(made.learnt.mesh, counts,
     [&]
     {
-      LearntRun copy(fitted);
+      SmallerLevel& level = **next;
+      LearntRun copy(made);
       copy.learnt.mesh.dropErased();
       copy.result.times = {};
       copy.result.times.enter(Phase::Finish);
-      const double share = (part.end - part.begin) / double(doubtful.size());
-      const double begin = part.begin + share * double(level - doubtful.rbegin());
+      const double share = (part.end - part.begin) / double(levels.size());
+      const double begin = part.begin + share * double(next - levels.rbegin());
       const ProgressPart own{ begin, begin + share };
-      run.makeSimplified(copy, level->vertices, own);
+      const bool hasFidelity = source == Source::Finished &&
+        (copy.result.finish->isClean || TimesFewerIfNoisy * level.vertices >= largest);
+      hasFidelity ? run.makeAgain(copy, level.vertices, own)
+                  : run.makeSimplified(copy, level.vertices, own);
       copy.result.times.leave();
-      Reconstruction mesh = run.describe(std::move(copy), level->vertices, own);
+      Reconstruction mesh = run.describe(std::move(copy), level.vertices, own);
       isComplete = mesh.isComplete();
-      if (isComplete && level->mesh)
+      if (isComplete && level.mesh)
       {
-        level->mesh = betterOf(*level->mesh, std::move(mesh), holdsMore);
+        level.mesh = betterOf(*level.mesh, std::move(mesh), holdsMore);
       }
       else if (isComplete)
       {
-        level->mesh = mesh;
-        Parameters parameters = request.parameters;
-        parameters.numberOfVertices = level->vertices;
+        level.mesh = mesh;
+        const Parameters parameters = parametersOf(level.vertices, request);
         mesh = betterRun(
           std::move(mesh), requestWith(request, parameters), partOf(progress, own.end, own.end));
         isComplete = mesh.isComplete();
         if (isComplete)
         {
-          level->mesh = std::move(mesh);
+          level.mesh = std::move(mesh);
         }
       }
-      ++level;
+      ++next;
       return isComplete;
     });
   return isComplete;
 }
 
-/// Makes the doubtful levels from the last one, `learnt`. If `last` has lost thin parts itself, each
-/// level is checked by a run of its own. Levels stay as they were if that is ended: then `last` is
-/// cancelled.
-void makeDoubtful(std::vector<DoubtfulLevel>& doubtful, Run& run, LearntRun learnt,
-  const RunRequest& request, bool isLastSound, Reconstruction& last, ProgressPart part,
-  const Progress& progress)
+/// Receives a level that has grown, with the request and the progress for a run of its own. Returns whether to go on.
+using LevelGrown = std::function<bool(
+  std::size_t level, Reconstruction mesh, const RunRequest& own, const Progress& atTheEnd)>;
+
+/// One mesh that grows, and a copy of it at each level that is finished. Returns false if `take` does.
+bool growTo(std::span<const std::uint64_t> levels, Run& run, const Beginning& beginning,
+  std::uint64_t vertices, const RunRequest& request, ProgressPart part, const Progress& progress,
+  const LevelGrown& take)
 {
-  PhaseTimes times;
-  times.enter(Phase::Finish);
-  const double middle = (part.begin + part.end) / 2.;
-  bool isComplete = run.makeToSimplify(learnt, { part.begin, middle });
-  times.leave();
-  last.times.add(times);
-  isComplete =
-    isComplete && simplifyTo(doubtful, run, learnt, request, { middle, part.end }, progress);
-  for (DoubtfulLevel& level : doubtful)
+  Checkpoint none({}, request.cloud, request.parameters);
+  const double all = std::accumulate(levels.begin(), levels.end(), 0.);
+  double done = part.begin;
+  for (const Chain& chain : chainsOf(levels))
   {
-    if (isComplete && !isLastSound)
+    Beginning next = simplified(beginning, vertices, levels[chain.last - 1]);
+    for (std::size_t level = chain.first; level < chain.last; ++level)
     {
-      Parameters parameters = request.parameters;
-      parameters.numberOfVertices = level.vertices;
-      Reconstruction mesh =
-        runWithThinParts(*level.mesh, requestWith(request, parameters), partOf(progress, 1., 1.));
-      isComplete = mesh.stopReason != StopReason::Cancelled;
-      if (isComplete)
+      const Parameters parameters = parametersOf(levels[level], request);
+      const RunRequest own = requestWith(request, parameters);
+      const double end = done + (part.end - part.begin) * double(levels[level]) / all;
+      const double endOfGrowth = done + PartOfGrowth * (end - done);
+      LearntRun learnt =
+        run.learn(verticesToLearn(own), std::move(next), { done, endOfGrowth }, none);
+      // A first surface that is larger than the level learns nothing. It is finished all the same.
+      learnt.isLearnt = true;
+      next = { learnt.learnt.mesh, beginning.gaps, beginning.weights };
+      Reconstruction result = run.finish(std::move(learnt), levels[level], { endOfGrowth, end });
+      const Progress atTheEnd = partOf(progress, end, end);
+      if (!take(level, betterRun(std::move(result), own, atTheEnd), own, atTheEnd))
       {
-        level.mesh = std::move(mesh);
+        return false;
       }
+      done = end;
     }
   }
-  if (!isComplete)
+  return true;
+}
+
+/// The largest level, and what is known of how it came about.
+struct LargestLevel
+{
+  Reconstruction result;
+  Beginning beginning;
+  LearntRun learnt; ///< before its fit
+  LearntRun made;   ///< before it was described
+
+  /// Whether it was simplified from a finer mesh, as the first one had lost thin parts.
+  bool isFromFiner() const { return made.vertices > learnt.vertices; }
+  bool isClean() const { return made.result.finish && made.result.finish->isClean; }
+  /// Whether the surface is closed, with noise, and has all parts. Then a smaller level may be worse if it is simplified:
+  /// even triangles average noise better, and rounds that smooth it round off the rims of thin parts.
+  bool isNoisySolid() const { return !isClean() && !isFromFiner() && !made.learnt.mesh.isOpen(); }
+  /// The number of vertices from which on a level grows. Only a front has more than planned, as thin parts need them: a
+  /// coarser mesh that grows would lose these.
+  std::uint64_t leastToGrow() const
   {
-    last.stopReason = StopReason::Cancelled;
+    const std::uint64_t first = beginning.mesh ? beginning.mesh->vertexCount() : 0;
+    return !isNoisySolid()                     ? std::numeric_limits<std::uint64_t>::max()
+      : first > firstVertices(learnt.vertices) ? first
+                                               : 0;
   }
+};
+
+LargestLevel largestLevel(
+  std::uint64_t vertices, Run& run, const RunRequest& request, const Progress& progress)
+{
+  const Parameters parameters = parametersOf(vertices, request);
+  const RunRequest own = requestWith(request, parameters);
+  PhaseTimes times;
+  times.enter(Phase::Start);
+  Beginning beginning = run.begin(vertices, { 0., EndOfLargest * StartOfLearning });
+  times.leave();
+  Checkpoint none({}, request.cloud, request.parameters);
+  LearntRun learnt = run.learn(verticesToLearn(own), beginning,
+    { EndOfLargest * StartOfLearning, EndOfLargest * EndOfLearning }, none);
+  learnt.isLearnt = true;
+  std::optional<LearntRun> made;
+  Reconstruction result =
+    run.finish(learnt, vertices, { EndOfLargest * EndOfLearning, EndOfLargest },
+      [&made](const LearntRun& last) { made.emplace(last); });
+  result.times.add(times);
+  const Progress atTheEnd = partOf(progress, EndOfLargest, EndOfLargest);
+  result = runWithThinParts(betterRun(std::move(result), own, atTheEnd), own, atTheEnd, &*made);
+  return { std::move(result), std::move(beginning), std::move(learnt), *std::move(made) };
+}
+
+/// Makes the smaller levels. Those of a solid with noise that have lost parts are made once more: those that have grown
+/// of the largest, others as runs of their own would make them. Returns false if that was ended.
+bool makeLevels(std::vector<SmallerLevel>& levels, std::uint64_t vertices, Run& run,
+  LargestLevel& largest, const RunRequest& request, const Progress& progress)
+{
+  const std::uint64_t leastToGrow = largest.leastToGrow();
+  std::vector<SmallerLevel*> toSimplify, toRepeat;
+  std::vector<SmallerLevel*> grown;
+  std::vector<std::uint64_t> numbers;
+  for (SmallerLevel& level : levels)
+  {
+    if (level.vertices < leastToGrow)
+    {
+      toSimplify.push_back(&level);
+    }
+    else
+    {
+      grown.push_back(&level);
+      numbers.push_back(level.vertices);
+    }
+  }
+  const auto takeGrown =
+    [&](std::size_t index, Reconstruction mesh, const RunRequest& own, const Progress&)
+  {
+    if (!mesh.isComplete())
+    {
+      return false;
+    }
+    if (mayHaveLostThinParts(mesh, own))
+    {
+      toSimplify.push_back(grown[index]);
+    }
+    grown[index]->mesh = std::move(mesh);
+    return true;
+  };
+  if (!growTo(numbers, run, largest.beginning, vertices, request, { EndOfLargest, EndOfGrown },
+        progress, takeGrown))
+  {
+    return false;
+  }
+  std::ranges::sort(toSimplify, {}, &SmallerLevel::vertices);
+  if (!simplifyTo(toSimplify, largest.isFromFiner() ? Source::ToSimplify : Source::Finished,
+        vertices, run, largest.made, request, { EndOfGrown, EndOfSimplified }, progress))
+  {
+    return false;
+  }
+  for (SmallerLevel* level : toSimplify)
+  {
+    const Parameters parameters = parametersOf(level->vertices, request);
+    if (largest.isNoisySolid() && level->vertices < leastToGrow &&
+      mayHaveLostThinParts(*level->mesh, requestWith(request, parameters)))
+    {
+      toRepeat.push_back(level);
+    }
+  }
+  if (toRepeat.empty())
+  {
+    return progress(1.);
+  }
+  PhaseTimes times;
+  times.enter(Phase::Finish);
+  const bool isFitted = run.makeToSimplify(largest.learnt, { EndOfSimplified, EndOfSecondLargest });
+  times.leave();
+  largest.result.times.add(times);
+  return isFitted &&
+    simplifyTo(toRepeat, Source::ToSimplify, vertices, run, largest.learnt, request,
+      { EndOfSecondLargest, 1. }, progress);
+}
+
+/// The largest level, of which smaller ones are simplified where that is better.
+Reconstruction reconstructFromLargest(const RunRequest& request,
+  std::span<const std::uint64_t> levels, const LevelTaker& take, const Progress& progress)
+{
+  Run run(request, progress);
+  LargestLevel largest = largestLevel(levels.back(), run, request, progress);
+  std::vector<SmallerLevel> smaller;
+  for (std::size_t level = 0; level + 1 < levels.size(); ++level)
+  {
+    smaller.push_back({ level, levels[level], {} });
+  }
+  if (largest.result.isComplete() && !smaller.empty() &&
+    !makeLevels(smaller, levels.back(), run, largest, request, progress))
+  {
+    largest.result.stopReason = StopReason::Cancelled;
+  }
+  for (SmallerLevel& level : smaller)
+  {
+    if (level.mesh)
+    {
+      take(level.number, *std::move(level.mesh));
+    }
+  }
+  return std::move(largest.result);
+}
+
+/// All levels grow.
+Reconstruction reconstructGrown(const RunRequest& request, std::span<const std::uint64_t> levels,
+  const LevelTaker& take, const Progress& progress)
+{
+  PhaseTimes times;
+  times.enter(Phase::Start);
+  Run run(request, progress);
+  const Beginning beginning = run.begin(levels.back(), { 0., StartOfLearning });
+  times.leave();
+  Reconstruction last;
+  growTo(levels, run, beginning, levels.back(), request, { StartOfLearning, 1. }, progress,
+    [&](std::size_t level, Reconstruction mesh, const RunRequest& own, const Progress& atTheEnd)
+    {
+      mesh.times.add(std::exchange(times, {}));
+      mesh = runWithThinParts(std::move(mesh), own, atTheEnd);
+      const bool goesOn = level + 1 < levels.size() && mesh.isComplete();
+      goesOn ? take(level, std::move(mesh)) : void(last = std::move(mesh));
+      return goesOn;
+    });
+  return last;
 }
 }
 
@@ -189,89 +375,7 @@ std::string whyNoLevels(
 Reconstruction reconstructLevels(const RunRequest& request, std::span<const std::uint64_t> levels,
   const LevelTaker& take, const Progress& progress)
 {
-  PhaseTimes times;
-  times.enter(Phase::Start);
-  Run run(request, progress);
-  const Beginning beginning = run.begin(levels.back(), { 0., StartOfLearning });
-  times.leave();
-  Checkpoint none({}, request.cloud, request.parameters);
-  std::vector<DoubtfulLevel> doubtful;
-  // Those from the first doubtful one on wait for it.
-  std::map<std::size_t, Reconstruction> waiting;
-  const std::size_t firstGrown = levelsBelowFront(beginning, levels, request.parameters);
-  for (std::size_t level = 0; level < firstGrown; ++level)
-  {
-    doubtful.push_back({ level, levels[level], {} });
-  }
-  const double endOfGrown = firstGrown > 0 ? EndOfGrownLevels : 1.;
-  const double all = std::accumulate(levels.begin() + std::ptrdiff_t(firstGrown), levels.end(), 0.);
-  double done = StartOfLearning;
-  for (const Chain& chain : chainsOf(levels))
-  {
-    if (chain.last <= firstGrown)
-    {
-      continue;
-    }
-    Beginning next = simplified(beginning, levels.back(), levels[chain.last - 1]);
-    for (std::size_t level = std::max(chain.first, firstGrown); level < chain.last; ++level)
-    {
-      Parameters parameters = request.parameters;
-      parameters.numberOfVertices = levels[level];
-      const RunRequest own = requestWith(request, parameters);
-      const double end = done + (endOfGrown - StartOfLearning) * double(levels[level]) / all;
-      const double endOfGrowth = done + PartOfGrowth * (end - done);
-      LearntRun learnt =
-        run.learn(verticesToLearn(own), std::move(next), { done, endOfGrowth }, none);
-      // A first surface that is larger than its level learns nothing. It is finished all the same.
-      learnt.isLearnt = true;
-      next = { learnt.learnt.mesh, beginning.gaps, beginning.weights };
-      const bool isLast = level + 1 == levels.size();
-      auto learntForDoubtful =
-        isLast && !doubtful.empty() ? std::optional<LearntRun>(learnt) : std::nullopt;
-      Reconstruction result =
-        betterRun(run.finish(std::move(learnt), levels[level], { endOfGrowth, end }), own,
-          partOf(progress, end, end));
-      result.times.add(std::exchange(times, {}));
-      const bool isDoubtful = mayHaveLostThinParts(result, own);
-      if (isLast)
-      {
-        result = runWithThinParts(std::move(result), own, partOf(progress, end, end));
-        if (learntForDoubtful && result.isComplete())
-        {
-          makeDoubtful(doubtful, run, *std::move(learntForDoubtful), request, !isDoubtful, result,
-            { end, 1. }, progress);
-        }
-      }
-      if (isLast || !result.isComplete())
-      {
-        for (DoubtfulLevel& smaller : doubtful)
-        {
-          if (smaller.mesh)
-          {
-            waiting.emplace(smaller.number, *std::move(smaller.mesh));
-          }
-        }
-        for (auto& [number, mesh] : waiting)
-        {
-          take(number, std::move(mesh));
-        }
-        return result;
-      }
-      if (isDoubtful)
-      {
-        doubtful.push_back({ level, levels[level], std::move(result) });
-      }
-      else if (doubtful.empty())
-      {
-        take(level, std::move(result));
-      }
-      else
-      {
-        waiting.emplace(level, std::move(result));
-      }
-      done = end;
-    }
-  }
-  return {};
+  return maySimplify(request.parameters) ? reconstructFromLargest(request, levels, take, progress)
+                                         : reconstructGrown(request, levels, take, progress);
 }
 }

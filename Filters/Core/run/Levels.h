@@ -31,12 +31,11 @@ std::string whyNoLevels(std::span<const std::uint64_t> levels, const Parameters&
 /// Receives each level except the last one, with its index, in ascending order.
 using LevelTaker = std::function<void(std::size_t level, Reconstruction mesh)>;
 
-/// Grows one mesh, and finishes a copy of it at each level. Levels that lose thin parts while they
-/// grow, or have fewer vertices than a first surface of thin parts, are simplified from the largest
-/// one. Each level is as good as a run of its own, and all levels start and learn in little more time
-/// than the largest one. `levels` ascend. `take` receives each of them; the last one is returned. If
-/// `progress` ends the run early, it returns the level that it has reached, and smaller ones may be
-/// missing. whyNoLevels() must be empty.
+/// Makes the largest level, and simplifies it to the others, one after the other; each is fitted. On a closed surface with
+/// noise, one mesh grows to the smaller levels instead, and a copy of it is finished at each: it is more even, so that
+/// noise averages better. So it is, with all levels, without a fit or with feature strength. Each level is about as good
+/// as a run of its own. `levels` ascend. `take` receives each of them; the last one is returned. If `progress` ends the
+/// run early, it returns the level that it has reached, and smaller ones may be missing. whyNoLevels() must be empty.
 Reconstruction reconstructLevels(const RunRequest& request, std::span<const std::uint64_t> levels,
   const LevelTaker& take, const Progress& progress);
 }

@@ -32,7 +32,8 @@ constexpr double TimesOfDraw = 1.2;
 
 /// Learns so many vertices, then simplifies or refines the mesh to the number of the parameters.
 Reconstruction learnAndFinish(std::uint64_t vertices, const RunRequest& request,
-  const Progress& progress, const GrowthWatch& watch, const CheckpointPlan& plan)
+  const Progress& progress, const GrowthWatch& watch, const CheckpointPlan& plan,
+  const std::function<void(const LearntRun&)>& made = {})
 {
   const Parameters& parameters = request.parameters;
   Checkpoint checkpoint(plan, request.cloud, parameters);
@@ -47,7 +48,7 @@ Reconstruction learnAndFinish(std::uint64_t vertices, const RunRequest& request,
   LearntRun learnt = run.learn(
     vertices, std::move(beginning), { startOfLearning, endOfLearning }, checkpoint, watch);
   Reconstruction result =
-    run.finish(std::move(learnt), parameters.numberOfVertices, { endOfLearning, 1. });
+    run.finish(std::move(learnt), parameters.numberOfVertices, { endOfLearning, 1. }, made);
   result.times.add(times);
   return result;
 }
@@ -204,7 +205,7 @@ Reconstruction betterRun(Reconstruction result, const RunRequest& request, const
 }
 
 Reconstruction runWithThinParts(
-  Reconstruction result, const RunRequest& request, const Progress& progress)
+  Reconstruction result, const RunRequest& request, const Progress& progress, LearntRun* made)
 {
   const std::uint64_t asked = request.parameters.numberOfVertices;
   const std::uint64_t finer =
@@ -214,7 +215,24 @@ Reconstruction runWithThinParts(
   {
     return result;
   }
-  return betterOf(std::move(result), learnAndFinish(finer, request, progress, {}, {}), holdsMore);
+  std::optional<LearntRun> madeFiner;
+  const auto keep = [&madeFiner](const LearntRun& run) { madeFiner.emplace(run); };
+  Reconstruction other = learnAndFinish(
+    finer, request, progress, {}, {}, made ? std::function<void(const LearntRun&)>(keep) : nullptr);
+  const auto isTaken = [&](const Reconstruction& second, const Reconstruction& first)
+  {
+    const bool holds = holdsMore(second, first);
+    if (holds && madeFiner)
+    {
+      // The rules belong to the run.
+      made->result = std::move(madeFiner->result);
+      made->learnt = std::move(madeFiner->learnt);
+      made->vertices = madeFiner->vertices;
+      made->gaps = madeFiner->gaps;
+    }
+    return holds;
+  };
+  return betterOf(std::move(result), std::move(other), isTaken);
 }
 
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,

@@ -262,13 +262,18 @@ Reconstruction Run::describe(LearntRun run, std::uint64_t asked, ProgressPart pa
   return std::move(run.result);
 }
 
-Reconstruction Run::finish(LearntRun run, std::uint64_t asked, ProgressPart part)
+Reconstruction Run::finish(LearntRun run, std::uint64_t asked, ProgressPart part,
+  const std::function<void(const LearntRun&)>& made)
 {
   const double partOfFit = request_.parameters.computeUncertainty ? PartBeforeUncertainty : 1.;
   const double middle = part.begin + partOfFit * (part.end - part.begin);
   run.result.times.enter(Phase::Finish);
   make(run, asked, { part.begin, middle });
   run.result.times.leave();
+  if (made)
+  {
+    made(run);
+  }
   return describe(std::move(run), asked, { middle, part.end });
 }
 }

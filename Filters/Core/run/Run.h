@@ -69,8 +69,9 @@ public:
     Checkpoint& checkpoint, const GrowthWatch& watch = {});
 
   /// Finishes what is learnt, simplifies or refines it to as many vertices as are asked for, and
-  /// describes it.
-  Reconstruction finish(LearntRun run, std::uint64_t asked, ProgressPart part);
+  /// describes it. `made` gets it before that, if there is one.
+  Reconstruction finish(LearntRun run, std::uint64_t asked, ProgressPart part,
+    const std::function<void(const LearntRun&)>& made = {});
 
   // The parts of finish(), for who measures meshes before one of them is described.
 
@@ -81,7 +82,7 @@ public:
   bool makeAgain(LearntRun& run, std::uint64_t asked, ProgressPart part);
   /// Fits what is learnt so far that makeSimplified() can go on from copies of it. Returns likewise.
   bool makeToSimplify(LearntRun& run, ProgressPart part);
-  /// Simplifies such a mesh to `asked` vertices, and fits that. Returns likewise.
+  /// Simplifies such a mesh, or one that is made, to `asked` vertices, and fits that. Returns likewise.
   bool makeSimplified(LearntRun& run, std::uint64_t asked, ProgressPart part);
   /// Tells error bars, if they are wanted, and describes what is made.
   Reconstruction describe(LearntRun run, std::uint64_t asked, ProgressPart part);
@@ -123,7 +124,8 @@ bool mayHaveLostThinParts(const Reconstruction& result, const RunRequest& reques
 /// holds more of the cloud.
 bool holdsMore(const Reconstruction& finer, const Reconstruction& other);
 /// `result`; or a mesh that is simplified from a finer one, of 20,000 vertices or twice as many, if the first may have
-/// lost thin parts, and the second holds more.
-Reconstruction runWithThinParts(
-  Reconstruction result, const RunRequest& request, const Progress& progress);
+/// lost thin parts, and the second holds more. `made` is what `result` was made of, before it was described; it becomes
+/// that of the second.
+Reconstruction runWithThinParts(Reconstruction result, const RunRequest& request,
+  const Progress& progress, LearntRun* made = nullptr);
 }

@@ -30,9 +30,8 @@ PointCloud torusOfLevels()
 /// All meshes of a run, the largest last.
 std::vector<Reconstruction> meshesOf(
   const PointCloud& cloud, const Levels& levels, const Executor& executor = Executor::sequential(),
-  const Progress& progress = [](double) { return true; })
+  const Progress& progress = [](double) { return true; }, Parameters parameters = {})
 {
-  Parameters parameters;
   parameters.numberOfVertices = levels.back();
   const std::optional<Mesh> none;
   const OrientationHints hints;
@@ -81,6 +80,79 @@ TEST(Levels, AreAsGoodAsRunsOfTheirOwn)
     EXPECT_EQ(mesh.quality->surface.genus, 1);
     EXPECT_EQ(mesh.quality->surface.boundaryLoops, 0u);
     EXPECT_LT(mesh.quality->residual, 1.25 * ownRun(cloud, levels[level]).quality->residual);
+  }
+}
+
+// Promise: of a sharp shape, each level comes as close to the points as a run of its own, up to 5 %.
+TEST(Levels, OfSharpShapesAreAsCloseAsRunsOfTheirOwn)
+{
+  CloudOptions options;
+  options.count = 40000;
+  const PointCloud cloud(generateCloud(makeCube(), options));
+  const Levels levels{ 500, 1500, 4000 };
+  const std::vector<Reconstruction> meshes = meshesOf(cloud, levels);
+  ASSERT_EQ(meshes.size(), levels.size());
+  for (std::size_t level = 0; level < levels.size(); ++level)
+  {
+    SCOPED_TRACE(levels[level]);
+    ASSERT_TRUE(meshes[level].quality);
+    EXPECT_EQ(meshes[level].quality->surface.foldedEdges, 0u);
+    EXPECT_LE(
+      meshes[level].quality->residual, 1.05 * ownRun(cloud, levels[level]).quality->residual);
+  }
+}
+
+// Promise: on a noisy plate, a level of half of the vertices is nearly as smooth as a run of its own.
+TEST(Levels, OfNoisyPlatesAreNearlyAsSmoothAsRunsOfTheirOwn)
+{
+  constexpr double Thickness = 0.04, Noise = 0.003, Rim = 0.05;
+  CloudOptions options;
+  options.count = 30000;
+  options.noise = Noise;
+  const PointCloud cloud(generateCloud(makePlate(20, Thickness), options));
+  const auto meanDistance = [](const Reconstruction& mesh)
+  {
+    double sum = 0.;
+    std::size_t count = 0;
+    for (const Eigen::Vector3d& point : mesh.mesh.points)
+    {
+      if (point.head<2>().minCoeff() > Rim && point.head<2>().maxCoeff() < 1. - Rim)
+      {
+        sum += std::abs(std::abs(point[2]) - 0.5 * Thickness);
+        ++count;
+      }
+    }
+    return sum / double(count);
+  };
+  const Levels levels{ 1500, 3000 };
+  const std::vector<Reconstruction> meshes = meshesOf(cloud, levels);
+  ASSERT_EQ(meshes.size(), levels.size());
+  EXPECT_LE(meanDistance(meshes[0]), 1.5 * meanDistance(ownRun(cloud, levels[0])));
+}
+
+// Promise: without a fit, and with feature strength, levels have all their vertices, too, and what was asked for.
+TEST(Levels, GrowWhereNoneIsSimplified)
+{
+  const PointCloud cloud = torusOfLevels();
+  const Levels levels{ 300, 1000 };
+  Parameters unfitted, withStrength;
+  unfitted.fitRounds = 0;
+  withStrength.computeFeatureStrength = true;
+  for (const Parameters& parameters : { unfitted, withStrength })
+  {
+    SCOPED_TRACE(parameters.fitRounds);
+    const std::vector<Reconstruction> meshes = meshesOf(
+      cloud, levels, Executor::sequential(), [](double) { return true; }, parameters);
+    ASSERT_EQ(meshes.size(), levels.size());
+    for (std::size_t level = 0; level < levels.size(); ++level)
+    {
+      const TriangleMesh& mesh = meshes[level].mesh;
+      EXPECT_EQ(mesh.points.size(), levels[level]);
+      EXPECT_EQ(checkManifold(mesh.points.size(), mesh.triangles).defect, "");
+      EXPECT_EQ(meshes[level].finish.has_value(), parameters.fitRounds > 0);
+      EXPECT_EQ(meshes[level].featureStrengths.size(),
+        parameters.computeFeatureStrength ? levels[level] : 0u);
+    }
   }
 }
 
