@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <unordered_map>
+#include <vector>
 
 namespace neuralmesh
 {
@@ -19,6 +20,7 @@ public:
     : grid_(grid)
     , inside_(inside)
     , strides_(grid.strides())
+    , points_(grid.size(), NoPoint)
   {
   }
 
@@ -40,6 +42,8 @@ public:
   }
 
 private:
+  static constexpr std::uint32_t NoPoint = 0xffffffffu;
+
   /// The side between a voxel and the one before it along an axis.
   void addSide(std::size_t voxel, const std::array<std::size_t, 3>& place, std::size_t axis)
   {
@@ -84,20 +88,23 @@ private:
     const bool isContact = std::popcount(few) == 2 &&
       unsigned(std::countr_zero(few)) + unsigned(std::bit_width(few)) - 1u == 7u;
     const unsigned part = isContact ? ((few >> high & 1u) != 0 ? high : low) : 0u;
-    const auto [found, isNew] =
-      points_.try_emplace(8 * std::uint64_t(lattice) + part, std::uint32_t(mesh_.points.size()));
-    if (isNew)
+    std::uint32_t& point = part == 0
+      ? points_[lattice]
+      : contacts_.try_emplace(8 * std::uint64_t(lattice) + part, NoPoint).first->second;
+    if (point == NoPoint)
     {
+      point = std::uint32_t(mesh_.points.size());
       const Eigen::Vector3d center = grid_.center(corner[0], corner[1], corner[2]);
       mesh_.points.push_back(center - Eigen::Vector3d::Constant(0.5 * grid_.width));
     }
-    return found->second;
+    return point;
   }
 
   const VoxelGrid& grid_;
   std::span<const std::uint8_t> inside_;
   std::array<std::size_t, 3> strides_;
-  std::unordered_map<std::uint64_t, std::uint32_t> points_;
+  std::vector<std::uint32_t> points_;                         ///< at each corner
+  std::unordered_map<std::uint64_t, std::uint32_t> contacts_; ///< of the other parts, which are few
   TriangleMesh mesh_;
 };
 }
