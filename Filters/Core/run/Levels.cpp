@@ -346,7 +346,14 @@ Reconstruction reconstructGrown(const RunRequest& request, std::span<const std::
       mesh.times.add(std::exchange(times, {}));
       mesh = runWithThinParts(std::move(mesh), own, atTheEnd);
       const bool goesOn = level + 1 < levels.size() && mesh.isComplete();
-      goesOn ? take(level, std::move(mesh)) : void(last = std::move(mesh));
+      if (goesOn)
+      {
+        take(level, std::move(mesh));
+      }
+      else
+      {
+        last = std::move(mesh);
+      }
       return goesOn;
     });
   return last;
