@@ -71,9 +71,9 @@ std::vector<SeenPoint> seenPointsOf(const PointGrid& grid)
     const Eigen::Vector3d point = grid.pointAt(i);
     if (point.allFinite() && !point.isZero(0.))
     {
+      const std::size_t column = i % grid.columns, row = i / grid.columns;
       seen.push_back({ point,
-        { double(i % grid.columns) - 0.5 * double(grid.columns),
-          double(i / grid.columns) - 0.5 * double(grid.rows) } });
+        { double(column) - 0.5 * double(grid.columns), double(row) - 0.5 * double(grid.rows) } });
     }
   }
   return seen;
