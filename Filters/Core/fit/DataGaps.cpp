@@ -47,9 +47,6 @@ constexpr double LeastMediansOfWeb = 3.;
 /// The sides of a web are also farther from all points than this times the root of their area. A
 /// thin plate has points everywhere between its sides, even if the mesh fits badly.
 constexpr double LeastRootsOfWeb = 0.25;
-/// The triangles around a hole reach into it, so they have too few samples. Those beyond tell its spacing where it is not
-/// more than so many times the mean: elsewhere samples get sparser towards it.
-constexpr double MostSpacingBeyond = 1.2;
 /// If there are fewer samples per triangle, many triangles have none by chance, and they are
 /// connected. Then a triangle is empty only if it is farther from all points than so many times the
 /// distance between samples. One in e^7 is that by chance.
@@ -256,9 +253,7 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
       distance(t) <= LeastSpacingsIfEmpty * spacing;
   };
   const bool isFine = places.size() < LeastSamplesPerTriangle * triangles.all().size();
-  const double area = areaOf(mesh, executor);
-  const double usualSpacing = std::sqrt(area / double(places.size()));
-  const double meanDensity = isFine ? double(places.size()) / area : 0.;
+  const double meanDensity = isFine ? double(places.size()) / areaOf(mesh, executor) : 0.;
   const double meanSpacing = isFine ? 1. / std::sqrt(meanDensity) : 0.;
   if (isFine)
   {
@@ -284,18 +279,11 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
   // Small triangles around a piece may have too few samples to tell.
   const auto densityAt = [&](const EmptyPiece& piece)
   { return isFine && piece.samplesAround < LeastExpectedSamples ? meanDensity : piece.density(); };
-  const auto spacingAt = [&](const EmptyPiece& piece)
-  {
-    const double around = 1. / std::sqrt(densityAt(piece));
-    const double beyond = 1. / std::sqrt(piece.densityBeyond());
-    const bool isTold = rules.isFitted && !piece.isAtBoundary;
-    return isTold && beyond <= MostSpacingBeyond * usualSpacing ? std::min(around, beyond) : around;
-  };
   const auto expectedIn = [&](const EmptyPiece& piece) { return piece.area * densityAt(piece); };
   const auto reaches =
     [&](const EmptyPiece& piece, double spacings, double medians, double least = 0.)
   {
-    const double spacing = std::max(meanSpacing, spacingAt(piece));
+    const double spacing = std::max(meanSpacing, 1. / std::sqrt(densityAt(piece)));
     const double reach = std::max({ spacings * spacing, medians * double(medianDistance), least });
     return std::any_of(piece.triangles.begin(), piece.triangles.end(),
       [&](std::uint32_t t) { return distance(t) > std::max(reach, spacings * sparseSpacing(t)); });

@@ -36,7 +36,7 @@ std::vector<Triangle> findDataGaps(const PointCloud& cloud, const Mesh& mesh,
 struct GapPlan
 {
   double bridgeWidth = 0.; ///< see openDataGaps()
-  bool mayOpen = true;     ///< false while the mesh is open where the first surface found no data
+  bool mayOpen = true;     ///< false if the first surface is open already where there is no data
   double leastPiece = 0.0005;
   GapRules rules = {};
 };

@@ -20,12 +20,9 @@ struct EmptyPiece
   double area = 0.;
   double areaAround = 0.; ///< area of the triangles that touch it
   double samplesAround = 0.;
-  double areaBeyond = 0.; ///< of the triangles that touch those
-  double samplesBeyond = 0.;
   bool isAtBoundary = false;
 
   double density() const { return areaAround > 0. ? samplesAround / areaAround : 0.; }
-  double densityBeyond() const { return areaBeyond > 0. ? samplesBeyond / areaBeyond : 0.; }
 };
 
 /// The pieces of those triangles that are not 0 in `isEmpty`, connected by vertices, in the order of their first

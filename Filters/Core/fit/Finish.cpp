@@ -534,8 +534,6 @@ bool Finish::openGaps(const SurfaceFit& surfaceFit, bool mustBeFar)
   const std::size_t count = mesh_.vertexCount();
   GapPlan plan = *plan_.gaps;
   plan.rules.mustBeFar = mustBeFar;
-  // A front bridges gaps of two radii of its samples. Those that are far from points are opened in the end.
-  plan.mayOpen = plan.mayOpen || mustBeFar;
   const OpenedGaps gaps =
     openDataGaps(cloud_, mesh_, surfaceFit.places(), surfaceFit.medianDistance(), plan, executor_);
   if (!gaps.any())

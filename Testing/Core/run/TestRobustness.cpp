@@ -8,9 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace neuralmesh::testing
 {
@@ -281,50 +279,6 @@ TEST(Robustness, TouchingBodies)
     }
     EXPECT_LT(turned, mesh.triangles.size() / 100);
     EXPECT_TRUE(result.warnings.empty());
-  }
-}
-
-// A window that is narrower than the samples of the first surface are apart, but wide for the points, is open in the
-// end, as the large ones are.
-TEST(Robustness, SmallWindows)
-{
-  struct Window
-  {
-    Eigen::Vector3d middle;
-    double radius;
-  };
-  const double corner = 1. / std::sqrt(3.);
-  const std::array<Window, 5> windows{ { { { corner, corner, corner }, 0.5 },
-    { { -corner, -corner, corner }, 0.5 }, { { -corner, corner, -corner }, 0.5 },
-    { { corner, -corner, -corner }, 0.5 }, { { 0., 0., 1. }, 0.08 } } };
-  for (const std::uint64_t seed : { 1u, 2u })
-  {
-    SCOPED_TRACE(seed);
-    CloudOptions options;
-    options.count = 150000;
-    options.seed = seed;
-    std::vector<Eigen::Vector3d> points = generateCloud(trueSphere().triangles, options);
-    std::erase_if(points,
-      [&](const Eigen::Vector3d& point)
-      {
-        return std::any_of(windows.begin(), windows.end(),
-          [&](const Window& window) { return (point - window.middle).norm() < window.radius; });
-      });
-    const Reconstruction result = reconstruct(PointCloud(points), defaults(4000), goOn);
-    const TriangleMesh& mesh = result.mesh;
-    const ManifoldReport report = checkManifold(mesh.points.size(), mesh.triangles);
-    EXPECT_EQ(report.defect, "");
-    EXPECT_EQ(report.components, 1u);
-    EXPECT_EQ(report.boundaryLoops, windows.size());
-    EXPECT_TRUE(result.warnings.empty());
-    for (const auto& [a, b, c] : mesh.triangles)
-    {
-      const Eigen::Vector3d center = (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3.;
-      for (const Window& window : windows)
-      {
-        ASSERT_GT((center - window.middle).norm(), 0.7 * window.radius);
-      }
-    }
   }
 }
 
