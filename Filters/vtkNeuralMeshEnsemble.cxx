@@ -146,12 +146,6 @@ int vtkNeuralMeshEnsemble::RequestData(
   return this->Superclass::RequestData(request, inputVector, outputVector);
 }
 
-bool vtkNeuralMeshEnsemble::MayAbortInCloud()
-{
-  vtkMultiProcessController* controller = this->GetMemberController();
-  return !controller || controller->GetNumberOfProcesses() < 2;
-}
-
 void vtkNeuralMeshEnsemble::PrepareRun(
   vtkNeuralMeshRun& run, vtkInformationVector**, vtkInformationVector* outputVector)
 {
