@@ -18,8 +18,9 @@ class vtkFileContents
 public:
   /**
    * Points, `Normals`, colours as the scalars `RGB`, further arrays by their names, and triangles. Where
-   * points were seen from is the field data `Viewpoints` and, of several, the array `View` with -1 for
-   * unknown; the field data `MissingReturns` counts directions in which the scanner saw nothing.
+   * points were seen from is the field data `Viewpoints` and, where each point's is told, the array
+   * `View` with -1 for unknown; the field data `MissingReturns` counts directions in which the scanner
+   * saw nothing.
    */
   static void Store(const neuralmesh::FileContents& contents, vtkPolyData* output);
   /**

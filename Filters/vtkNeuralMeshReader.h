@@ -11,10 +11,11 @@
  * vtkPolyData: points of single or double precision, as the file has them; normals; colours as the
  * scalars `RGB`; further numbers of the points as arrays of their names, `Intensity` of a .ptx; polygons
  * as triangles. Where a .ptx or a .pcd tells where the scanner stood, the field data `Viewpoints` has the
- * places, and of several the point array `View` names that of each point: vtkNeuralMesh turns
- * surfaces by them. The scans of a .ptx lie where their matrices take them; points at 0 0 0 are directions
- * from which nothing came back: they are left out, and counted in the field data `MissingReturns`. A file
- * that was written with a shift gives the points where they lay before.
+ * places: vtkNeuralMesh turns surfaces by them. The point array `View` has the number of each point's, of
+ * a .ptx, and of a .pcd whose rows and columns are those of a depth image: they show where its camera was,
+ * whatever its VIEWPOINT says. The scans of a .ptx lie where their matrices take them; points at 0 0 0
+ * are directions from which nothing came back: they are left out, and counted in the field data
+ * `MissingReturns`. A file that was written with a shift gives the points where they lay before.
  *
  * It is an error, which nothing comes out of and whose message names the file, if there is no FileName,
  * its extension is another one, or the file cannot be read, is damaged, or ends early. For .las, .laz

@@ -62,7 +62,7 @@ struct Normalization
 std::vector<SeenPoint> seenPointsOf(const PointGrid& grid)
 {
   const std::size_t count = grid.columns * grid.rows;
-  // An odd step comes to all columns.
+  // An even step would come to half of the columns of most images, or to fewer.
   const std::size_t step = count / PixelsAsked | 1;
   std::vector<SeenPoint> seen;
   seen.reserve(count / step + 1);
