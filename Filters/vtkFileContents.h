@@ -18,7 +18,7 @@ class vtkFileContents
 public:
   /**
    * Points, `Normals`, colours as the scalars `RGB`, further arrays by their names, and triangles. Where
-   * points were seen from is the field data `Viewpoints` and, where each point's is told, the array
+   * points were seen from is the field data `Viewpoints` and, where the file knows each of them, the array
    * `View` with -1 for unknown; the field data `MissingReturns` counts directions in which the scanner
    * saw nothing.
    */
