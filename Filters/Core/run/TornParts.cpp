@@ -32,8 +32,8 @@ constexpr double LeastPartAtTear = 0.15;
 constexpr std::size_t FewestOfTornPiece = 8;
 
 /// Points that follow each other, more than are looked for around one of them.
-constexpr std::size_t PointsPerBlock = 32;
-static_assert(PointsPerBlock > NeighborsAtTear);
+constexpr std::size_t PlacesOfBlock = 32;
+static_assert(PlacesOfBlock > NeighborsAtTear);
 /// From the middle of a block to what is no farther than its diagonal from one of its points, and a little more.
 constexpr float ReachOfBlock = 1.51f;
 constexpr std::size_t BlocksPerRange = 8;
@@ -65,13 +65,13 @@ public:
   TornParts run(const Executor& executor) const
   {
     std::vector<Look> looks(places_.size());
-    executor.forEachRange((places_.size() + PointsPerBlock - 1) / PointsPerBlock, BlocksPerRange,
+    executor.forEachRange((places_.size() + PlacesOfBlock - 1) / PlacesOfBlock, BlocksPerRange,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t block = begin; block < end; ++block)
         {
-          const std::size_t first = block * PointsPerBlock;
-          const std::size_t last = std::min(first + PointsPerBlock, places_.size());
+          const std::size_t first = block * PlacesOfBlock;
+          const std::size_t last = std::min(first + PlacesOfBlock, places_.size());
           if (isWithinPiece(first, last))
           {
             continue;
@@ -96,7 +96,7 @@ private:
   /// diagonal of its block: nothing is to be found there.
   bool isWithinPiece(std::size_t first, std::size_t last) const
   {
-    if (last - first < PointsPerBlock)
+    if (last - first < PlacesOfBlock)
     {
       return false;
     }
