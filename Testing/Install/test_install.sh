@@ -14,13 +14,15 @@ fail()
   exit 1
 }
 
-# uses_prefix FILE: whether it finds our library in the prefix.
+# uses_prefix FILE: whether it finds our library in the prefix. Cases run beside each other: no file is
+# shared.
 uses_prefix()
 {
-  ldd "$1" > "$scratch/ldd.txt"
-  grep -q "libvtkFiltersNeuralMesh.* => $(realpath "$prefix")/" "$scratch/ldd.txt" ||
-    { cat "$scratch/ldd.txt"; fail "$1 does not find its library in the prefix"; }
-  ! grep -q "not found" "$scratch/ldd.txt" || { cat "$scratch/ldd.txt"; fail "$1 lacks a library"; }
+  local libraries
+  libraries=$(ldd "$1")
+  grep -q "libvtkFiltersNeuralMesh.* => $(realpath "$prefix")/" <<< "$libraries" ||
+    { echo "$libraries"; fail "$1 does not find its library in the prefix"; }
+  ! grep -q "not found" <<< "$libraries" || { echo "$libraries"; fail "$1 lacks a library"; }
 }
 
 # Promise: the tree is installed, has its documentation and nothing that only the build needed, and no
