@@ -21,8 +21,8 @@ double uncertaintyOfVolume(const Piece& piece)
 
 std::string_view name(SideEvidence evidence)
 {
-  constexpr std::array<std::string_view, SideEvidences> names{ "nothing", "neighbours", "volume",
-    "normals", "up direction", "viewpoints" };
+  constexpr std::array<std::string_view, SideEvidences> names{ "nothing", "neighbours", "shadows",
+    "volume", "normals", "up direction", "viewpoints" };
   return names[std::size_t(evidence)];
 }
 

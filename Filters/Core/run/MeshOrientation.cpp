@@ -3,6 +3,7 @@
 
 #include "cloud/OrientationVote.h"
 #include "cloud/PieceAgreement.h"
+#include "cloud/ShadowSides.h"
 #include "mesh/FacingBoundaries.h"
 #include "mesh/OpeningSides.h"
 #include "mesh/Relief.h"
@@ -186,6 +187,10 @@ OrientationReport orientMesh(
   const std::vector<Side> ofBodies = sidesOfBodies(pieces, byVolume);
   addSides(certainOf(ofBodies), sides);
   addSides(sidesByOpenings(mesh, pieces, sides), sides);
+  if (!isHinted)
+  {
+    addSides(sidesByShadows(mesh, pieces, sides, cloud, executor), sides);
+  }
   if (!areAllKnown(sides))
   {
     const std::vector<Upwards> upwards = upwardsOf(mesh, pieces);

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cloud/ShadowSides.h"
+
+#include "cloud/MeshBuilder.h"
+#include "cloud/Visibility.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Of the area: what has no certain side.
+constexpr double LeastUncertainArea = 0.5;
+/// In circumferences of a disc of the same area.
+constexpr double ShortestBoundary = 1.75;
+/// Places along boundaries, and on the surface, that are looked at.
+constexpr std::size_t RimProbes = 400;
+constexpr std::size_t RimProbesOfFirstLook = 150;
+constexpr std::size_t SurfaceProbes = 300;
+/// From a boundary, in its edges: what lies within the surface, what lies beyond it, and how far in front of either
+/// something must be to hide it.
+constexpr double Within = 1.;
+constexpr double Beyond = 2.5;
+constexpr double InFront = 3.;
+/// Viewpoints of the first look, along each axis, and how far they reach out of the box, in its diagonals.
+constexpr int ViewpointsPerAxis = 7;
+constexpr double ReachOfViewpoints = 0.6;
+/// The best so many are improved, by steps of these fractions of the diagonal.
+constexpr std::size_t ViewpointsImproved = 3;
+constexpr double FirstStep = 1. / 4.;
+constexpr double LastStep = 1. / 32.;
+/// The part of the boundary that ends in shadows, times the part of the surface that is seen from one side.
+constexpr double LeastExplained = 0.1;
+constexpr double LeastRatio = 2.;
+
+/// At a boundary.
+struct RimProbe
+{
+  Eigen::Vector3d within;
+  Eigen::Vector3d beyond;
+};
+
+/// On the surface; each stands for the same area.
+struct SurfaceProbe
+{
+  Eigen::Vector3d place;
+  Eigen::Vector3d normal;
+  std::size_t piece;
+};
+
+/// What is seen from a place.
+struct View
+{
+  Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
+  double shadow = 0.; ///< the part of the boundary behind which the surface is hidden
+  std::vector<std::int8_t>
+    facing; ///< of each probe: 1 towards the place, -1 away, 0 where it is hidden
+};
+
+class ShadowSearch
+{
+public:
+  ShadowSearch(const Mesh& mesh, std::span<const Piece> pieces, const PointCloud& cloud,
+    const Executor& executor)
+    : surface_(trianglesOf(mesh, cloud, executor))
+    , visibility_(surface_)
+    , executor_(executor)
+    , pieceCount_(pieces.size())
+  {
+    for (const Eigen::Vector3d& point : surface_.points)
+    {
+      bounds_.extend(point);
+    }
+    addRimProbes(mesh);
+    addSurfaceProbes(mesh, pieces);
+  }
+
+  /// For each piece 1 if it looks to the side from which it was scanned, -1 if it looks away, 0 if that is unknown.
+  std::vector<int> directions() const
+  {
+    const std::vector<View> views = firstLook();
+    const auto plain = [this](const View& view) { return explainedBy(view); };
+    const View best = bestOf(views, plain);
+    const std::vector<int> directions = directionsIn(best);
+    const auto opposite = [&](const View& view) { return -agreement(view, directions); };
+    const View other = bestOf(views, opposite);
+    const double explained = agreement(best, directions);
+    const bool tells = explained >= LeastExplained && explained >= LeastRatio * opposite(other);
+    return tells ? directions : std::vector<int>(pieceCount_, 0);
+  }
+
+private:
+  void addRimProbes(const Mesh& mesh)
+  {
+    std::vector<VertexIndex> rim;
+    double length = 0.;
+    for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+    {
+      if (mesh.isBoundary(v))
+      {
+        rim.push_back(v);
+        length += (surface_.points[mesh.ring(v)[0]] - surface_.points[v]).norm();
+      }
+    }
+    edge_ = length / double(rim.size());
+    const std::size_t count = std::min(rim.size(), RimProbes);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      // Spread over all of the boundary, whichever come first.
+      const VertexIndex v = rim[(i * Spread % count) * rim.size() / count];
+      const Eigen::Vector3d &a = surface_.points[v], &b = surface_.points[mesh.ring(v)[0]],
+                            &c = surface_.points[mesh.ring(v)[1]];
+      const Eigen::Vector3d outwards = (b - a).cross((b - a).cross(c - a)).normalized();
+      const Eigen::Vector3d middle = 0.5 * (a + b);
+      rimProbes_.push_back(
+        { middle - Within * edge_ * outwards, middle + Beyond * edge_ * outwards });
+    }
+  }
+
+  void addSurfaceProbes(const Mesh& mesh, std::span<const Piece> pieces)
+  {
+    double area = 0.;
+    for (const Piece& piece : pieces)
+    {
+      area += piece.area;
+    }
+    double passed = 0.;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+    {
+      for (const VertexIndex v : pieces[i].vertices)
+      {
+        mesh.forEachTriangleFrom(v,
+          [&](VertexIndex a, VertexIndex b, VertexIndex c)
+          {
+            passed += areaOf(mesh, { a, b, c });
+            if (passed * double(SurfaceProbes) > (double(surfaceProbes_.size()) + 0.5) * area)
+            {
+              const Eigen::Vector3d &p = surface_.points[a], &q = surface_.points[b],
+                                    &r = surface_.points[c];
+              surfaceProbes_.push_back({ (p + q + r) / 3., (q - p).cross(r - p), i });
+            }
+          });
+      }
+    }
+  }
+
+  bool isHidden(const Eigen::Vector3d& place, const Eigen::Vector3d& viewpoint) const
+  {
+    const Eigen::Vector3d way = viewpoint - place;
+    const double length = way.norm(), gap = InFront * edge_;
+    return length > gap && !visibility_.isSeen(place + gap / length * way, viewpoint);
+  }
+
+  View lookFrom(const Eigen::Vector3d& viewpoint, std::size_t rimProbes) const
+  {
+    View view{ viewpoint, 0., std::vector<std::int8_t>(surfaceProbes_.size()) };
+    const std::size_t count = std::min(rimProbes, rimProbes_.size());
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const auto& [within, beyond] = rimProbes_[i];
+      const bool isWithin = isHidden(within, viewpoint), isBeyond = isHidden(beyond, viewpoint);
+      // As many that are hidden the other way round are chance.
+      view.shadow += double(int(isBeyond) - int(isWithin)) / double(count);
+    }
+    for (std::size_t i = 0; i < surfaceProbes_.size(); ++i)
+    {
+      const auto& [place, normal, piece] = surfaceProbes_[i];
+      const bool isTowards = normal.dot(viewpoint - place) > 0.;
+      view.facing[i] = std::int8_t(isHidden(place, viewpoint) ? 0 : isTowards ? 1 : -1);
+    }
+    return view;
+  }
+
+  std::vector<View> lookFrom(std::span<const Eigen::Vector3d> places, std::size_t rimProbes) const
+  {
+    std::vector<View> views(places.size());
+    executor_.forEachPart(
+      places.size(), [&](std::size_t i) { views[i] = lookFrom(places[i], rimProbes); });
+    return views;
+  }
+
+  /// From the origin, if it is not far off, and from a grid.
+  std::vector<View> firstLook() const
+  {
+    const Eigen::Vector3d center = bounds_.center();
+    const double diagonal = bounds_.diagonal().norm();
+    const Eigen::Vector3d reach =
+      0.5 * bounds_.diagonal() + Eigen::Vector3d::Constant(ReachOfViewpoints * diagonal);
+    std::vector<Eigen::Vector3d> places;
+    if (bounds_.squaredExteriorDistance(Eigen::Vector3d::Zero()) < diagonal * diagonal)
+    {
+      places.push_back(Eigen::Vector3d::Zero());
+    }
+    const auto along = [](int i) { return 2. * double(i) / double(ViewpointsPerAxis - 1) - 1.; };
+    for (int i = 0; i < ViewpointsPerAxis; ++i)
+    {
+      for (int j = 0; j < ViewpointsPerAxis; ++j)
+      {
+        for (int k = 0; k < ViewpointsPerAxis; ++k)
+        {
+          const Eigen::Vector3d direction(along(i), along(j), along(k));
+          places.emplace_back(center + reach.cwiseProduct(direction));
+        }
+      }
+    }
+    return lookFrom(places, RimProbesOfFirstLook);
+  }
+
+  /// The best view, by `worthOf`, that steps lead to.
+  template <typename WorthOf>
+  View bestOf(const std::vector<View>& views, const WorthOf& worthOf) const
+  {
+    std::vector<double> worths(views.size());
+    std::transform(views.begin(), views.end(), worths.begin(), worthOf);
+    std::vector<std::size_t> order(views.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(order.begin(), order.end(),
+      [&](std::size_t a, std::size_t b) { return worths[a] > worths[b]; });
+    View best;
+    for (std::size_t i = 0; i < ViewpointsImproved; ++i)
+    {
+      View view = improved(views[order[i]].viewpoint, worthOf);
+      if (i == 0 || worthOf(view) > worthOf(best))
+      {
+        best = std::move(view);
+      }
+    }
+    return best;
+  }
+
+  template <typename WorthOf>
+  View improved(const Eigen::Vector3d& viewpoint, const WorthOf& worthOf) const
+  {
+    View best = lookFrom(viewpoint, RimProbes);
+    const double diagonal = bounds_.diagonal().norm();
+    for (double step = FirstStep; step >= LastStep;)
+    {
+      std::array<Eigen::Vector3d, 6> places;
+      for (int i = 0; i < 6; ++i)
+      {
+        const double way = (i % 2 == 0 ? step : -step) * diagonal;
+        places[std::size_t(i)] = best.viewpoint + way * Eigen::Vector3d::Unit(i / 2);
+      }
+      bool isBetter = false;
+      for (View& view : lookFrom(places, RimProbes))
+      {
+        if (worthOf(view) > worthOf(best))
+        {
+          best = std::move(view);
+          isBetter = true;
+        }
+      }
+      step = isBetter ? step : 0.5 * step;
+    }
+    return best;
+  }
+
+  /// What faces the viewpoint less what looks away, of each piece.
+  std::vector<int> sumsIn(const View& view) const
+  {
+    std::vector<int> sums(pieceCount_, 0);
+    for (std::size_t i = 0; i < surfaceProbes_.size(); ++i)
+    {
+      sums[surfaceProbes_[i].piece] += view.facing[i];
+    }
+    return sums;
+  }
+
+  /// Each piece may be turned by itself.
+  double explainedBy(const View& view) const
+  {
+    const std::vector<int> sums = sumsIn(view);
+    const int seen = std::accumulate(
+      sums.begin(), sums.end(), 0, [](int sum, int one) { return sum + std::abs(one); });
+    return std::max(0., view.shadow) * double(seen) / double(surfaceProbes_.size());
+  }
+
+  /// As that, but with these directions; negative if the view is from the other side.
+  double agreement(const View& view, const std::vector<int>& directions) const
+  {
+    const std::vector<int> sums = sumsIn(view);
+    const int seen = std::inner_product(sums.begin(), sums.end(), directions.begin(), 0);
+    return std::max(0., view.shadow) * double(seen) / double(surfaceProbes_.size());
+  }
+
+  std::vector<int> directionsIn(const View& view) const
+  {
+    const std::vector<int> sums = sumsIn(view);
+    std::vector<int> seen(pieceCount_, 0), result(pieceCount_, 0);
+    for (std::size_t i = 0; i < surfaceProbes_.size(); ++i)
+    {
+      seen[surfaceProbes_[i].piece] += std::abs(view.facing[i]);
+    }
+    for (std::size_t i = 0; i < pieceCount_; ++i)
+    {
+      result[i] = 2 * std::abs(sums[i]) <= seen[i] ? 0 : sums[i] > 0 ? 1 : -1;
+    }
+    return result;
+  }
+
+  /// A prime number that divides no count of probes.
+  static constexpr std::size_t Spread = 1009;
+
+  TriangleMesh surface_;
+  Visibility visibility_;
+  const Executor& executor_;
+  std::size_t pieceCount_;
+  Eigen::AlignedBox3d bounds_;
+  double edge_ = 0.; ///< the mean one of boundaries
+  std::vector<RimProbe> rimProbes_;
+  std::vector<SurfaceProbe> surfaceProbes_;
+};
+
+bool canShadowsTell(const Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> known)
+{
+  double area = 0., uncertain = 0., boundary = 0.;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    area += pieces[i].area;
+    uncertain += known[i].isKnown() ? 0. : pieces[i].area;
+  }
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    if (mesh.isBoundary(v))
+    {
+      boundary += std::sqrt(double(squaredNorm(mesh.position(mesh.ring(v)[0]) - mesh.position(v))));
+    }
+  }
+  return area > 0. && uncertain >= LeastUncertainArea * area &&
+    boundary >= ShortestBoundary * 2. * std::sqrt(std::numbers::pi * area);
+}
+}
+
+std::vector<Side> sidesByShadows(const Mesh& mesh, std::span<const Piece> pieces,
+  std::span<const Side> known, const PointCloud& cloud, const Executor& executor)
+{
+  std::vector<Side> sides(pieces.size());
+  if (!canShadowsTell(mesh, pieces, known))
+  {
+    return sides;
+  }
+  const std::vector<int> directions = ShadowSearch(mesh, pieces, cloud, executor).directions();
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    if (!known[i].isKnown() && directions[i] != 0)
+    {
+      sides[i] = { SideEvidence::Shadows, directions[i] < 0, true };
+    }
+  }
+  return sides;
+}
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cloud/ShadowSides.h"
+
+#include "OrientedScene.h"
+
+#include "base/ThreadPool.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+constexpr int PlatesPerSide = 4;
+constexpr double PlateSide = 0.3;
+
+/// Of the middle of a plate, from the axis along which the scanner looks.
+double placeOfPlate(int index) { return 0.5 * index - 0.25 * (PlatesPerSide - 1); }
+
+bool isInShadow(double along)
+{
+  for (int i = 0; i < PlatesPerSide; ++i)
+  {
+    if (std::abs(along - 1.5 * placeOfPlate(i)) < 0.75 * PlateSide)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Three units from a scanner in the origin that looks along z, with gaps where plates at two units hide it.
+TriangleMesh wallWithShadows()
+{
+  return partOf(placed(makeGrid(60), Eigen::Matrix3d::Identity(), { -1.5, -1.5, 3. }, 3.),
+    [](const Eigen::Vector3d& centroid)
+    { return !isInShadow(centroid.x()) || !isInShadow(centroid.y()); });
+}
+
+TriangleMesh wallBehindPlates()
+{
+  TriangleMesh all = wallWithShadows();
+  for (int i = 0; i < PlatesPerSide * PlatesPerSide; ++i)
+  {
+    const Eigen::Vector3d place(
+      placeOfPlate(i % PlatesPerSide), placeOfPlate(i / PlatesPerSide), 2.);
+    const TriangleMesh plate = placed(makeGrid(6), Eigen::Matrix3d::Identity(),
+      place - Eigen::Vector3d(0.5 * PlateSide, 0.5 * PlateSide, 0.), PlateSide);
+    append(all, i % 2 == 0 ? plate : turned(plate));
+  }
+  return all;
+}
+}
+
+// Parts that hide each other look to where the scanner stood, in the origin and elsewhere.
+TEST(ShadowSides, TellWhereTheScannerStood)
+{
+  for (const Eigen::Vector3d& scanner : { Eigen::Vector3d(0., 0., 0.), { 7., -2., 1. } })
+  {
+    for (const bool isTurned : { false, true })
+    {
+      const TriangleMesh shape = placed(wallBehindPlates(), upright(), scanner);
+      Scene scene(isTurned ? turned(shape) : shape);
+      const OrientationReport report = scene.orient();
+      EXPECT_EQ(scene.facing([&](const Eigen::Vector3d& at) { return scanner - at; }), 1.);
+      EXPECT_EQ(report.main(), SideEvidence::Shadows);
+      EXPECT_DOUBLE_EQ(report.guessedShare, 1.);
+    }
+  }
+}
+
+// Gaps before which nothing stands tell nothing, nor do boundaries that are short.
+TEST(ShadowSides, OtherGapsTellNothing)
+{
+  for (const TriangleMesh& shape : { wallWithShadows(), makeGrid(20) })
+  {
+    const Scene scene(placed(shape, upright(), Eigen::Vector3d::Zero()));
+    const std::vector<Piece> pieces = findPieces(scene.mesh);
+    for (const Side& side :
+      sidesByShadows(scene.mesh, pieces, std::vector<Side>(pieces.size()), scene.cloud))
+    {
+      EXPECT_FALSE(side.isKnown());
+    }
+  }
+}
+
+// What is known of a piece is not asked of shadows; the number of threads changes nothing.
+TEST(ShadowSides, OnlyOfUnknownPieces)
+{
+  const Scene scene(wallBehindPlates());
+  const std::vector<Piece> pieces = findPieces(scene.mesh);
+  std::vector<Side> known(pieces.size());
+  known.back() = { SideEvidence::Volume, true };
+  const ThreadPool threads(3);
+  const std::vector<Side> one = sidesByShadows(scene.mesh, pieces, known, scene.cloud);
+  const std::vector<Side> more = sidesByShadows(scene.mesh, pieces, known, scene.cloud, threads);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    EXPECT_EQ(one[i].isKnown(), i + 1 < pieces.size());
+    EXPECT_EQ(one[i].isTurned, more[i].isTurned);
+    EXPECT_EQ(one[i].isKnown(), more[i].isKnown());
+  }
+}
+}
