@@ -24,6 +24,11 @@ constexpr double LeastPointsAtVertex = 0.5;
 constexpr float SpacingsOfGap = 3.f;
 /// ... and so many median distances from the mesh, where there is noise.
 constexpr float MediansOfGap = 5.f;
+/// The points at the rim of a gap have fewer neighbors, and larger spacings. Half of so many around them tell more where
+/// their spacing is not more than so many times the usual one: elsewhere points get sparser towards the gap.
+constexpr std::size_t PointsAroundGap = 25;
+constexpr float MostSpacingAround = 1.2f;
+constexpr std::size_t PointsOfUsualSpacing = 500;
 
 /// A part for the executor.
 constexpr std::size_t TrianglesPerRange = 4096;
@@ -33,6 +38,39 @@ struct FarTriangle
   VertexIndex corner;
   Vector4 center;
   double area;
+};
+
+/// The distance between points at a gap.
+class SpacingAtGap
+{
+public:
+  explicit SpacingAtGap(const NearestPoints& nearest)
+    : nearest_(nearest)
+  {
+    const std::size_t all = nearest.points().size(), asked = std::min(all, PointsOfUsualSpacing);
+    std::vector<float> spacings(asked);
+    for (std::size_t i = 0; i < asked; ++i)
+    {
+      spacings[i] = pointSpacing(nearest, std::uint32_t(i * all / asked));
+    }
+    most_ = MostSpacingAround * medianOf(std::move(spacings));
+  }
+
+  float at(std::uint32_t point) const
+  {
+    const float own = pointSpacing(nearest_, point);
+    std::array<NearPoint, PointsAroundGap> near;
+    const std::size_t found = nearest_.find(nearest_.points()[point], near);
+    std::vector<float> spacings(found);
+    std::transform(near.begin(), near.begin() + std::ptrdiff_t(found), spacings.begin(),
+      [&](const NearPoint& other) { return pointSpacing(nearest_, other.index); });
+    const float around = medianOf(std::move(spacings));
+    return around <= most_ ? std::min(own, around) : own;
+  }
+
+private:
+  const NearestPoints& nearest_;
+  float most_ = 0.f;
 };
 }
 
@@ -54,12 +92,13 @@ std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& suppo
   }
   const float noise = MediansOfGap * medianOf(distances.distances, executor);
   const NearestPoints nearest(cloud.points(), executor);
+  const SpacingAtGap spacing(nearest);
   const auto isFarFromAll = [&](Vector4 center)
   {
     std::array<NearPoint, 1> found;
     nearest.find(center, found);
     const float distance = std::sqrt(found[0].squaredDistance);
-    return distance > noise && distance > SpacingsOfGap * pointSpacing(nearest, found[0].index);
+    return distance > noise && distance > SpacingsOfGap * spacing.at(found[0].index);
   };
   const NumberedTriangles triangles(mesh, executor);
   std::vector<std::uint8_t> isFar(triangles.all().size(), 0);

@@ -69,6 +69,13 @@ TEST(SpannedGaps, AtThePole)
   EXPECT_FALSE(pole.isWarnedOf(filling));
 }
 
+// Points at a rim have fewer neighbors, so their own spacings are large.
+TEST(SpannedGaps, NarrowerThanSpacingsAtItsRim)
+{
+  EXPECT_TRUE(Pole(0.065, 0.).isWarnedOf());
+  EXPECT_FALSE(Pole(0.03, 0.).isWarnedOf());
+}
+
 TEST(SpannedGaps, SparseIsNoGap)
 {
   EXPECT_FALSE(Pole(0.2, 0.1).isWarnedOf());
