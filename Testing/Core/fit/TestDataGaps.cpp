@@ -209,6 +209,25 @@ TEST(DataGaps, HolesAreFound)
   }
 }
 
+// A hole hardly wider than triangles are long is found: those at its rim reach far into it, and only seem to be sparse.
+TEST(DataGaps, HolesAsWideAsTriangles)
+{
+  constexpr unsigned Side = 40;
+  constexpr double Spacing = 0.0078, Radius = 3.6 * Spacing;
+  const Eigen::Vector3d middle(0.512, 0.512, 0.);
+  for (const std::uint64_t seed : { 1u, 2u, 3u, 4u, 5u })
+  {
+    std::vector<Eigen::Vector3d> points = generateCloud(
+      makeGrid(Side), { .count = std::size_t(1. / (Spacing * Spacing)), .seed = seed });
+    std::erase_if(
+      points, [&](const Eigen::Vector3d& point) { return (point - middle).norm() < Radius; });
+    const PointCloud cloud(points);
+    Mesh mesh = buildMesh(makeGrid(Side), cloud);
+    const std::size_t found = gapsOf(cloud, mesh, true).size();
+    EXPECT_GT(found, 0u) << seed;
+  }
+}
+
 // Scans in lines, whose points are closer along the lines than across, have no gaps between the
 // lines.
 TEST(DataGaps, NoneBetweenScanLines)
