@@ -5,10 +5,11 @@
 #include "mesh/BoundaryFilling.h"
 #include "mesh/BoundaryManager.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
-#include <utility>
 #include <vector>
 
 namespace neuralmesh
@@ -19,6 +20,10 @@ namespace
 constexpr float LeastFlatnessOfEnd = 0.8f;
 /// Of the angle between that mean and the way to the other end.
 constexpr float LeastCosineToOther = 0.3f;
+
+/// Tubes that stay are put back by a copy of the mesh, and the others are cut again: once, unless
+/// one depends on another.
+constexpr int MostTurns = 4;
 
 /// One end of a tube.
 struct End
@@ -61,11 +66,10 @@ std::set<BoundaryManager::LoopIndex> loopsOf(
   return loops;
 }
 
-bool cutTube(Mesh& mesh, std::span<const Triangle> tube, double longestEdge,
-  const std::function<bool(const Triangle&)>& isCovered)
+/// Where a tube was.
+bool closeEnds(Mesh& mesh, BoundaryManager& boundaries, std::span<const Triangle> tube,
+  double longestEdge, const std::function<bool(const Triangle&)>& isCovered)
 {
-  mesh.removeTriangles(tube);
-  BoundaryManager boundaries(mesh);
   const std::set<BoundaryManager::LoopIndex> loops = loopsOf(boundaries, tube);
   if (loops.size() != 2)
   {
@@ -77,24 +81,45 @@ bool cutTube(Mesh& mesh, std::span<const Triangle> tube, double longestEdge,
   return looksAt(one, other) && looksAt(other, one) &&
     fillBoth(mesh, boundaries, both, longestEdge, isCovered);
 }
+
+using Tubes = std::vector<std::span<const Triangle>>;
+
+/// Removes all of them, and returns those whose ends are closed then.
+Tubes closed(Mesh& mesh, const Tubes& tubes, double longestEdge,
+  const std::function<bool(const Triangle&)>& isCovered)
+{
+  for (const std::span<const Triangle> tube : tubes)
+  {
+    mesh.removeTriangles(tube);
+  }
+  BoundaryManager boundaries(mesh);
+  Tubes result;
+  std::copy_if(tubes.begin(), tubes.end(), std::back_inserter(result),
+    [&](std::span<const Triangle> tube)
+    { return closeEnds(mesh, boundaries, tube, longestEdge, isCovered); });
+  return result;
+}
 }
 
 std::size_t cutTubes(Mesh& mesh, std::span<const std::vector<Triangle>> tubes, double longestEdge,
   const std::function<bool(const Triangle&)>& isCovered)
 {
-  std::size_t cut = 0;
-  for (const std::vector<Triangle>& tube : tubes)
+  const Mesh before = mesh;
+  Tubes left(tubes.begin(), tubes.end());
+  for (int turn = 0; turn < MostTurns; ++turn)
   {
-    Mesh before = mesh;
-    if (cutTube(mesh, tube, longestEdge, isCovered))
+    const std::size_t removed = left.size();
+    left = closed(mesh, left, longestEdge, isCovered);
+    if (left.size() == removed)
     {
-      ++cut;
+      return removed;
     }
-    else
+    mesh = before;
+    if (left.empty())
     {
-      mesh = std::move(before);
+      return 0;
     }
   }
-  return cut;
+  return 0;
 }
 }

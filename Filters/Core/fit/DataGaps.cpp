@@ -2,6 +2,7 @@
 #include "fit/DataGaps.h"
 
 #include "base/DisjointSets.h"
+#include "base/UnitVector.h"
 #include "cloud/NearestPoints.h"
 #include "fit/CutTubes.h"
 #include "fit/EmptyPieces.h"
@@ -47,6 +48,13 @@ constexpr double LeastMediansOfWeb = 3.;
 /// The sides of a web are also farther from all points than this times the root of their area. A
 /// thin plate has points everywhere between its sides, even if the mesh fits badly.
 constexpr double LeastRootsOfWeb = 0.25;
+/// The triangles around a hole reach into it, so they have too few samples. Those beyond tell its
+/// spacing where it is not more than so many times the mean: elsewhere samples get sparser towards
+/// it ...
+constexpr double MostSpacingBeyond = 1.2;
+/// ... and where the surface around it continues across it: else the mesh spans a step between
+/// points. The least cosine between normals.
+constexpr float CosineAcross = 0.3f;
 /// If there are fewer samples per triangle, many triangles have none by chance, and they are
 /// connected. Then a triangle is empty only if it is farther from all points than so many times the
 /// distance between samples. One in e^7 is that by chance.
@@ -253,7 +261,9 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
       distance(t) <= LeastSpacingsIfEmpty * spacing;
   };
   const bool isFine = places.size() < LeastSamplesPerTriangle * triangles.all().size();
-  const double meanDensity = isFine ? double(places.size()) / areaOf(mesh, executor) : 0.;
+  const double area = areaOf(mesh, executor);
+  const double usualSpacing = std::sqrt(area / double(places.size()));
+  const double meanDensity = isFine ? double(places.size()) / area : 0.;
   const double meanSpacing = isFine ? 1. / std::sqrt(meanDensity) : 0.;
   if (isFine)
   {
@@ -288,6 +298,22 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
     return std::any_of(piece.triangles.begin(), piece.triangles.end(),
       [&](std::uint32_t t) { return distance(t) > std::max(reach, spacings * sparseSpacing(t)); });
   };
+  const auto reachesBeyond = [&](const EmptyPiece& piece)
+  {
+    const double beyond = 1. / std::sqrt(piece.densityBeyond());
+    if (!rules.isFitted || piece.isAtBoundary || !(beyond <= MostSpacingBeyond * usualSpacing))
+    {
+      return false;
+    }
+    const double spacing = std::max(meanSpacing, beyond);
+    const double reach = std::max(LeastSpacings * spacing, LeastMedians * double(medianDistance));
+    return std::any_of(piece.triangles.begin(), piece.triangles.end(),
+      [&](std::uint32_t t)
+      {
+        return distance(t) > std::max(reach, LeastSpacings * sparseSpacing(t)) &&
+          dot(unit(crossOf(mesh, triangles.all()[t])), unit(piece.normalBeyond)) >= CosineAcross;
+      });
+  };
   std::vector<std::vector<Triangle>> tubes;
   if (rules.isFitted)
   {
@@ -307,8 +333,8 @@ JudgedPieces judgedPieces(const PointCloud& cloud, const Mesh& mesh,
   const auto judge = [&](std::size_t i)
   {
     const EmptyPiece& piece = pieces[i];
-    const bool isOne =
-      (piece.isAtBoundary && !rules.mustBeFar) || reaches(piece, LeastSpacings, LeastMedians);
+    const bool isOne = (piece.isAtBoundary && !rules.mustBeFar) ||
+      reaches(piece, LeastSpacings, LeastMedians) || reachesBeyond(piece);
     isGap[i] = isOne ? 1 : 0;
     isSide[i] = !piece.isAtBoundary &&
         (isOne ||

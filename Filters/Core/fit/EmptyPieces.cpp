@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -15,6 +16,12 @@ Vector4 centerOf(const Mesh& mesh, const Triangle& triangle)
 {
   return 1.f / 3.f *
     (mesh.position(triangle[0]) + mesh.position(triangle[1]) + mesh.position(triangle[2]));
+}
+
+Vector4 crossOf(const Mesh& mesh, const Triangle& triangle)
+{
+  const Vector4 a = mesh.position(triangle[0]);
+  return cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a);
 }
 
 namespace
@@ -46,32 +53,51 @@ void joinEmpty(const NumberedTriangles& triangles, std::size_t vertices,
     });
 }
 
-/// Adds up what a piece is, and what lies around it, in the order of the triangles.
-void describe(EmptyPiece& piece, const Mesh& mesh, const NumberedTriangles& triangles,
-  std::span<const std::uint32_t> samples, std::span<const std::uint8_t> isEmpty)
+/// Those that are not empty and touch some of `these`, in rising order.
+std::vector<std::uint32_t> touching(std::span<const std::uint32_t> these,
+  const NumberedTriangles& triangles, std::span<const std::uint8_t> isEmpty)
 {
   std::vector<std::uint32_t> around;
-  for (const std::uint32_t t : piece.triangles)
+  for (const std::uint32_t t : these)
   {
-    piece.area += areaOf(mesh, triangles.all()[t]);
     for (const VertexIndex v : triangles.all()[t])
     {
-      piece.isAtBoundary = piece.isAtBoundary || mesh.isBoundary(v);
-      for (const std::uint32_t other : triangles.at(v))
-      {
-        if (isEmpty[other] == 0)
-        {
-          around.push_back(other);
-        }
-      }
+      const auto at = triangles.at(v);
+      std::copy_if(at.begin(), at.end(), std::back_inserter(around),
+        [&](std::uint32_t other) { return isEmpty[other] == 0; });
     }
   }
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());
+  return around;
+}
+
+/// Adds up what a piece is, and what lies around it, in the order of the triangles.
+void describe(EmptyPiece& piece, const Mesh& mesh, const NumberedTriangles& triangles,
+  std::span<const std::uint32_t> samples, std::span<const std::uint8_t> isEmpty)
+{
+  for (const std::uint32_t t : piece.triangles)
+  {
+    const Triangle& triangle = triangles.all()[t];
+    piece.area += areaOf(mesh, triangle);
+    piece.isAtBoundary = piece.isAtBoundary ||
+      std::any_of(
+        triangle.begin(), triangle.end(), [&](VertexIndex v) { return mesh.isBoundary(v); });
+  }
+  const std::vector<std::uint32_t> around = touching(piece.triangles, triangles, isEmpty);
   for (const std::uint32_t t : around)
   {
     piece.areaAround += areaOf(mesh, triangles.all()[t]);
     piece.samplesAround += samples[t];
+  }
+  for (const std::uint32_t t : touching(around, triangles, isEmpty))
+  {
+    if (!std::binary_search(around.begin(), around.end(), t))
+    {
+      piece.areaBeyond += areaOf(mesh, triangles.all()[t]);
+      piece.samplesBeyond += samples[t];
+      piece.normalBeyond += crossOf(mesh, triangles.all()[t]);
+    }
   }
 }
 }

@@ -12,6 +12,8 @@
 namespace neuralmesh
 {
 Vector4 centerOf(const Mesh& mesh, const Triangle& triangle);
+/// The normal of a triangle, as long as twice its area.
+Vector4 crossOf(const Mesh& mesh, const Triangle& triangle);
 
 /// A connected piece of triangles without samples.
 struct EmptyPiece
@@ -20,9 +22,13 @@ struct EmptyPiece
   double area = 0.;
   double areaAround = 0.; ///< area of the triangles that touch it
   double samplesAround = 0.;
+  double areaBeyond = 0.; ///< of the triangles that touch those
+  double samplesBeyond = 0.;
+  Vector4 normalBeyond; ///< the sum of their normals
   bool isAtBoundary = false;
 
   double density() const { return areaAround > 0. ? samplesAround / areaAround : 0.; }
+  double densityBeyond() const { return areaBeyond > 0. ? samplesBeyond / areaBeyond : 0.; }
 };
 
 /// The pieces of those triangles that are not 0 in `isEmpty`, connected by vertices, in the order of their first

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/SpannedGaps.h"
 
-#include "base/DisjointSets.h"
 #include "base/Median.h"
 #include "cloud/NearestPoints.h"
 #include "fit/EmptyPieces.h"
@@ -12,7 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <numbers>
+#include <span>
 
 namespace neuralmesh
 {
@@ -24,15 +24,76 @@ constexpr double LeastPointsAtVertex = 0.5;
 constexpr float SpacingsOfGap = 3.f;
 /// ... and so many median distances from the mesh, where there is noise.
 constexpr float MediansOfGap = 5.f;
+/// Noise takes points across the rim of a gap. Where the second is more than this part of the first,
+/// less is enough: a place that is so many medians away, and so many times farther than the points
+/// closest to it are from each other. In a sparse part they are as far.
+constexpr float PartOfNoise = 0.5f;
+constexpr float MediansInNoise = 3.f;
+constexpr float RimSpacingsInNoise = 2.f;
+constexpr std::size_t PointsAtRim = 16;
+/// From there, the gap reaches as far as triangles are this part of that away from all points.
+constexpr float PartAtRim = 0.5f;
+/// The points at the rim of a gap have fewer neighbors, and larger spacings. Half of so many around
+/// them tell more where their spacing is not more than so many times the usual one: elsewhere points
+/// get sparser towards the gap.
+constexpr std::size_t PointsAroundGap = 25;
+constexpr float MostSpacingAround = 1.2f;
+constexpr std::size_t PointsOfUsualSpacing = 500;
 
 /// A part for the executor.
 constexpr std::size_t TrianglesPerRange = 4096;
 
-struct FarTriangle
+/// The distance between points at a gap.
+class SpacingAtGap
 {
-  VertexIndex corner;
-  Vector4 center;
-  double area;
+public:
+  /// `onSurface`: between points that are spread evenly on the surface, if noise moves them apart;
+  /// 0 if not.
+  SpacingAtGap(const NearestPoints& nearest, float onSurface)
+    : nearest_(nearest)
+  {
+    const std::size_t all = nearest.points().size(), asked = std::min(all, PointsOfUsualSpacing);
+    std::vector<float> spacings(asked);
+    for (std::size_t i = 0; i < asked; ++i)
+    {
+      spacings[i] = pointSpacing(nearest, std::uint32_t(i * all / asked));
+    }
+    const float usual = medianOf(std::move(spacings));
+    most_ = MostSpacingAround * usual;
+    flattening_ = onSurface > 0.f && onSurface < usual ? onSurface / usual : 1.f;
+  }
+
+  float at(std::uint32_t point) const
+  {
+    const float own = pointSpacing(nearest_, point);
+    std::array<NearPoint, PointsAroundGap> near;
+    const std::size_t found = nearest_.find(nearest_.points()[point], near);
+    std::vector<float> spacings(found);
+    std::transform(near.begin(), near.begin() + std::ptrdiff_t(found), spacings.begin(),
+      [&](const NearPoint& other) { return pointSpacing(nearest_, other.index); });
+    const float around = medianOf(std::move(spacings));
+    return around <= most_ ? flattening_ * std::min(own, around) : own;
+  }
+
+private:
+  const NearestPoints& nearest_;
+  float most_ = 0.f;
+  float flattening_ = 1.f;
+};
+
+/// Of a triangle.
+enum class Place : std::uint8_t
+{
+  NearPoints,
+  FarFromPoints,
+  WithinRim ///< of a gap, in noise
+};
+
+/// A patch of triangles that spans a gap.
+struct Patch
+{
+  double area = 0.;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< times the area
 };
 }
 
@@ -52,58 +113,98 @@ std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& suppo
   {
     return {};
   }
-  const float noise = MediansOfGap * medianOf(distances.distances, executor);
+  const float median = medianOf(distances.distances, executor);
+  const auto onSurface = float(std::sqrt(all / double(cloud.points().size())));
+  const bool isNoisy = MediansOfGap * median > PartOfNoise * SpacingsOfGap * onSurface;
   const NearestPoints nearest(cloud.points(), executor);
-  const auto isFarFromAll = [&](Vector4 center)
+  const SpacingAtGap spacing(nearest, isNoisy ? onSurface : 0.f);
+  const NumberedTriangles triangles(mesh, executor);
+  const auto closestTo = [&](std::size_t t, std::span<NearPoint> found)
+  { return nearest.find(centerOf(mesh, triangles.all()[t]), found); };
+  const auto isBeyondRim = [&](std::size_t t)
+  {
+    std::array<NearPoint, PointsAtRim> found;
+    const auto others = float(closestTo(t, found) - 1);
+    const float squared = found[0].squaredDistance;
+    const float disc =
+      std::numbers::pi_v<float> * (found[std::size_t(others)].squaredDistance - squared);
+    return squared * others > RimSpacingsInNoise * RimSpacingsInNoise * disc;
+  };
+  const auto placeOf = [&](std::size_t t)
   {
     std::array<NearPoint, 1> found;
-    nearest.find(center, found);
+    closestTo(t, found);
     const float distance = std::sqrt(found[0].squaredDistance);
-    return distance > noise && distance > SpacingsOfGap * pointSpacing(nearest, found[0].index);
+    if (!(distance > MediansInNoise * median &&
+          distance > SpacingsOfGap * spacing.at(found[0].index)))
+    {
+      return Place::NearPoints;
+    }
+    return isNoisy && isBeyondRim(t)     ? Place::WithinRim
+      : distance > MediansOfGap * median ? Place::FarFromPoints
+                                         : Place::NearPoints;
   };
-  const NumberedTriangles triangles(mesh, executor);
-  std::vector<std::uint8_t> isFar(triangles.all().size(), 0);
-  executor.forEachRange(isFar.size(), TrianglesPerRange,
+  std::vector<Place> places(triangles.all().size(), Place::NearPoints);
+  executor.forEachRange(places.size(), TrianglesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t t = begin; t < end; ++t)
       {
-        const auto& [a, b, c] = triangles.all()[t];
-        isFar[t] =
-          (isBare(a) || isBare(b) || isBare(c)) && isFarFromAll(centerOf(mesh, { a, b, c })) ? 1
-                                                                                             : 0;
+        const Triangle& triangle = triangles.all()[t];
+        places[t] =
+          std::any_of(triangle.begin(), triangle.end(), isBare) ? placeOf(t) : Place::NearPoints;
       }
     });
-  std::vector<FarTriangle> far;
-  DisjointSets sets(mesh.indexEnd());
-  for (std::size_t t = 0; t < isFar.size(); ++t)
+  std::vector<std::uint8_t> isTaken(places.size(), 0);
+  const auto patchFrom = [&](std::uint32_t first)
   {
-    if (isFar[t] != 0)
+    std::array<NearPoint, 1> found;
+    closestTo(first, found);
+    const float rim = PartAtRim * PartAtRim * found[0].squaredDistance;
+    const auto isInPatch = [&](std::uint32_t t)
     {
-      const auto& [a, b, c] = triangles.all()[t];
-      far.push_back({ a, centerOf(mesh, { a, b, c }), areaOf(mesh, { a, b, c }) });
-      sets.join(a, b);
-      sets.join(b, c);
+      closestTo(t, found);
+      return places[t] != Place::NearPoints ||
+        (places[first] == Place::WithinRim && found[0].squaredDistance > rim);
+    };
+    Patch patch;
+    std::vector<std::uint32_t> open{ first };
+    isTaken[first] = 1;
+    while (!open.empty())
+    {
+      const std::uint32_t t = open.back();
+      open.pop_back();
+      const Triangle& triangle = triangles.all()[t];
+      const double area = areaOf(mesh, triangle);
+      patch.area += area;
+      patch.center += area * cloud.toInput(centerOf(mesh, triangle));
+      for (const VertexIndex v : triangle)
+      {
+        for (const std::uint32_t other : triangles.at(v))
+        {
+          if (isTaken[other] == 0 && isInPatch(other))
+          {
+            isTaken[other] = 1;
+            open.push_back(other);
+          }
+        }
+      }
     }
-  }
-  struct Sum
-  {
-    double area = 0.;
-    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    return patch;
   };
-  std::map<std::size_t, Sum> patches;
-  for (const FarTriangle& triangle : far)
-  {
-    Sum& patch = patches[sets.root(triangle.corner)];
-    patch.area += triangle.area;
-    patch.center += triangle.area * cloud.toInput(triangle.center);
-  }
   std::vector<SpannedGap> gaps;
-  for (const auto& [root, patch] : patches)
+  for (const Place place : { Place::WithinRim, Place::FarFromPoints })
   {
-    if (patch.area > 0.)
+    for (std::size_t t = 0; t < places.size(); ++t)
     {
-      gaps.push_back({ patch.area / all, patch.center / patch.area });
+      if (places[t] == place && isTaken[t] == 0)
+      {
+        const Patch patch = patchFrom(std::uint32_t(t));
+        if (patch.area > 0.)
+        {
+          gaps.push_back({ patch.area / all, patch.center / patch.area });
+        }
+      }
     }
   }
   std::stable_sort(gaps.begin(), gaps.end(),

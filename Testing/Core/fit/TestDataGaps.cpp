@@ -209,6 +209,25 @@ TEST(DataGaps, HolesAreFound)
   }
 }
 
+// A hole hardly wider than triangles are long is found: those at its rim reach far into it, and only seem to be sparse.
+TEST(DataGaps, HolesAsWideAsTriangles)
+{
+  constexpr unsigned Side = 40;
+  constexpr double Spacing = 0.0078, Radius = 3.6 * Spacing;
+  const Eigen::Vector3d middle(0.512, 0.512, 0.);
+  for (const std::uint64_t seed : { 1u, 2u, 3u, 4u, 5u })
+  {
+    std::vector<Eigen::Vector3d> points = generateCloud(
+      makeGrid(Side), { .count = std::size_t(1. / (Spacing * Spacing)), .seed = seed });
+    std::erase_if(
+      points, [&](const Eigen::Vector3d& point) { return (point - middle).norm() < Radius; });
+    const PointCloud cloud(points);
+    Mesh mesh = buildMesh(makeGrid(Side), cloud);
+    const std::size_t found = gapsOf(cloud, mesh, true).size();
+    EXPECT_GT(found, 0u) << seed;
+  }
+}
+
 // Scans in lines, whose points are closer along the lines than across, have no gaps between the
 // lines.
 TEST(DataGaps, NoneBetweenScanLines)
@@ -319,6 +338,19 @@ TEST(DataGaps, WebsAcrossHandlesAreCut)
   }
 }
 
+/// Those of the faces at the ends of a tube, at its wall: they are as near to that as to the faces around it.
+void removeBesideTube(
+  std::vector<Eigen::Vector3d>& points, double distance, double halfWidth, double halfHeight)
+{
+  std::erase_if(points,
+    [&](const Eigen::Vector3d& point)
+    {
+      const double y = std::abs(point.y()) / halfWidth, z = std::abs(point.z()) / halfHeight;
+      return point.x() > 0.49 && point.x() < 0.51 + distance && y < 1. && z < 1. &&
+        (y > 0.8 || z > 0.8);
+    });
+}
+
 // Two bodies that are joined by a tube shorter than bridges are wide: where no points lie on the tube, it goes, and each
 // body is closed for itself. A few points beside the tube, farther from it than points are from each other, do not hold
 // it. Where points lie on it, it stays.
@@ -339,14 +371,10 @@ TEST(DataGaps, TubesBetweenBodiesAreCut)
     const bool isCut = kind != Tube::HasPoints;
     std::vector<Eigen::Vector3d> points =
       generateCloud(isCut ? bodies : joined, CloudOptions{ .count = 60000 });
-    // Those of the faces at the ends of the tube, at its wall: they are as near to that as to the faces around it.
-    std::erase_if(points,
-      [&](const Eigen::Vector3d& point)
-      {
-        const double y = std::abs(point.y()) / HalfWidth, z = std::abs(point.z()) / HalfHeight;
-        return isCut && point.x() > 0.49 && point.x() < 0.51 + distance && y < 1. && z < 1. &&
-          (y > 0.8 || z > 0.8);
-      });
+    if (isCut)
+    {
+      removeBesideTube(points, distance, HalfWidth, HalfHeight);
+    }
     for (int i = -2; i <= 2 && kind == Tube::HasPointsBeside; ++i)
     {
       points.emplace_back(0.5 * (1. + distance), HalfWidth + Beside, 0.05 * i);
@@ -379,6 +407,63 @@ TEST(DataGaps, PipesStayJoined)
   EXPECT_EQ(gaps.joined, 1u);
   EXPECT_EQ(gaps.filled, 0u);
   EXPECT_EQ(reportOf(mesh).components, 1u);
+}
+
+// A leg that is thinner than a gap is wide stays whole where a band of it has no points, though both ends could be closed:
+// they do not look at each other. A tube between bodies of the same mesh is cut all the same.
+TEST(DataGaps, ThinLegsStayJoined)
+{
+  constexpr std::uint32_t Sides = 5, Rings = 60;
+  constexpr double Radius = 0.03, RingLength = 0.025;
+  constexpr double Distance = 0.16, HalfWidth = 0.1, HalfHeight = 0.15;
+  constexpr std::size_t PointsOfLeg = 1466, PointsOfBodies = 60000;
+  TriangleMesh leg;
+  for (std::uint32_t ring = 0; ring <= Rings; ++ring)
+  {
+    for (std::uint32_t side = 0; side < Sides; ++side)
+    {
+      const double angle = 2. * std::numbers::pi * side / Sides;
+      leg.points.emplace_back(
+        Radius * std::cos(angle), 2. + Radius * std::sin(angle), RingLength * ring);
+    }
+  }
+  for (std::uint32_t ring = 0; ring < Rings; ++ring)
+  {
+    for (std::uint32_t side = 0; side < Sides; ++side)
+    {
+      const std::uint32_t a = Sides * ring + side, b = Sides * ring + (side + 1) % Sides;
+      leg.triangles.push_back({ a, b, b + Sides });
+      leg.triangles.push_back({ a, b + Sides, a + Sides });
+    }
+  }
+  std::vector<Eigen::Vector3d> points = generateCloud(leg, { .count = PointsOfLeg });
+  std::erase_if(points,
+    [](const Eigen::Vector3d& point)
+    { return point.z() > 29.9 * RingLength && point.z() < 33.1 * RingLength; });
+  for (const bool hasBodies : { false, true })
+  {
+    TriangleMesh shape = leg;
+    if (hasBodies)
+    {
+      const auto [bodies, tube, joined] = joinedCubes(Distance, HalfWidth, HalfHeight);
+      std::vector<Eigen::Vector3d> ofBodies = generateCloud(bodies, { .count = PointsOfBodies });
+      removeBesideTube(ofBodies, Distance, HalfWidth, HalfHeight);
+      points.insert(points.end(), ofBodies.begin(), ofBodies.end());
+      const auto all = std::uint32_t(leg.points.size());
+      shape.points.insert(shape.points.end(), joined.points.begin(), joined.points.end());
+      for (const auto& [a, b, c] : joined.triangles)
+      {
+        shape.triangles.push_back({ all + a, all + b, all + c });
+      }
+    }
+    const PointCloud cloud(points);
+    Mesh mesh = buildMesh(shape, cloud);
+    EXPECT_EQ(openedGaps(cloud, mesh, 2. * Distance / cloud.unit()).tubes, hasBodies ? 1u : 0u);
+    mesh.dropErased();
+    EXPECT_EQ(defectOf(mesh), "");
+    EXPECT_EQ(reportOf(mesh).components, hasBodies ? 3u : 1u);
+    EXPECT_EQ(reportOf(mesh).boundaryLoops, 2u);
+  }
 }
 
 // A web across a narrow ring is found by its two sides, which are closer to points than a hole must be from all of them; a

@@ -22,10 +22,11 @@ namespace
 /// A mesh of the unit sphere over points of it, of which but a part is there within a distance of the pole.
 struct Pole
 {
-  Pole(double radius, double part)
+  Pole(double radius, double part, double noise = 0.)
   {
     CloudOptions options;
     options.count = 100000;
+    options.noise = noise;
     std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
     std::mt19937 engine(3);
     std::erase_if(points,
@@ -67,6 +68,23 @@ TEST(SpannedGaps, AtThePole)
   filling.closeHolesBelow = 1.;
   EXPECT_FALSE(pole.isWarnedOf(closing));
   EXPECT_FALSE(pole.isWarnedOf(filling));
+}
+
+// Points at a rim have fewer neighbors, so their own spacings are large.
+TEST(SpannedGaps, NarrowerThanSpacingsAtItsRim)
+{
+  EXPECT_TRUE(Pole(0.065, 0.).isWarnedOf());
+  EXPECT_FALSE(Pole(0.03, 0.).isWarnedOf());
+}
+
+// Noise takes points across a rim, and moves them apart.
+TEST(SpannedGaps, InNoise)
+{
+  constexpr double Noise = 0.0025;
+  EXPECT_TRUE(Pole(0.06, 0., Noise).isWarnedOf());
+  EXPECT_FALSE(Pole(0.025, 0., Noise).isWarnedOf());
+  EXPECT_FALSE(Pole(0.2, 0.1, Noise).isWarnedOf());
+  EXPECT_FALSE(Pole(0.2, 1., Noise).isWarnedOf());
 }
 
 TEST(SpannedGaps, SparseIsNoGap)
