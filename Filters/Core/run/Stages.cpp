@@ -125,6 +125,7 @@ FinishPlan finishPlan(const Parameters& parameters)
     .fidelity = parameters.fidelity,
     .keepsPlaces = parameters.computeFeatureStrength,
     .smoothness = parameters.fitSmoothness,
+    .searchesNear = parameters.fidelity == Fidelity::Draft,
     .tellsSmoothness = parameters.computeUncertainty,
     .samplesPerVertex = parameters.fitSamples,
     .gaps = {} };
