@@ -187,7 +187,8 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
     return result;
   }
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
-  auto surface = firstSurface(once ? *once : cloud, firstVertices(parameters.numberOfVertices),
+  auto surface = firstSurface(once ? *once : cloud,
+    firstVertices(parameters.numberOfVertices, parameters.fidelity),
     std::size_t(PartOfFront * double(parameters.numberOfVertices)), parameters.boundaries, progress,
     executor, parameters.keepPieces);
   if (!surface)
