@@ -155,15 +155,12 @@ bool FidelityRounds::sharpenCorners(const Progress& progress)
 {
   const auto follow = [&](const auto& change)
   {
-    if (!fit_.findPlaces(progress))
-    {
-      return false;
-    }
     fit_.follow(change(mesh_, fit_.placedSamples(), fit_.variance(), executor_));
-    return true;
+    return progress(1.);
   };
-  if (!follow(completeCorners) || !follow(snapToCreases) || !follow(completeCorners) ||
-    !fit_.findPlaces(progress))
+  // Only a solution moves all places: what is changed at corners moves those around.
+  if (!fit_.findPlaces(progress) || !follow(completeCorners) || !follow(snapToCreases) ||
+    !follow(completeCorners))
   {
     return false;
   }

@@ -157,6 +157,10 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   const auto beginAnew = [&]
   {
     surfaceFit.emplace(cloud_, mesh_, samples, executor_, normalOf_, viewOf_);
+    if (plan_.searchesNear)
+    {
+      surfaceFit->searchNear();
+    }
     if (plan_.surface)
     {
       surfaceFit->keepTo(*plan_.surface);

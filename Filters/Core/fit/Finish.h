@@ -56,6 +56,7 @@ struct FinishPlan
   const NearestTriangle* surface = nullptr;
   bool keepsPlaces = false;     ///< vertices do not go elsewhere: what is known of them is of there
   double smoothness = 0.;       ///< lambda of the fit; 0 = by the noise and the shape
+  bool searchesNear = false;    ///< for that lambda, see SurfaceFit::searchNear()
   bool tellsSmoothness = false; ///< of each vertex
   double samplesPerVertex = 10.; ///< in the fit
   std::optional<GapPlan> gaps;   ///< nothing: none is opened or closed

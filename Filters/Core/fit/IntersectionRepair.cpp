@@ -62,14 +62,14 @@ public:
       return result;
     }
     StoredMesh best(mesh_, executor_);
-    // New defects can only appear where something changes from now on.
-    isTouched_.assign(mesh_.indexEnd(), false);
     for (unsigned round = 0; round < MaximumRounds && result.after.total() > 0; ++round)
     {
       if (!progress(double(round) / MaximumRounds))
       {
         break;
       }
+      // New defects can only appear where something changes, and old ones stay where they are.
+      isTouched_.assign(mesh_.indexEnd(), false);
       markBroken();
       flipFolds();
       if (round % RoundsOfRetreat != 0 || !retract())
@@ -281,7 +281,7 @@ private:
   const Executor& executor_;
   Defects defects_;
   std::vector<VertexIndex> broken_;
-  std::vector<bool> isTouched_; ///< whether anything there may differ from the first mesh
+  std::vector<bool> isTouched_; ///< whether a defect may be there at the end of a round
   std::vector<unsigned> roundsBroken_;
   std::size_t flips_ = 0;
 };

@@ -98,6 +98,9 @@ public:
   /// From now on vertices that lie beyond the samples, at tips and in pits, are pulled to where these end; see
   /// EmptyCaps.h.
   void endWithSamples() { endsWithSamples_ = true; }
+  /// From now on the search for lambda begins near its end where bends of the mesh are shape, not from a smooth surface.
+  /// That is quicker, but thin parts come out a little worse.
+  void searchNear() { searchesNear_ = true; }
   /// From now on places are looked for beyond the triangles of the closest vertex, too.
   void findExactly() { isExact_ = true; }
   /// From now on, the samples are those of a surface, in the coordinates of the cloud. No sample is
@@ -229,6 +232,7 @@ private:
   std::size_t holdOvershot(const PackedVectors& before);
   // In SurfaceFitSmoothness.cpp
   bool chooseSmoothness(const Progress& progress);
+  double firstSmoothness() const;
   std::vector<float> squaredBends(std::span<const Vector4> positions) const;
   std::vector<float> supports() const;
   std::vector<float> creaseParts(double deviations) const;
@@ -263,6 +267,7 @@ private:
   bool isSettled_ = false;
   bool endsWithSamples_ = false;
   bool isExact_ = false;
+  bool searchesNear_ = false;
   const NearestTriangle* surface_ = nullptr; ///< from which the samples come; null: from a cloud
   std::vector<std::uint8_t> isKept_;   ///< for each vertex, whether it stays; empty: all may move
   std::vector<Vector4> shifts_;        ///< of the samples at each vertex; empty: none

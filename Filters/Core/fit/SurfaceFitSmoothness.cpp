@@ -18,6 +18,12 @@ namespace
 {
 constexpr double FirstSmoothness = 1000.;
 constexpr double MostSmoothness = 1e4;
+/// Where a learnt mesh follows noise, its squared distances to the points are more than this part of its squared bends,
+/// on average (1.3 for ten points per vertex, and more for more points). With less, its bends are shape.
+constexpr double MostPartIfClean = 0.75;
+constexpr double LeastPointsIfClean = 10.;
+/// A coarser mesh bends everywhere, and the search takes next to no time.
+constexpr std::size_t LeastVerticesIfClean = 1000;
 /// Lambda is a little larger than measured: a surface that is too rough follows the noise.
 constexpr double SmoothnessFactor = 1.1;
 constexpr int MostChoices = 8;
@@ -55,7 +61,7 @@ constexpr int RingsOfShifts = 2;
 /// begins with a smooth surface: on a rough one, noise looks like shape.
 bool SurfaceFit::chooseSmoothness(const Progress& progress)
 {
-  smoothness_ = FirstSmoothness;
+  smoothness_ = firstSmoothness();
   double most = MostSmoothness;
   const double points = double(cloud_.points().size()) / double(mesh_.vertexCount());
   const double growth = std::max(LeastMostGrowth, MarginOfGrowth * (1. + PointsOfHalf / points));
@@ -81,17 +87,38 @@ bool SurfaceFit::chooseSmoothness(const Progress& progress)
     const double before = smoothness_;
     const double next = factor * ratio;
     const bool isNear = next > NearPart * before;
+    if (i == 0 && isNear && before < FirstSmoothness)
+    {
+      // It is no less than where the search began: there is noise all the same.
+      smoothness_ = FirstSmoothness;
+      continue;
+    }
     const bool isShrunk = isNear && variance > mostVariance && before > LeastSmoothness;
     most = isShrunk ? std::max(PartIfShrunk * before, LeastSmoothness) : most;
     // Far from the result, the step is longer.
     smoothness_ =
       std::clamp(isNear ? next : next * std::sqrt(next / before), LeastSmoothness, most);
-    if (isNear && !isShrunk)
+    if ((isNear && !isShrunk) || !(smoothness_ < before))
     {
       break;
     }
   }
   return true;
+}
+
+/// Where the search for lambda begins.
+double SurfaceFit::firstSmoothness() const
+{
+  if (!searchesNear_)
+  {
+    return FirstSmoothness;
+  }
+  const double points = double(cloud_.points().size()) / double(mesh_.vertexCount());
+  const double squared = meanSquaredDistance(), rough = roughness(mesh_.positions());
+  const bool isClean = mesh_.vertexCount() >= LeastVerticesIfClean &&
+    points >= LeastPointsIfClean && squared < MostPartIfClean * rough;
+  // The solution is smoother than the learnt mesh, and closer to the points, too: lambda becomes less.
+  return isClean ? std::max(LeastSmoothness, squared / rough) : FirstSmoothness;
 }
 
 /// The number of samples per vertex over the usual one, at most 1.

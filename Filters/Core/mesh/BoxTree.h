@@ -72,12 +72,10 @@ template <typename BoxOf>
 class BoxTree
 {
 public:
-  /// Of `count` boxes, the first `askedCount` are asked for. `boxOf` must outlive the tree, and may be called by several
-  /// threads.
-  BoxTree(std::uint32_t askedCount, std::uint32_t count, const BoxOf& boxOf,
-    const Executor& executor = Executor::sequential())
+  /// The first `askedCount` boxes are asked for. `boxOf` may be called by several threads.
+  BoxTree(
+    std::uint32_t askedCount, const BoxOf& boxOf, const Executor& executor = Executor::sequential())
     : askedCount_(askedCount)
-    , count_(count)
     , boxOf_(boxOf)
     , executor_(executor)
     , nodes_(BoxTreeShape::nodeCount(askedCount))
@@ -89,10 +87,13 @@ public:
     join(0, 0, askedCount_);
   }
 
-  /// Calls `use(i, j)`, once, for every two boxes that overlap of which at least one is asked for; threads of the
-  /// executor do so at the same time.
+  /// Whether a box comes near to one that is asked for: no other overlaps any of them.
+  bool isNear(const Box& box) const { return nodes_.size() > 0 && isNear(box, 0); }
+
+  /// Calls `use(i, j)`, once, for every two of `count` boxes that overlap of which at least one is asked for; threads of
+  /// the executor do so at the same time.
   template <typename Use>
-  void forEachOverlap(const Use& use) const
+  void forEachOverlap(std::uint32_t count, const Use& use) const
   {
     if (nodes_.size() == 0)
     {
@@ -106,7 +107,7 @@ public:
         const auto [first, second] = parts[i];
         first == second ? visitWithin(first, use) : visitBetween(first, second, use);
       });
-    executor_.forEachRange(count_ - askedCount_, ItemsOfPart,
+    executor_.forEachRange(count - askedCount_, ItemsOfPart,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -240,6 +241,13 @@ private:
     }
   }
 
+  bool isNear(const Box& box, std::uint32_t index) const
+  {
+    const Node& node = nodes_[index];
+    return box.overlaps(node.box.box()) &&
+      (node.isLeaf() || isNear(box, index + 1) || isNear(box, node.secondChild));
+  }
+
   template <typename Use>
   void visitWithin(std::uint32_t index, const Use& use) const
   {
@@ -315,8 +323,7 @@ private:
   }
 
   std::uint32_t askedCount_;
-  std::uint32_t count_;
-  const BoxOf& boxOf_;
+  BoxOf boxOf_;
   const Executor& executor_;
   ZeroedArray<Node> nodes_;
 };

@@ -67,17 +67,20 @@ std::vector<Triangle> trianglesOf(const std::vector<TrianglePair>& pairs)
   return triangles;
 }
 
-/// Of triangles that touch it may depend on what else is there whether they are found.
-void removeFewest(Mesh& mesh)
+/// Of triangles that touch it may depend on what else is there whether they are found. Only those that have a corner v
+/// with `isAsked[v]` may intersect.
+void removeFewest(Mesh& mesh, std::vector<bool> isAsked)
 {
   for (int round = 0; round < MostRoundsOfRemoval; ++round)
   {
-    const std::vector<TrianglePair> pairs = intersectingPairs(mesh);
+    const std::vector<TrianglePair> pairs = intersectingPairs(mesh, isAsked);
     if (pairs.empty())
     {
       break;
     }
     mesh.removeTriangles(withoutWhichNonePairs(pairs));
+    // Elsewhere all is as it was.
+    isAsked = findBoundaryVertices(mesh);
   }
 }
 }
@@ -108,8 +111,9 @@ void replaceCrossings(Mesh& mesh, const std::vector<TrianglePair>& pairs)
 
 void replaceFewestCrossings(Mesh& mesh)
 {
-  removeFewest(mesh);
+  removeFewest(mesh, std::vector<bool>(mesh.indexEnd(), true));
+  const std::vector<bool> isAsked = findBoundaryVertices(mesh);
   fillSmallGaps(mesh);
-  removeFewest(mesh);
+  removeFewest(mesh, isAsked);
 }
 }

@@ -197,74 +197,122 @@ void addFound(
     });
 }
 
-/// The triangles of a mesh, those first that are asked for, which are neighbours where they follow each other.
-class Candidates
+/// The triangles of which a corner v has `isAsked[v]`, neighbours where they follow each other.
+std::vector<Triangle> askedTriangles(
+  const Mesh& mesh, const std::vector<bool>& isAsked, const Executor& executor)
 {
-public:
-  Candidates(const Mesh& mesh, const std::vector<bool>& isAsked, const Executor& executor)
-    : mesh_(mesh)
-    , executor_(executor)
-  {
-    // Each triangle belongs to its corner of the lowest index.
-    std::vector<VertexIndex> vertices;
-    addFound(mesh.indexEnd(), executor, vertices,
-      [&](std::size_t i, std::vector<VertexIndex>& found)
-      {
-        bool isAny = false;
-        mesh.forEachTriangleFrom(VertexIndex(i),
-          [&](VertexIndex a, VertexIndex b, VertexIndex c)
-          { isAny = isAny || isAsked[a] || isAsked[b] || isAsked[c]; });
-        if (isAny)
-        {
-          found.push_back(VertexIndex(i));
-        }
-      });
-    vertices = verticesAlongCurve(mesh, vertices, executor);
-    const auto addTriangles = [&](VertexIndex v, bool isWanted, std::vector<Triangle>& found)
+  // Each triangle belongs to its corner of the lowest index. Where few are asked for, this looks at no others.
+  std::vector<std::uint8_t> hasAsked(mesh.indexEnd());
+  executor.forEachRange(mesh.indexEnd(), CandidatesPerRange,
+    [&](std::size_t begin, std::size_t end)
     {
-      mesh.forEachTriangleFrom(v,
+      for (auto v = VertexIndex(begin); v < end; ++v)
+      {
+        if (isAsked[v])
+        {
+          const Ring& ring = mesh.ring(v);
+          for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
+          {
+            const VertexIndex lowest = std::min({ v, ring[slot], ring[ring.after(slot)] });
+            std::atomic_ref<std::uint8_t>(hasAsked[lowest]).store(1, std::memory_order_relaxed);
+          }
+        }
+      }
+    });
+  std::vector<VertexIndex> vertices;
+  addFound(mesh.indexEnd(), executor, vertices,
+    [&](std::size_t i, std::vector<VertexIndex>& found)
+    {
+      if (hasAsked[i] != 0)
+      {
+        found.push_back(VertexIndex(i));
+      }
+    });
+  vertices = verticesAlongCurve(mesh, vertices, executor);
+  std::vector<Triangle> triangles;
+  reserveTouched(triangles, 2 * mesh.vertexCount(), executor);
+  addFound(vertices.size(), executor, triangles,
+    [&](std::size_t i, std::vector<Triangle>& found)
+    {
+      mesh.forEachTriangleFrom(vertices[i],
         [&](VertexIndex a, VertexIndex b, VertexIndex c)
         {
-          if ((isAsked[a] || isAsked[b] || isAsked[c]) == isWanted)
+          if (isAsked[a] || isAsked[b] || isAsked[c])
           {
             found.push_back({ a, b, c });
           }
         });
-    };
-    reserveTouched(triangles_, 2 * mesh.vertexCount(), executor);
-    addFound(vertices.size(), executor, triangles_,
-      [&](std::size_t i, std::vector<Triangle>& found) { addTriangles(vertices[i], true, found); });
-    askedCount_ = triangles_.size();
-    addFound(askedCount_ > 0 ? mesh.indexEnd() : 0, executor, triangles_,
+    });
+  return triangles;
+}
+
+/// Triangles of a mesh: first those that are asked for, then others that may overlap them.
+class Candidates
+{
+public:
+  Candidates(const Mesh& mesh, const std::vector<bool>& isAsked, const Executor& executor)
+    : triangles_(askedTriangles(mesh, isAsked, executor))
+    , tree_(std::uint32_t(triangles_.size()), { mesh, triangles_ }, executor)
+  {
+    addFound(triangles_.empty() ? 0 : mesh.indexEnd(), executor, triangles_,
       [&](std::size_t i, std::vector<Triangle>& found)
-      { addTriangles(VertexIndex(i), false, found); });
+      {
+        const auto v = VertexIndex(i);
+        if (!mesh.isAlive(v) || !tree_.isNear(boxAround(mesh, v)))
+        {
+          return;
+        }
+        mesh.forEachTriangleFrom(v,
+          [&](VertexIndex a, VertexIndex b, VertexIndex c)
+          {
+            if (!isAsked[a] && !isAsked[b] && !isAsked[c])
+            {
+              found.push_back({ a, b, c });
+            }
+          });
+      });
   }
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
-  /// Calls `use(i, j)` for the indices of every two triangles whose boxes overlap; threads of the executor do so at the
-  /// same time.
+  /// Calls `use(i, j)` for the indices of every two triangles whose boxes overlap, of which one is asked for; threads
+  /// of the executor do so at the same time.
   template <typename Use>
   void forEachPair(const Use& use) const
   {
-    const auto boxOf = [this](std::uint32_t i)
-    {
-      Box box;
-      for (const VertexIndex v : triangles_[i])
-      {
-        box.extend(mesh_.position(v));
-      }
-      return box;
-    };
-    BoxTree(std::uint32_t(askedCount_), std::uint32_t(triangles_.size()), boxOf, executor_)
-      .forEachOverlap(use);
+    tree_.forEachOverlap(std::uint32_t(triangles_.size()), use);
   }
 
 private:
-  const Mesh& mesh_;
-  const Executor& executor_;
+  struct BoxOfTriangle
+  {
+    const Mesh& mesh;
+    const std::vector<Triangle>& triangles;
+
+    Box operator()(std::uint32_t i) const
+    {
+      Box box;
+      for (const VertexIndex v : triangles[i])
+      {
+        box.extend(mesh.position(v));
+      }
+      return box;
+    }
+  };
+
+  static Box boxAround(const Mesh& mesh, VertexIndex v)
+  {
+    Box box;
+    box.extend(mesh.position(v));
+    for (const VertexIndex neighbor : mesh.ring(v))
+    {
+      box.extend(mesh.position(neighbor));
+    }
+    return box;
+  }
+
   std::vector<Triangle> triangles_;
-  std::size_t askedCount_ = 0;
+  BoxTree<BoxOfTriangle> tree_;
 };
 }
 

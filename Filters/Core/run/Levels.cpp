@@ -35,13 +35,13 @@ struct Chain
 /// A mesh grows from the first surface of the largest level to all levels that are larger than that
 /// surface. For the smaller levels, the surface is simplified to suit the largest of them, and so
 /// on.
-std::vector<Chain> chainsOf(std::span<const std::uint64_t> levels)
+std::vector<Chain> chainsOf(std::span<const std::uint64_t> levels, Fidelity fidelity)
 {
   std::vector<Chain> result;
   for (std::size_t last = levels.size(); last > 0;)
   {
     std::size_t first = last - 1;
-    while (first > 0 && levels[first - 1] > firstVertices(levels[last - 1]))
+    while (first > 0 && levels[first - 1] > firstVertices(levels[last - 1], fidelity))
     {
       --first;
     }
@@ -53,11 +53,13 @@ std::vector<Chain> chainsOf(std::span<const std::uint64_t> levels)
 
 /// Simplifies the first surface for `vertices` vertices to one for `fewer`. It stays finer at thin
 /// parts.
-Beginning simplified(Beginning beginning, std::uint64_t vertices, std::uint64_t fewer)
+Beginning simplified(
+  Beginning beginning, std::uint64_t vertices, std::uint64_t fewer, Fidelity fidelity)
 {
   if (beginning.mesh && fewer < vertices)
   {
-    const double part = double(firstVertices(fewer)) / double(firstVertices(vertices));
+    const double part =
+      double(firstVertices(fewer, fidelity)) / double(firstVertices(vertices, fidelity));
     simplifyByQuadrics(*beginning.mesh, std::size_t(part * double(beginning.mesh->vertexCount())));
   }
   return beginning;
@@ -161,9 +163,10 @@ bool growTo(std::span<const std::uint64_t> levels, Run& run, const Beginning& be
   Checkpoint none({}, request.cloud, request.parameters);
   const double all = std::accumulate(levels.begin(), levels.end(), 0.);
   double done = part.begin;
-  for (const Chain& chain : chainsOf(levels))
+  for (const Chain& chain : chainsOf(levels, request.parameters.fidelity))
   {
-    Beginning next = simplified(beginning, vertices, levels[chain.last - 1]);
+    Beginning next =
+      simplified(beginning, vertices, levels[chain.last - 1], request.parameters.fidelity);
     for (std::size_t level = chain.first; level < chain.last; ++level)
     {
       const Parameters parameters = parametersOf(levels[level], request);
@@ -203,12 +206,12 @@ struct LargestLevel
   bool isNoisySolid() const { return !isClean() && !isFromFiner() && !made.learnt.mesh.isOpen(); }
   /// The number of vertices from which on a level grows. Only a front has more than planned, as thin parts need them: a
   /// coarser mesh that grows would lose these.
-  std::uint64_t leastToGrow() const
+  std::uint64_t leastToGrow(Fidelity fidelity) const
   {
     const std::uint64_t first = beginning.mesh ? beginning.mesh->vertexCount() : 0;
-    return !isNoisySolid()                     ? std::numeric_limits<std::uint64_t>::max()
-      : first > firstVertices(learnt.vertices) ? first
-                                               : 0;
+    return !isNoisySolid()                               ? std::numeric_limits<std::uint64_t>::max()
+      : first > firstVertices(learnt.vertices, fidelity) ? first
+                                                         : 0;
   }
 };
 
@@ -240,7 +243,7 @@ LargestLevel largestLevel(
 bool makeLevels(std::vector<SmallerLevel>& levels, std::uint64_t vertices, Run& run,
   LargestLevel& largest, const RunRequest& request, const Progress& progress)
 {
-  const std::uint64_t leastToGrow = largest.leastToGrow();
+  const std::uint64_t leastToGrow = largest.leastToGrow(request.parameters.fidelity);
   std::vector<SmallerLevel*> toSimplify, toRepeat;
   std::vector<SmallerLevel*> grown;
   std::vector<std::uint64_t> numbers;

@@ -15,6 +15,10 @@ namespace
 /// A mesh with fewer points per vertex follows single points, not the surface.
 constexpr std::size_t PointsPerVertex = 2;
 constexpr std::size_t LeastLearnt = 100;
+/// A first surface with so many vertices shows a shape. In a draft more are fitted than that, as learning takes longer
+/// for as many. Still more would follow noise.
+constexpr std::uint64_t LeastForShape = 1500;
+constexpr std::uint64_t FirstOfDraft = 2500;
 /// A smaller mesh loses parts that are narrower than its edges while it learns. So it is simplified
 /// from a mesh of this size, if there are twenty points per vertex.
 constexpr std::uint64_t LeastLearntToFit = 1000;
@@ -120,9 +124,10 @@ Parameters learnable(Parameters parameters, const PointCloud& cloud)
   return parameters;
 }
 
-std::size_t firstVertices(std::uint64_t vertices)
+std::size_t firstVertices(std::uint64_t vertices, Fidelity fidelity)
 {
-  return std::size_t(std::max(vertices / 8, std::min<std::uint64_t>(vertices / 2, 1500)));
+  const std::uint64_t shown = fidelity == Fidelity::Draft ? FirstOfDraft : LeastForShape;
+  return std::size_t(std::max(vertices / 8, std::min(vertices / 2, shown)));
 }
 
 std::uint64_t usualPoints(std::uint64_t vertices)

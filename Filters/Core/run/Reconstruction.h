@@ -65,8 +65,8 @@ struct Reconstruction
 /// Limits the number of vertices of a fitted mesh to the number that the points support.
 Parameters learnable(Parameters parameters, const PointCloud& cloud);
 /// The number of vertices of the first surface: an eighth of all, but enough for a shape, up to
-/// half of all.
-std::size_t firstVertices(std::uint64_t vertices);
+/// half of all. In a draft, more are enough for a shape.
+std::size_t firstVertices(std::uint64_t vertices, Fidelity fidelity);
 /// The default number of points of a file: fifty per vertex, as many as samples are drawn, but at
 /// least a million, which show the shape.
 std::uint64_t usualPoints(std::uint64_t vertices);

@@ -443,12 +443,13 @@ private:
     constexpr double TimesFiner = 1.5;
     // A first surface must have fewer vertices than the mesh that grows from it.
     constexpr double MostOfMesh = 0.8;
-    while (largest > vertices && double(firstVertices(largest)) > MostOfMesh * double(vertices))
+    const auto first = [this](std::uint64_t count)
+    { return double(firstVertices(count, request_.parameters.fidelity)); };
+    while (largest > vertices && first(largest) > MostOfMesh * double(vertices))
     {
       largest = std::max(vertices, largest / 2);
     }
-    const bool isFine =
-      grown_ && double(firstVertices(largest)) <= TimesFiner * double(firstVertices(startedFor_));
+    const bool isFine = grown_ && first(largest) <= TimesFiner * first(startedFor_);
     if (isFine && grown_->mesh && grown_->mesh->vertexCount() <= vertices)
     {
       return *grown_;

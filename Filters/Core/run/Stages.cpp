@@ -125,6 +125,7 @@ FinishPlan finishPlan(const Parameters& parameters)
     .fidelity = parameters.fidelity,
     .keepsPlaces = parameters.computeFeatureStrength,
     .smoothness = parameters.fitSmoothness,
+    .searchesNear = parameters.fidelity == Fidelity::Draft,
     .tellsSmoothness = parameters.computeUncertainty,
     .samplesPerVertex = parameters.fitSamples,
     .gaps = {} };
@@ -186,7 +187,8 @@ Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Pro
     return result;
   }
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
-  auto surface = firstSurface(once ? *once : cloud, firstVertices(parameters.numberOfVertices),
+  auto surface = firstSurface(once ? *once : cloud,
+    firstVertices(parameters.numberOfVertices, parameters.fidelity),
     std::size_t(PartOfFront * double(parameters.numberOfVertices)), parameters.boundaries, progress,
     executor, parameters.keepPieces);
   if (!surface)

@@ -114,6 +114,16 @@ TEST(Fidelity, SharpensACube)
   EXPECT_LT(errorOfHigh, 0.5 * errorOfDraft);
 }
 
+// The first surface of a small draft has half of the vertices, and the others are learnt: fifty samples for each, and
+// some more for those that are removed.
+TEST(Fidelity, DraftLearnsHalfOfTheVertices)
+{
+  const std::vector<Eigen::Vector3d> points = pointsOf(trueTorus(), 40000);
+  const Reconstruction draft = made(points, 5000, Fidelity::Draft);
+  EXPECT_EQ(draft.mesh.points.size(), 5000u);
+  EXPECT_LE(draft.counts.iterations, 5u * 50u * 2500u / 4u);
+}
+
 // Noise is averaged out better than by a draft on a torus, and beside the edges of a cube; on a sphere, which is
 // bent alike everywhere, it is hardly worse to choose lambda for each place.
 TEST(Fidelity, AveragesNoise)

@@ -107,6 +107,31 @@ TEST(SurfaceFit, SmoothnessRisesWithNoise)
   }
 }
 
+// Where bends are shape, the search for lambda begins near it. Where a rough mesh hides noise, it begins anew from a
+// smooth surface.
+TEST(SurfaceFit, SearchBeginsNearForCleanClouds)
+{
+  const auto choicesFor = [](double noise, double strength)
+  {
+    const PointCloud cloud = noisySphere(noise);
+    Mesh mesh = roughSphere(cloud, strength);
+    SurfaceFit fit(cloud, mesh, SamplesPerVertex * mesh.vertexCount());
+    fit.searchNear();
+    EXPECT_TRUE(fit.findPlaces(goOn));
+    // The choice takes 0.6 of the progress, an eighth of that for each lambda.
+    double last = 0.;
+    const auto watch = [&last](double fraction)
+    {
+      last = fraction < 0.6 ? std::max(last, fraction) : last;
+      return true;
+    };
+    EXPECT_TRUE(fit.moveVertices(0., watch));
+    return 1 + int(last / (0.6 / 8.));
+  };
+  EXPECT_LE(choicesFor(0.0005, 0.01), 2);
+  EXPECT_GE(choicesFor(0.004, 0.06), 3);
+}
+
 // The noise of a cloud is known within 15 %, whatever its outliers are.
 TEST(SurfaceFit, NoiseIsMeasured)
 {

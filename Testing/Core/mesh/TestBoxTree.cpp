@@ -27,8 +27,8 @@ Overlaps found(const std::vector<Box>& boxes, const std::vector<bool>& isAsked)
   const ThreadPool threads(3);
   std::mutex mutex;
   Overlaps overlaps;
-  BoxTree(std::uint32_t(end - order.begin()), std::uint32_t(order.size()), boxOf, threads)
-    .forEachOverlap(
+  BoxTree(std::uint32_t(end - order.begin()), boxOf, threads)
+    .forEachOverlap(std::uint32_t(order.size()),
       [&](std::uint32_t i, std::uint32_t j)
       {
         const std::lock_guard lock(mutex);
@@ -99,6 +99,28 @@ TEST(BoxTree, FindsOverlapsOfSome)
     std::generate(isAsked.begin(), isAsked.end(), [&] { return random.uniform() < share; });
     EXPECT_EQ(found(boxes, isAsked), expected(boxes, isAsked));
   }
+}
+
+// What overlaps a box that is asked for is near, and what is away from all of them is not.
+TEST(BoxTree, NearIsWhatMayOverlap)
+{
+  Random random(3);
+  const std::vector<Box> boxes = randomBoxes(700, random);
+  constexpr std::uint32_t AskedCount = 40;
+  const BoxTree tree(AskedCount, [&](std::uint32_t i) { return boxes[i]; });
+  int near = 0;
+  for (std::size_t i = AskedCount; i < boxes.size(); ++i)
+  {
+    const bool doesOverlap = std::any_of(boxes.begin(), boxes.begin() + AskedCount,
+      [&](const Box& box) { return box.overlaps(boxes[i]); });
+    EXPECT_LE(doesOverlap, tree.isNear(boxes[i]));
+    near += tree.isNear(boxes[i]) ? 1 : 0;
+  }
+  EXPECT_LT(near, 600);
+  Box away;
+  away.extend(Vector4(10.f, 10.f, 10.f));
+  EXPECT_FALSE(tree.isNear(away));
+  EXPECT_FALSE(BoxTree(0, [&](std::uint32_t i) { return boxes[i]; }).isNear(boxes[0]));
 }
 
 // Boxes that only touch overlap, and so do boxes on the same spot.
