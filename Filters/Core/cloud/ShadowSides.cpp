@@ -62,7 +62,7 @@ struct SurfaceProbe
 struct View
 {
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
-  double shadow = 0.; ///< the part of the boundary behind which the surface is hidden
+  double shadow = 0.;              ///< the part of the boundary behind which the surface is hidden
   std::vector<std::int8_t> facing; ///< of each probe: 1 towards it, -1 away, 0 where it is hidden
 };
 
