@@ -258,7 +258,7 @@ public:
       [&](std::size_t i, std::vector<Triangle>& found)
       {
         const auto v = VertexIndex(i);
-        if (!mesh.isAlive(v) || !tree_.isNear(boxAround(mesh, v)))
+        if (isAsked[v] || !mesh.isAlive(v) || !tree_.isNear(boxAround(mesh, v)))
         {
           return;
         }
