@@ -82,10 +82,10 @@ bool closeEnds(Mesh& mesh, BoundaryManager& boundaries, std::span<const Triangle
     fillBoth(mesh, boundaries, both, longestEdge, isCovered);
 }
 
-using Tubes = std::vector<std::span<const Triangle>>;
+using TubeList = std::vector<std::span<const Triangle>>;
 
 /// Removes all of them, and returns those whose ends are closed then.
-Tubes closed(Mesh& mesh, const Tubes& tubes, double longestEdge,
+TubeList closed(Mesh& mesh, const TubeList& tubes, double longestEdge,
   const std::function<bool(const Triangle&)>& isCovered)
 {
   for (const std::span<const Triangle> tube : tubes)
@@ -93,7 +93,7 @@ Tubes closed(Mesh& mesh, const Tubes& tubes, double longestEdge,
     mesh.removeTriangles(tube);
   }
   BoundaryManager boundaries(mesh);
-  Tubes result;
+  TubeList result;
   std::copy_if(tubes.begin(), tubes.end(), std::back_inserter(result),
     [&](std::span<const Triangle> tube)
     { return closeEnds(mesh, boundaries, tube, longestEdge, isCovered); });
@@ -105,7 +105,7 @@ std::size_t cutTubes(Mesh& mesh, std::span<const std::vector<Triangle>> tubes, d
   const std::function<bool(const Triangle&)>& isCovered)
 {
   const Mesh before = mesh;
-  Tubes left(tubes.begin(), tubes.end());
+  TubeList left(tubes.begin(), tubes.end());
   for (int turn = 0; turn < MostTurns; ++turn)
   {
     const std::size_t removed = left.size();
