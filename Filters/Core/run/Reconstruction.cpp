@@ -174,15 +174,19 @@ bool holdsMore(const Reconstruction& finer, const Reconstruction& other)
 {
   if (finer.stopReason != StopReason::Vertices || !finer.finish || !finer.explanation ||
     finer.surface.vertexCount() != other.surface.vertexCount() ||
-    finer.finish->left.total() > other.finish->left.total() ||
     finer.explanation->unexplainedShare() >
       other.explanation->unexplainedShare() + LeastDifferenceOfUnexplained)
   {
     return false;
   }
-  return finer.warnings.size() < other.warnings.size() ||
-    (finer.warnings.size() == other.warnings.size() &&
-      isCloser(finer, other, other.surface.vertexCount()));
+  const DefectCount &left = finer.finish->left, &before = other.finish->left;
+  const bool hasNoMoreDefects = left.total() <= before.total();
+  if (finer.warnings.size() < other.warnings.size())
+  {
+    return hasNoMoreDefects || left.intersectingTriangles <= before.intersectingTriangles;
+  }
+  return finer.warnings.size() == other.warnings.size() && hasNoMoreDefects &&
+    isCloser(finer, other, other.surface.vertexCount());
 }
 
 Reconstruction betterRun(Reconstruction result, const RunRequest& request, const Progress& progress)

@@ -121,7 +121,7 @@ Reconstruction betterRun(
 /// than its edges are long. Not where a draft is asked for.
 bool mayHaveLostThinParts(const Reconstruction& result, const RunRequest& request);
 /// Of a mesh that is simplified from a finer one, and one that is not: whether the first has as many vertices, and
-/// holds more of the cloud.
+/// holds more of the cloud. A fold, which is told, is less than a part that is missing.
 bool holdsMore(const Reconstruction& finer, const Reconstruction& other);
 /// `result`; or a mesh that is simplified from a finer one, of 20,000 vertices or twice as many, if the first may have
 /// lost thin parts, and the second holds more. `made` is what `result` was made of, before it was described; it becomes

@@ -10,6 +10,7 @@
 #include "OpenShapes.h"
 #include "run/Explanation.h"
 #include "run/Reconstruction.h"
+#include "run/Run.h"
 #include "run/Stages.h"
 #include "run/Warnings.h"
 #include "Shapes.h"
@@ -269,5 +270,27 @@ TEST(SmallParts, StrewnPointsAreNone)
   const PointCloud cloud(points);
   EXPECT_TRUE(explainedBy(makeSphere(), cloud).smallParts.empty());
   EXPECT_TRUE(warningsBy(makeSphere(), cloud).empty());
+}
+
+/// A run whose mesh leaves these defects, with so many warnings.
+Reconstruction runWith(std::size_t intersections, std::size_t folds, std::size_t warnings)
+{
+  Reconstruction run;
+  run.stopReason = StopReason::Vertices;
+  run.finish.emplace();
+  run.finish->left.intersectingTriangles = intersections;
+  run.finish->left.foldedEdges = folds;
+  run.explanation.emplace();
+  run.quality.emplace();
+  run.warnings.resize(warnings);
+  return run;
+}
+
+TEST(ThinParts, AMeshThatHoldsThemIsTakenEvenIfItIsFoldedSomewhere)
+{
+  // Folds are told, too: one warning for parts that are missing, and one for what is cut off.
+  EXPECT_TRUE(holdsMore(runWith(0, 1, 1), runWith(0, 0, 2)));
+  EXPECT_FALSE(holdsMore(runWith(0, 1, 1), runWith(0, 0, 1)));
+  EXPECT_FALSE(holdsMore(runWith(2, 0, 1), runWith(0, 0, 2)));
 }
 }
