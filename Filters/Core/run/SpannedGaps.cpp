@@ -11,8 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
-#include <span>
 
 namespace neuralmesh
 {
@@ -95,13 +96,140 @@ struct Patch
   double area = 0.;
   Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< times the area
 };
+
+/// Tells where each triangle of a mesh is, and collects those in gaps.
+class GapSearch
+{
+public:
+  /// `median`: of the distances between points and the mesh. `onSurface`: the distance between points that are spread
+  /// evenly on it.
+  GapSearch(const Mesh& mesh, const PointCloud& cloud, float median, float onSurface,
+    const Executor& executor)
+    : mesh_(mesh)
+    , cloud_(cloud)
+    , executor_(executor)
+    , median_(median)
+    , isNoisy_(MediansOfGap * median > PartOfNoise * SpacingsOfGap * onSurface)
+    , nearest_(cloud.points(), executor)
+    , spacing_(nearest_, isNoisy_ ? onSurface : 0.f)
+    , triangles_(mesh, executor)
+    , places_(triangles_.all().size(), Place::NearPoints)
+    , isTaken_(triangles_.all().size(), 0)
+  {
+  }
+
+  /// A triangle is looked at only if one of its vertices is bare.
+  template <typename IsBare>
+  std::vector<Patch> patches(const IsBare& isBare)
+  {
+    executor_.forEachRange(places_.size(), TrianglesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t t = begin; t < end; ++t)
+        {
+          const Triangle& triangle = triangles_.all()[t];
+          if (std::any_of(triangle.begin(), triangle.end(), isBare))
+          {
+            places_[t] = placeOf(t);
+          }
+        }
+      });
+    std::vector<Patch> patches;
+    for (const Place place : { Place::WithinRim, Place::FarFromPoints })
+    {
+      for (std::size_t t = 0; t < places_.size(); ++t)
+      {
+        if (places_[t] == place && isTaken_[t] == 0)
+        {
+          patches.push_back(patchFrom(std::uint32_t(t)));
+        }
+      }
+    }
+    return patches;
+  }
+
+private:
+  Place placeOf(std::size_t t) const
+  {
+    const NearPoint closest = closestTo(t);
+    const float distance = std::sqrt(closest.squaredDistance);
+    if (!(distance > MediansInNoise * median_ &&
+          distance > SpacingsOfGap * spacing_.at(closest.index)))
+    {
+      return Place::NearPoints;
+    }
+    return isNoisy_ && isBeyondRim(t)     ? Place::WithinRim
+      : distance > MediansOfGap * median_ ? Place::FarFromPoints
+                                          : Place::NearPoints;
+  }
+
+  bool isBeyondRim(std::size_t t) const
+  {
+    std::array<NearPoint, PointsAtRim> found;
+    const auto others = float(nearest_.find(centerOf(mesh_, triangles_.all()[t]), found) - 1);
+    const float squared = found[0].squaredDistance;
+    const float disc =
+      std::numbers::pi_v<float> * (found[std::size_t(others)].squaredDistance - squared);
+    return squared * others > RimSpacingsInNoise * RimSpacingsInNoise * disc;
+  }
+
+  NearPoint closestTo(std::size_t t) const
+  {
+    std::array<NearPoint, 1> found;
+    nearest_.find(centerOf(mesh_, triangles_.all()[t]), found);
+    return found[0];
+  }
+
+  /// The triangles that are connected to this one, and as far in the gap.
+  Patch patchFrom(std::uint32_t first)
+  {
+    const bool isWithinRim = places_[first] == Place::WithinRim;
+    const float rim = isWithinRim ? PartAtRim * PartAtRim * closestTo(first).squaredDistance : 0.f;
+    const auto isInPatch = [&](std::uint32_t t) {
+      return places_[t] != Place::NearPoints || (isWithinRim && closestTo(t).squaredDistance > rim);
+    };
+    Patch patch;
+    std::vector<std::uint32_t> open{ first };
+    isTaken_[first] = 1;
+    while (!open.empty())
+    {
+      const Triangle& triangle = triangles_.all()[open.back()];
+      open.pop_back();
+      const double area = areaOf(mesh_, triangle);
+      patch.area += area;
+      patch.center += area * cloud_.toInput(centerOf(mesh_, triangle));
+      for (const VertexIndex v : triangle)
+      {
+        for (const std::uint32_t other : triangles_.at(v))
+        {
+          if (isTaken_[other] == 0 && isInPatch(other))
+          {
+            isTaken_[other] = 1;
+            open.push_back(other);
+          }
+        }
+      }
+    }
+    return patch;
+  }
+
+  const Mesh& mesh_;
+  const PointCloud& cloud_;
+  const Executor& executor_;
+  float median_;
+  bool isNoisy_;
+  NearestPoints nearest_;
+  SpacingAtGap spacing_;
+  NumberedTriangles triangles_;
+  std::vector<Place> places_;
+  std::vector<std::uint8_t> isTaken_;
+};
 }
 
 std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& support,
   const PointCloud& cloud, const PointDistances& distances, const Executor& executor)
 {
   const double least = LeastPointsAtVertex * support.pointsPerAsked;
-  const auto isBare = [&](VertexIndex v) { return support.weights[v] < least; };
   if (support.weights.size() != mesh.indexEnd() || distances.distances.empty() ||
     std::none_of(support.weights.begin(), support.weights.end(),
       [least](double weight) { return weight < least; }))
@@ -113,98 +241,15 @@ std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& suppo
   {
     return {};
   }
-  const float median = medianOf(distances.distances, executor);
   const auto onSurface = float(std::sqrt(all / double(cloud.points().size())));
-  const bool isNoisy = MediansOfGap * median > PartOfNoise * SpacingsOfGap * onSurface;
-  const NearestPoints nearest(cloud.points(), executor);
-  const SpacingAtGap spacing(nearest, isNoisy ? onSurface : 0.f);
-  const NumberedTriangles triangles(mesh, executor);
-  const auto closestTo = [&](std::size_t t, std::span<NearPoint> found)
-  { return nearest.find(centerOf(mesh, triangles.all()[t]), found); };
-  const auto isBeyondRim = [&](std::size_t t)
-  {
-    std::array<NearPoint, PointsAtRim> found;
-    const auto others = float(closestTo(t, found) - 1);
-    const float squared = found[0].squaredDistance;
-    const float disc =
-      std::numbers::pi_v<float> * (found[std::size_t(others)].squaredDistance - squared);
-    return squared * others > RimSpacingsInNoise * RimSpacingsInNoise * disc;
-  };
-  const auto placeOf = [&](std::size_t t)
-  {
-    std::array<NearPoint, 1> found;
-    closestTo(t, found);
-    const float distance = std::sqrt(found[0].squaredDistance);
-    if (!(distance > MediansInNoise * median &&
-          distance > SpacingsOfGap * spacing.at(found[0].index)))
-    {
-      return Place::NearPoints;
-    }
-    return isNoisy && isBeyondRim(t)     ? Place::WithinRim
-      : distance > MediansOfGap * median ? Place::FarFromPoints
-                                         : Place::NearPoints;
-  };
-  std::vector<Place> places(triangles.all().size(), Place::NearPoints);
-  executor.forEachRange(places.size(), TrianglesPerRange,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t t = begin; t < end; ++t)
-      {
-        const Triangle& triangle = triangles.all()[t];
-        places[t] =
-          std::any_of(triangle.begin(), triangle.end(), isBare) ? placeOf(t) : Place::NearPoints;
-      }
-    });
-  std::vector<std::uint8_t> isTaken(places.size(), 0);
-  const auto patchFrom = [&](std::uint32_t first)
-  {
-    std::array<NearPoint, 1> found;
-    closestTo(first, found);
-    const float rim = PartAtRim * PartAtRim * found[0].squaredDistance;
-    const auto isInPatch = [&](std::uint32_t t)
-    {
-      closestTo(t, found);
-      return places[t] != Place::NearPoints ||
-        (places[first] == Place::WithinRim && found[0].squaredDistance > rim);
-    };
-    Patch patch;
-    std::vector<std::uint32_t> open{ first };
-    isTaken[first] = 1;
-    while (!open.empty())
-    {
-      const std::uint32_t t = open.back();
-      open.pop_back();
-      const Triangle& triangle = triangles.all()[t];
-      const double area = areaOf(mesh, triangle);
-      patch.area += area;
-      patch.center += area * cloud.toInput(centerOf(mesh, triangle));
-      for (const VertexIndex v : triangle)
-      {
-        for (const std::uint32_t other : triangles.at(v))
-        {
-          if (isTaken[other] == 0 && isInPatch(other))
-          {
-            isTaken[other] = 1;
-            open.push_back(other);
-          }
-        }
-      }
-    }
-    return patch;
-  };
+  GapSearch search(mesh, cloud, medianOf(distances.distances, executor), onSurface, executor);
   std::vector<SpannedGap> gaps;
-  for (const Place place : { Place::WithinRim, Place::FarFromPoints })
+  for (const Patch& patch :
+    search.patches([&](VertexIndex v) { return support.weights[v] < least; }))
   {
-    for (std::size_t t = 0; t < places.size(); ++t)
+    if (patch.area > 0.)
     {
-      if (places[t] == place && isTaken[t] == 0)
-      {
-        const Patch patch = patchFrom(std::uint32_t(t));
-        if (patch.area > 0.)
-        {
-          gaps.push_back({ patch.area / all, patch.center / patch.area });
-        }
-      }
+      gaps.push_back({ patch.area / all, patch.center / patch.area });
     }
   }
   std::stable_sort(gaps.begin(), gaps.end(),
