@@ -20,7 +20,6 @@ namespace
 {
 /// An edge belongs to a crease if the cosine between the normals beside it is smaller.
 constexpr float CosineOfCrease = 0.6f;
-constexpr double TimesAcross = 2.;
 /// Number of rounds in which the vertices move.
 constexpr int Rounds = 2;
 /// A part for the executor.
@@ -121,7 +120,7 @@ bool refineAndFit(const PointCloud& cloud, const StoredMesh& before, Mesh& mesh,
 }
 }
 
-bool hasCreases(const Mesh& mesh, const Executor& executor)
+double creaseWidths(const Mesh& mesh, const Executor& executor)
 {
   const double count = executor.sum(mesh.indexEnd(), VerticesOfCreasePart,
     [&](std::size_t v)
@@ -130,7 +129,12 @@ bool hasCreases(const Mesh& mesh, const Executor& executor)
       return std::count_if(ring.begin(), ring.end(),
         [&](VertexIndex other) { return v < other && isOfCrease(mesh, VertexIndex(v), other); });
     });
-  return count > TimesAcross * std::sqrt(double(mesh.vertexCount()));
+  return count / std::sqrt(double(mesh.vertexCount()));
+}
+
+bool hasCreases(const Mesh& mesh, const Executor& executor)
+{
+  return creaseWidths(mesh, executor) > WidthsOfCreases;
 }
 
 bool refineBesideCreases(const PointCloud& cloud, Mesh& mesh, std::size_t count,

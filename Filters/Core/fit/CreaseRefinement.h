@@ -14,8 +14,10 @@ namespace neuralmesh
 /// With fewer points per vertex, creases are rounder than on a coarser mesh.
 inline constexpr std::size_t PointsThatTellCreases = 10;
 
-/// Whether creases are a large part of the surface: whether their length exceeds twice the width of
-/// the surface.
+/// The length of creases, in widths of the surface: roots of its area.
+double creaseWidths(const Mesh& mesh, const Executor& executor = Executor::sequential());
+/// From this on, creases are a large part of the surface.
+inline constexpr double WidthsOfCreases = 2.;
 bool hasCreases(const Mesh& mesh, const Executor& executor = Executor::sequential());
 
 /// Refines a finished mesh with creases to `count` vertices and keeps the creases as they are.

@@ -33,6 +33,8 @@ constexpr std::uint64_t PointsToHoldThinParts = 5;
 constexpr double LeastDifferenceOfUnexplained = 0.005;
 /// Residuals within this factor are a draw: a few points at creases make most of a residual.
 constexpr double TimesOfDraw = 1.2;
+/// Of the triangles: so few slivers are none.
+constexpr double FewSlivers = 0.0002;
 
 /// Learns so many vertices, then simplifies or refines the mesh to the number of the parameters.
 Reconstruction learnAndFinish(std::uint64_t vertices, const RunRequest& request,
@@ -108,7 +110,9 @@ bool isBetterRefined(const Reconstruction& refined, const Reconstruction& learnt
   {
     return false;
   }
-  const bool hasMoreSlivers = refined.quality->surface.slivers > learnt.quality->surface.slivers;
+  const SurfaceReport& surface = refined.quality->surface;
+  const bool hasMoreSlivers = surface.slivers > learnt.quality->surface.slivers &&
+    double(surface.slivers) > FewSlivers * double(surface.triangles);
   return isCloser(
     refined, learnt, learnt.surface.vertexCount(), hasMoreSlivers ? 1. / TimesOfDraw : TimesOfDraw);
 }

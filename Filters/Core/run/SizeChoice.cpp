@@ -135,9 +135,9 @@ std::vector<std::string> SizeChoice::reasons() const
   const std::string of(measureText(goal.measure));
   if (goal.isAutomatic())
   {
-    lines.push_back(noise > 0.
-        ? "as many as the points support with a noise of " + lengthText(noise)
-        : "no noise was measured: more vertices would follow single points");
+    lines.push_back(byCreases ? "the shape has creases: more vertices would not make them sharper"
+        : noise > 0.          ? "as many as the points support with a noise of " + lengthText(noise)
+                              : "no noise was measured: more vertices would follow single points");
   }
   else
   {

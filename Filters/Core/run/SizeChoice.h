@@ -79,6 +79,7 @@ struct SizeChoice
   double length = 0.;                     ///< the tolerance in units of the input
   double noise = 0.;                      ///< of a point, without which errors are; 0 if unknown
   std::optional<ErrorUnderNoise> byNoise; ///< if the number was chosen by the noise
+  bool byCreases = false;                 ///< whether creases limit the number
   std::vector<SizeTrial> trials;          ///< by ascending numbers, without the result
   std::uint64_t vertices = 0;             ///< of the result
   double predicted = 0.;                  ///< error that was expected for the result

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/SizedReconstruction.h"
 
+#include "fit/CreaseRefinement.h"
 #include "run/HeldOutError.h"
 
 #include <algorithm>
@@ -31,6 +32,10 @@ constexpr std::size_t MostThatTellNoise = 2;
 /// More vertices than these gain almost nothing.
 constexpr double PointsPerVertexIfClean = 2.2, PointsPerVertexUnderNoise = 3.3;
 constexpr double PointsPerVertexAtLeast = 10.;
+/// ... and than these if the surface has creases: they tell most of the error, and are as sharp as points tell. The
+/// length of a crease stays the same in a finer mesh; bends lose more than this part of theirs.
+constexpr double PointsPerVertexAtCreases = 6.25;
+constexpr double CreasesThatStay = 0.85;
 /// Without noise, the error falls by a power of the number of vertices. Its exponent shrinks to so
 /// many times that of the trials.
 constexpr double ExponentAfterTrials = 0.62;
@@ -105,6 +110,7 @@ private:
   {
     std::uint64_t vertices = 0;
     HeldOutError error;
+    double creases = 0.; ///< see creaseWidths()
   };
 
   Reconstruction runByCloud()
@@ -397,7 +403,19 @@ private:
       choice_.byNoise = ErrorUnderNoise{ unit * std::sqrt(factor), PowerOfCoarseness / 2.,
         unit * noise_ * std::sqrt(balance / double(points_)) };
     }
+    if (const double atCreases = double(points_) / PointsPerVertexAtCreases;
+        hasCreases() && atCreases < std::min(size, most))
+    {
+      most = atCreases;
+      choice_.byCreases = true;
+    }
     return std::uint64_t(std::clamp(size, double(points_) / PointsPerVertexAtLeast, most));
+  }
+
+  bool hasCreases() const
+  {
+    const double before = measured_.front().creases, after = measured_.back().creases;
+    return after > WidthsOfCreases && after >= CreasesThatStay * before;
   }
 
   /// Measures and records the error of a mesh, and the noise if the mesh is one of the first. With
@@ -416,7 +434,7 @@ private:
       noise_ = isNoise ? difference : std::min(noise_, difference);
       choice_.noise = noise_ * request_.cloud.unit();
     }
-    measured_.push_back({ vertices, error });
+    measured_.push_back({ vertices, error, creaseWidths(mesh, request_.executor) });
     std::ranges::sort(measured_, {}, &Measured::vertices);
     return error;
   }

@@ -119,6 +119,21 @@ TEST(SizedReconstruction, ChoosesByTheCloud)
   EXPECT_GE(ofNoisy.size->vertices, 2000u);
 }
 
+// Promise: by itself, a mesh with creases gets fewer vertices: creases tell its error, and more vertices would not make
+// them sharper.
+TEST(SizedReconstruction, ChoosesFewerAtCreases)
+{
+  CloudOptions options;
+  options.count = 20000;
+  const PointCloud cloud(generateCloud(makeCube(8), options));
+  const Reconstruction mesh = sized(cloud, {});
+  ASSERT_TRUE(mesh.size);
+  EXPECT_EQ(checkManifold(mesh.mesh.points.size(), mesh.mesh.triangles).defect, "");
+  EXPECT_LE(mesh.size->vertices, 3200u);
+  EXPECT_GE(mesh.size->vertices, 2000u);
+  EXPECT_NE(mesh.size->reasons().front().find("creases"), std::string::npos);
+}
+
 // Promise: a tolerance is met, with no more vertices than a run needs that has a few less, and said so.
 TEST(SizedReconstruction, MeetsATolerance)
 {
