@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/TouchedVector.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -21,7 +22,7 @@ void stableSort(std::vector<Value>& values, const IsBefore& isBefore, const Exec
   executor.forEachRange(count, part,
     [&](std::size_t begin, std::size_t end)
     { std::stable_sort(at(values, begin), at(values, end), isBefore); });
-  std::vector<Value> merged(part < count ? count : 0);
+  auto merged = touchedVector<std::vector<Value>>(part < count ? count : 0, executor);
   for (std::size_t sorted = part; sorted < count; sorted *= 2)
   {
     executor.forEachRange(count, 2 * sorted,

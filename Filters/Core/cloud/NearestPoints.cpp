@@ -28,30 +28,43 @@ template <typename Points>
 NearestOf<Points>::NearestOf(Points points, const Executor& executor)
   : points_(points)
 {
-  std::vector<Box> boxes((points.size() + Fan - 1) / Fan);
-  executor.forEachRange(points.size(), Fan * BoxesOfPart,
+  // Memory of both comes on all threads.
+  ZeroedArray<Box> boxes((points.size() + Fan - 1) / Fan);
+  executor.forEachRange(boxes.size(), BoxesOfPart,
     [&](std::size_t begin, std::size_t end)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t b = begin; b < end; ++b)
       {
-        boxes[i / Fan].extend(points[i]);
+        const std::size_t last = std::min(Fan * (b + 1), points.size());
+        Box box;
+        for (std::size_t i = Fan * b; i < last; ++i)
+        {
+          box.extend(points[i]);
+        }
+        boxes[b] = box;
       }
     });
-  while (!boxes.empty())
+  while (boxes.size() > 0)
   {
-    std::vector<Boxes> groups((boxes.size() + Fan - 1) / Fan);
-    std::vector<Box> coarser(groups.size());
-    executor.forEachRange(boxes.size(), Fan * BoxesOfPart,
+    ZeroedArray<Boxes> groups((boxes.size() + Fan - 1) / Fan);
+    ZeroedArray<Box> coarser(groups.size());
+    executor.forEachRange(groups.size(), BoxesOfPart,
       [&](std::size_t begin, std::size_t end)
       {
-        for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t group = begin; group < end; ++group)
         {
-          groups[i / Fan].set(i % Fan, boxes[i]);
-          coarser[i / Fan].extend(boxes[i]);
+          const std::size_t first = Fan * group, last = std::min(first + Fan, boxes.size());
+          Box box;
+          for (std::size_t i = first; i < last; ++i)
+          {
+            groups[group].set(i - first, boxes[i]);
+            box.extend(boxes[i]);
+          }
+          coarser[group] = box;
         }
       });
     levels_.push_back(std::move(groups));
-    boxes = coarser.size() > 1 ? std::move(coarser) : std::vector<Box>();
+    boxes = coarser.size() > 1 ? std::move(coarser) : ZeroedArray<Box>();
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/Executor.h"
 #include "base/Vector4.h"
+#include "base/ZeroedArray.h"
 #include "cloud/PickedPoints.h"
 #include "mesh/BoxTree.h"
 
@@ -163,7 +164,7 @@ private:
   void visit(Search& search, std::size_t level, std::size_t group) const;
 
   Points points_;
-  std::vector<std::vector<Boxes>> levels_; ///< the finest first; one group is the coarsest
+  std::vector<ZeroedArray<Boxes>> levels_; ///< the finest first; one group is the coarsest
 };
 
 /// The nearest of all points.

@@ -18,6 +18,7 @@ namespace
 {
 /// Points of a part for the executor.
 constexpr std::size_t PointsPerRange = std::size_t(1) << 18;
+constexpr std::size_t PointsPerCount = std::size_t(1) << 14;
 /// Brought into the cache before its turn: the points of a bucket lie anywhere in the input.
 constexpr std::size_t PointsAhead = 24;
 /// So many points of a surface are in a bucket, about: few enough to be sorted in the cache.
@@ -348,6 +349,7 @@ PointCloud::PointCloud(const PointSpans& points, std::span<const double> weights
   findFloatStep(input, bulk);
   takePoints(input, keepsOrigins || !weights.empty(), executor);
   droppedCount_ += finite - points_.size();
+  countDifferent(executor);
   if (!weights.empty())
   {
     takeWeights(input);
@@ -469,14 +471,10 @@ void PointCloud::takeWeights(const Input& input)
   }
 }
 
-std::size_t PointCloud::differentCount() const
+void PointCloud::countDifferent(const Executor& executor)
 {
   // In Morton order, equal ones are neighbours.
-  std::size_t count = points_.empty() ? 0 : 1;
-  for (std::size_t i = 1; i < points_.size(); ++i)
-  {
-    count += squaredNorm(points_[i] - points_[i - 1]) > 0.f ? 1 : 0;
-  }
-  return count;
+  differentCount_ = std::size_t(executor.sum(points_.size(), PointsPerCount,
+    [this](std::size_t i) { return i == 0 || isApart(points_[i], points_[i - 1]) ? 1. : 0.; }));
 }
 }

@@ -52,7 +52,7 @@ public:
   /// least four times as far from the middle as all others.
   std::span<const std::uint32_t> farPoints() const { return farPoints_; }
   /// How many points there are that are apart from each other.
-  std::size_t differentCount() const;
+  std::size_t differentCount() const { return differentCount_; }
   /// Whether there are two points apart from each other.
   bool hasExtent() const { return diagonal_ > 0.; }
   /// Why there are not, if so, in a sentence.
@@ -92,12 +92,15 @@ private:
   void findFloatStep(const Input& input, const Eigen::AlignedBox3d& bulk);
   void takePoints(const Input& input, bool keepsOrigins, const Executor& executor);
   void takeWeights(const Input& input);
+  void countDifferent(const Executor& executor);
+  static bool isApart(Vector4 a, Vector4 b) { return squaredNorm(a - b) > 0.f; }
 
   LargeVector<Vector4> points_;
   std::vector<float> weights_;
   std::vector<std::uint32_t> origins_;
   std::vector<std::uint32_t> farPoints_;
   std::size_t droppedCount_ = 0;
+  std::size_t differentCount_ = 0;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double size_ = 1.;
   double diagonal_ = 0.;
@@ -110,6 +113,7 @@ template <typename Condition>
 PointCloud PointCloud::without(Condition isLeftOut) const
 {
   PointCloud result = *this;
+  result.differentCount_ = 0;
   std::size_t kept = 0;
   Vector4 low = bulkMax_, high = bulkMin_;
   for (std::size_t i = 0; i < points_.size(); ++i)
@@ -118,6 +122,8 @@ PointCloud PointCloud::without(Condition isLeftOut) const
     {
       continue;
     }
+    // In Morton order, equal ones are neighbours.
+    result.differentCount_ += kept == 0 || isApart(points_[i], result.points_[kept - 1]) ? 1 : 0;
     result.points_[kept] = points_[i];
     if (!weights_.empty())
     {

@@ -21,6 +21,7 @@ constexpr int MostFlipPasses = 3;
 constexpr std::size_t LeastVerticesInParts = 32768;
 /// A part for the executor.
 constexpr std::size_t FlipVerticesPerRange = 4096;
+constexpr std::size_t RimVerticesPerRange = 64;
 
 RowParts partsOfFlips(std::size_t vertices)
 {
@@ -132,15 +133,44 @@ private:
           }
         }
       });
-    bool any = std::find(anyOf.begin(), anyOf.end(), 1) != anyOf.end();
-    FlipScratch scratch{ parts };
+    std::vector<VertexIndex> rims;
     for (const std::vector<VertexIndex>& atRim : atRims)
     {
-      for (const VertexIndex a : atRim)
+      rims.insert(rims.end(), atRim.begin(), atRim.end());
+    }
+    const bool isAnyAtRims = flipAtRims(rims);
+    return isAnyAtRims || std::find(anyOf.begin(), anyOf.end(), 1) != anyOf.end();
+  }
+
+  /// One after the other. On several threads, all are asked ahead: where no edge is to be flipped, that holds as long as
+  /// there was no flip nearby since.
+  bool flipAtRims(const std::vector<VertexIndex>& rims)
+  {
+    std::vector<std::uint8_t> isToStay(rims.size(), 0);
+    if (executor_.threadCount() > 1)
+    {
+      executor_.forEachRange(rims.size(), RimVerticesPerRange,
+        [&](std::size_t begin, std::size_t end)
+        {
+          FlipScratch scratch;
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            isToStay[i] = mayFlipAt(rims[i]) && wouldFlipAt(rims[i], scratch) ? 0 : 1;
+          }
+        });
+    }
+    nearMark_ = NearAtRims;
+    FlipScratch scratch{ vertices_.bucketCount() };
+    bool any = false;
+    for (std::size_t i = 0; i < rims.size(); ++i)
+    {
+      const VertexIndex a = rims[i];
+      if (isToStay[i] == 0 || isNear_[a] == NearAtRims)
       {
         any = (mayFlipAt(a) && flipAt(a, scratch)) || any;
       }
     }
+    nearMark_ = NearInPart;
     return any;
   }
 
@@ -186,6 +216,21 @@ private:
     return { a, ring[slot], ring.next(slot), ring.previous(slot) };
   }
 
+  /// Whether flipAt() would try to flip any edge.
+  bool wouldFlipAt(VertexIndex a, FlipScratch& scratch) const
+  {
+    const unsigned slots = mesh_.ring(a).size();
+    for (unsigned slot = 0; slot < slots; ++slot)
+    {
+      const Diamond edge = diamondAt(a, slot);
+      if (isToBeAsked(a, edge.b) && isCloserFlipped(edge, scratch))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
   /// Whether any edge to a vertex of a higher index was flipped.
   bool flipAt(VertexIndex a, FlipScratch& scratch)
   {
@@ -217,7 +262,7 @@ private:
   void markNear(VertexIndex v)
   {
     const auto mark = [this](VertexIndex u)
-    { std::atomic_ref(isNear_[u]).store(1, std::memory_order_relaxed); };
+    { std::atomic_ref(isNear_[u]).store(nearMark_, std::memory_order_relaxed); };
     mark(v);
     for (const VertexIndex neighbor : mesh_.ring(v))
     {
@@ -352,6 +397,8 @@ private:
              cross(mesh_.position(previous) - origin, along)) < CosineOfFlipFoldAround;
   }
 
+  static constexpr std::uint8_t NearInPart = 1, NearAtRims = 2;
+
   Mesh& mesh_;
   const Executor& executor_;
   std::vector<std::uint8_t> partOf_; ///< of each vertex
@@ -362,6 +409,7 @@ private:
   std::vector<std::uint8_t> isFlipped_; ///< ... or one of them was flipped
   std::vector<std::uint8_t> isNear_;    ///< whether it or a neighbour had a flip, in this pass
   std::vector<std::uint8_t> wasNear_;   ///< ... in the one before
+  std::uint8_t nearMark_ = NearInPart;  ///< what a flip leaves there now
   ChangedVertices changed_;
 };
 }

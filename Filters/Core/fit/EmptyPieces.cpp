@@ -2,6 +2,7 @@
 #include "fit/EmptyPieces.h"
 
 #include "base/ConcurrentSets.h"
+#include "base/ZeroedArray.h"
 #include "mesh/Pieces.h"
 
 #include <algorithm>
@@ -114,7 +115,7 @@ std::vector<EmptyPiece> findEmptyPieces(const Mesh& mesh, const NumberedTriangle
   joinEmpty(triangles, mesh.indexEnd(), isEmpty, executor, sets);
   // A set is known by its first triangle: so pieces are in the order of these.
   std::vector<EmptyPiece> pieces;
-  std::vector<std::uint32_t> pieceOf(samples.size(), 0);
+  ZeroedArray<std::uint32_t> pieceOf(samples.size());
   for (std::uint32_t t = 0; t < samples.size(); ++t)
   {
     if (isEmpty[t] == 0)

@@ -379,7 +379,7 @@ bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& pro
   }
   // A mesh that is open anyway may have a small hole more. That loses fewer points than a collapse where these are
   // dense.
-  const bool isOpen = mesh_.isOpen();
+  const bool isOpen = mesh_.isOpen(executor_);
   const auto collapse = [this] { collapseDefects(); };
   while (mendsBy(collapse, isOpen ? MayLose::NoPoints : MayLose::SomePoints, guard, progress))
   {
@@ -506,7 +506,7 @@ bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
 /// elsewhere by now. What was closed would be opened.
 bool Finish::trimsOutlines() const
 {
-  return plan_.gaps && mesh_.isOpen() && !(plan_.closedOutline > 0.);
+  return plan_.gaps && mesh_.isOpen(executor_) && !(plan_.closedOutline > 0.);
 }
 
 bool Finish::closeHoles()

@@ -62,7 +62,7 @@ FitSystem::FitSystem(const Mesh& mesh, double slip, const Executor& executor)
       }
     });
   std::partial_sum(firstEntry_.begin(), firstEntry_.end(), firstEntry_.begin());
-  others_.emplace(firstEntry_.back());
+  others_.emplace(firstEntry_[mesh.indexEnd()]);
   executor_.forEachRange(rings_.size(), RowsPerRange,
     [&](std::size_t begin, std::size_t end)
     {

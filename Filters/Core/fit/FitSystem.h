@@ -4,6 +4,7 @@
 #include "base/Executor.h"
 #include "base/PackedVectors.h"
 #include "base/Progress.h"
+#include "base/ZeroedArray.h"
 #include "cloud/PlaceOnMesh.h"
 #include "fit/PlacesByRows.h"
 #include "fit/SymmetricBlocks.h"
@@ -127,13 +128,13 @@ private:
   float slip_;
   SymmetricBlocks diagonal_;
   /// For each vertex, the block of its first higher neighbour
-  std::vector<std::uint32_t> firstEntry_;
+  ZeroedArray<std::uint32_t> firstEntry_;
   /// For each edge at each vertex, its position among the entries of the lower vertex
-  std::vector<std::uint8_t> rank_;
+  ZeroedArray<std::uint8_t> rank_;
   std::optional<SymmetricBlocks> others_; ///< one for each edge
   PackedVectors rightSide_;
   std::span<const float> parts_;    ///< the part of lambda at each vertex; empty: all 1
   std::span<const Vector4> bends_;  ///< that are expected of each vertex; empty: all 0
-  std::vector<float> innerWeights_; ///< umbrella weights at inner vertices; 0 at others
+  ZeroedArray<float> innerWeights_; ///< umbrella weights at inner vertices; 0 at others
 };
 }

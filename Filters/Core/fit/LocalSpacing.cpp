@@ -21,7 +21,7 @@ LocalSpacing::LocalSpacing(
   , edges_(mesh.indexEnd())
 {
   // The areas and samples of the triangles at each vertex. Both count at three vertices.
-  std::vector<float> areas(mesh.indexEnd()), samples(mesh.indexEnd());
+  ZeroedArray<float> areas(mesh.indexEnd()), samples(mesh.indexEnd());
   forEachPlaceByRows(
     places, RowParts(mesh.indexEnd(), executor), executor, [](std::size_t) { return true; },
     [&](const VertexRows& rows, std::size_t i)

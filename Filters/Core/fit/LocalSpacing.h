@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/ZeroedArray.h"
 #include "cloud/PlaceOnMesh.h"
 #include "mesh/Mesh.h"
 
@@ -30,17 +31,17 @@ public:
   /// The mean edge around a place.
   float edgeAt(const PlaceOnMesh& place) const { return meanAt(edges_, place); }
   /// Frees the memory of the edges, which are not needed any more.
-  void forgetEdges() { std::vector<float>().swap(edges_); }
+  void forgetEdges() { edges_ = {}; }
 
 private:
-  static float meanAt(const std::vector<float>& values, const PlaceOnMesh& place)
+  static float meanAt(const ZeroedArray<float>& values, const PlaceOnMesh& place)
   {
     return 1.f / 3.f *
       (values[place.triangle[0]] + values[place.triangle[1]] + values[place.triangle[2]]);
   }
 
-  std::vector<float> spacings_;
-  std::vector<float> edges_;
+  ZeroedArray<float> spacings_;
+  ZeroedArray<float> edges_;
   float usual_ = 0.f;
 };
 }

@@ -66,20 +66,31 @@ private:
 
 /// Calls `body(rows, i)` for each used place and each part of the vertices that has one of its
 /// corners, in the order of the places. So sums at the vertices of `rows` are the same to the last
-/// bit on any number of threads. `isUsed(i)` says whether a place is used.
+/// bit on any number of threads. `isUsed(i)` says whether a place is used. An executor may interrupt it between ranges of
+/// the places, also on one thread.
 template <typename IsUsed, typename Body>
 void forEachPlaceByRows(std::span<const PlaceOnMesh> places, const RowParts& parts,
   const Executor& executor, const IsUsed& isUsed, const Body& body)
 {
+  constexpr std::size_t PlacesPerRange = 16384;
+  const std::size_t ranges = (places.size() + PlacesPerRange - 1) / PlacesPerRange;
   if (parts.count() == 1 || executor.threadCount() == 1)
   {
     const VertexRows all;
-    for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t range = 0; range < ranges; ++range)
     {
-      if (isUsed(i))
-      {
-        body(all, i);
-      }
+      executor.forEachPart(1,
+        [&](std::size_t)
+        {
+          const std::size_t end = std::min(places.size(), (range + 1) * PlacesPerRange);
+          for (std::size_t i = range * PlacesPerRange; i < end; ++i)
+          {
+            if (isUsed(i))
+            {
+              body(all, i);
+            }
+          }
+        });
     }
     return;
   }
@@ -88,8 +99,6 @@ void forEachPlaceByRows(std::span<const PlaceOnMesh> places, const RowParts& par
   {
     std::uint32_t begin, end;
   };
-  constexpr std::size_t PlacesPerRange = 16384;
-  const std::size_t ranges = (places.size() + PlacesPerRange - 1) / PlacesPerRange;
   std::vector<std::vector<Run>> runsOf(ranges * parts.count());
   executor.forEachRange(places.size(), PlacesPerRange,
     [&](std::size_t begin, std::size_t end)

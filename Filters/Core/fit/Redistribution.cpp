@@ -2,6 +2,8 @@
 #include "fit/Redistribution.h"
 
 #include "base/ParallelSort.h"
+#include "base/TouchedVector.h"
+#include "base/ZeroedArray.h"
 #include "fit/SampleBundle.h"
 #include "mesh/TriangleShape.h"
 
@@ -71,7 +73,7 @@ public:
     , samples_(samples, mesh.indexEnd(), executor)
     , variance_(variance)
     , load_(mesh.indexEnd())
-    , isLocked_(mesh.indexEnd(), 0)
+    , isLocked_(mesh.indexEnd())
     , changed_(mesh.indexEnd())
   {
     forEachPlaceByRows(
@@ -181,17 +183,15 @@ private:
           find(v, ranges[begin / VerticesPerSearch]);
         }
       });
-    std::size_t count = 0;
-    for (const std::vector<Found>& range : ranges)
+    std::vector<std::size_t> places(ranges.size() + 1, 0);
+    for (std::size_t i = 0; i < ranges.size(); ++i)
     {
-      count += range.size();
+      places[i + 1] = places[i] + ranges[i].size();
     }
-    std::vector<Found> all;
-    all.reserve(count);
-    for (const std::vector<Found>& range : ranges)
-    {
-      all.insert(all.end(), range.begin(), range.end());
-    }
+    auto all = touchedVector<std::vector<Found>>(places.back(), executor_);
+    executor_.forEachPart(ranges.size(),
+      [&](std::size_t i)
+      { std::copy(ranges[i].begin(), ranges[i].end(), all.begin() + std::ptrdiff_t(places[i])); });
     return all;
   }
 
@@ -428,8 +428,8 @@ private:
   const Executor& executor_;
   TriangleSamples samples_;
   double variance_;
-  std::vector<float> load_; ///< of the samples on the triangles of each vertex
-  std::vector<std::uint8_t> isLocked_;
+  ZeroedArray<float> load_; ///< of the samples on the triangles of each vertex
+  ZeroedArray<std::uint8_t> isLocked_;
   ChangedVertices changed_;
   std::vector<BestCollapse> answers_; ///< of the removals from `answersBegin_` on
   std::size_t answersBegin_ = 0;

@@ -2,6 +2,7 @@
 #include "fit/SurfaceFit.h"
 
 #include "base/Median.h"
+#include "base/TouchedVector.h"
 #include "cloud/OppositeLayer.h"
 #include "cloud/VertexGrid.h"
 #include "mesh/EachVertex.h"
@@ -104,7 +105,7 @@ bool SurfaceFit::findPlaces(const Progress& progress)
     opposite_ = oppositeVertices(
       mesh_, [&](Vector4 point) { return grid.closest(point, mesh_.positions()); }, {}, executor_);
   }
-  std::vector<float> distances(samples_.size());
+  ZeroedArray<float> distances(samples_.size());
   const std::size_t count = samples_.size();
   for (std::size_t first = 0; first < count; first += SamplesPerAbortCheck)
   {
@@ -128,7 +129,8 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   }
   const float edges = hasPlaces_ ? LaterOutlierEdges : FirstOutlierEdges;
   hasPlaces_ = hasDistances_ = true;
-  medianDistance_ = std::sqrt(medianOf(distances, executor_));
+  medianDistance_ =
+    std::sqrt(medianOf(std::span<const float>(distances.data(), distances.size()), executor_));
   outlierDistance_ = surface_
     ? std::numeric_limits<float>::max()
     : neuralmesh::outlierDistance(medianDistance_, mesh_.meanEdge(executor_), edges);
@@ -251,7 +253,7 @@ void SurfaceFit::fillSystem()
 {
   // What takes memory itself comes before the equations.
   const std::vector<Tip> tips = endsWithSamples_ ? findTips() : std::vector<Tip>();
-  const bool isOpen = mesh_.isOpen();
+  const bool isOpen = mesh_.isOpen(executor_);
   // The matrix is new each time, as edges may have been flipped.
   released_.reset();
   system_.emplace(mesh_, isSettled_ ? SettledSlip : Slip, executor_);
@@ -465,12 +467,12 @@ void SurfaceFit::follow(const ChangedVertices& changed)
   {
     return;
   }
-  std::vector<VertexIndex> newOf(mesh_.indexEnd());
+  ZeroedArray<VertexIndex> newOf(mesh_.indexEnd());
   forEachVertex(
     mesh_, executor_, VerticesPerRange, [&](VertexIndex v) { newOf[v] = changed.alive(mesh_, v); });
   const std::vector<VertexIndex> oldOf = mesh_.dropErased(executor_);
-  std::vector<VertexIndex> place(newOf.size());
-  std::vector<VertexIndex> opposite(oldOf.size());
+  ZeroedArray<VertexIndex> place(newOf.size());
+  auto opposite = touchedVector<std::vector<VertexIndex>>(oldOf.size(), executor_);
   const std::vector<std::uint8_t> wasKept = isKept_;
   isKept_.resize(isKept_.empty() ? 0 : oldOf.size());
   forEachVertex(mesh_, executor_, VerticesPerRange, [&](VertexIndex v) { place[oldOf[v]] = v; });
@@ -544,7 +546,7 @@ double SurfaceFit::shareBetweenLayers() const
     float sum = 0.f;
     float squares = 0.f;
   };
-  std::vector<Distances> distances(mesh_.indexEnd());
+  ZeroedArray<Distances> distances(mesh_.indexEnd());
   forEachUsed(
     [&](const VertexRows& rows, std::size_t i)
     {

@@ -147,7 +147,13 @@ void ParallelLearner::findWinners(std::size_t size)
   samples_.beginBatch(size);
   batch_.resize(size);
   nextWon_.resize(size);
-  firstWon_.assign(mesh_.indexEnd(), NoWin);
+  firstWon_.resize(mesh_.indexEnd());
+  executor_.forEachRange(firstWon_.size(), VerticesOfPart,
+    [this](std::size_t begin, std::size_t end)
+    {
+      std::fill(
+        firstWon_.begin() + std::ptrdiff_t(begin), firstWon_.begin() + std::ptrdiff_t(end), NoWin);
+    });
   const std::size_t stride = noiseFilter_.observationStride();
   observed_.resize((size + stride - 1) / stride);
   observedDistances_.resize(observed_.size());

@@ -51,7 +51,11 @@ std::span<const std::uint8_t> Reservations::decide(
     [this](std::size_t begin, std::size_t end)
     { std::fill(holders_.begin() + long(begin), holders_.begin() + long(end), 0); });
   const std::size_t count = requests.size();
-  reaches_.resize(count);
+  if (reaches_.size() < count)
+  {
+    reaches_ = {};
+    reaches_ = ZeroedArray<Reach>(count + count / 2);
+  }
   isGranted_.assign(count, 0);
   isDecided_.assign(count, 0);
   undecided_.resize(count);

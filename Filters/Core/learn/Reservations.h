@@ -3,6 +3,7 @@
 
 #include "base/Executor.h"
 #include "base/LargePageAllocator.h"
+#include "base/ZeroedArray.h"
 #include "mesh/Mesh.h"
 
 #include <array>
@@ -58,7 +59,7 @@ private:
   void settle(std::size_t request, std::uint64_t key);
 
   LargeVector<std::uint64_t> holders_; ///< of each vertex: the highest key that wants it; 0: none
-  std::vector<Reach> reaches_;
+  ZeroedArray<Reach> reaches_;
   std::vector<std::uint8_t> isGranted_;
   std::vector<std::uint8_t> isDecided_;
   std::vector<std::uint32_t> undecided_;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -85,10 +86,22 @@ double Mesh::meanEdge(const Executor& executor) const
   return 2. * sum / sides;
 }
 
-bool Mesh::isOpen() const
+bool Mesh::isOpen() const { return isOpen(Executor::sequential()); }
+
+bool Mesh::isOpen(const Executor& executor) const
 {
-  return std::any_of(rings_.begin(), rings_.end(),
-    [](const Ring& ring) { return !ring.isEmpty() && ring.isOpen(); });
+  std::atomic<bool> result = false;
+  executor.forEachRange(rings_.size(), MeshVerticesPerRange,
+    [&](std::size_t begin, std::size_t end)
+    {
+      if (!result &&
+        std::any_of(rings_.begin() + std::ptrdiff_t(begin), rings_.begin() + std::ptrdiff_t(end),
+          [](const Ring& ring) { return !ring.isEmpty() && ring.isOpen(); }))
+      {
+        result = true;
+      }
+    });
+  return result;
 }
 
 std::size_t Mesh::triangleCount() const

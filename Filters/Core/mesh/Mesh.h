@@ -90,6 +90,7 @@ public:
   double meanEdge(const Executor& executor) const;
   /// Whether there is any boundary.
   bool isOpen() const;
+  bool isOpen(const Executor& executor) const;
   bool contains(const Triangle& triangle) const;
 
   /// Vertex split of `v` along the edges in the slots `first` and `first + steps` of its ring

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/ZeroedArray.h"
 #include "mesh/TriangleList.h"
 
 #include <cstdint>
@@ -20,7 +21,7 @@ public:
   explicit NumberedTriangles(const Mesh& mesh, const Executor& executor = Executor::sequential())
     : mesh_(mesh)
     , triangles_(triangleList(mesh, executor))
-    , first_(mesh.indexEnd() + 1, 0)
+    , first_(mesh.indexEnd() + 1)
   {
     std::vector<std::size_t> before((mesh.indexEnd() + ItemsPerRange - 1) / ItemsPerRange + 1, 0);
     executor.forEachRange(mesh.indexEnd(), ItemsPerRange,
@@ -43,7 +44,7 @@ public:
           first_[v + 1] += before[begin / ItemsPerRange];
         }
       });
-    numbers_.resize(first_.back());
+    numbers_ = ZeroedArray<std::uint32_t>(first_[mesh.indexEnd()]);
     executor.forEachRange(triangles_.size(), ItemsPerRange,
       [&](std::size_t begin, std::size_t end)
       {
@@ -64,7 +65,7 @@ public:
   std::uint32_t number(VertexIndex v, VertexIndex next) const { return numbers_[place(v, next)]; }
   std::span<const std::uint32_t> at(VertexIndex v) const
   {
-    return std::span(numbers_).subspan(first_[v], first_[v + 1] - first_[v]);
+    return { numbers_.data() + first_[v], first_[v + 1] - first_[v] };
   }
 
 private:
@@ -78,7 +79,7 @@ private:
 
   const Mesh& mesh_;
   std::vector<Triangle> triangles_;
-  std::vector<std::size_t> first_;
-  std::vector<std::uint32_t> numbers_;
+  ZeroedArray<std::size_t> first_;
+  ZeroedArray<std::uint32_t> numbers_;
 };
 }

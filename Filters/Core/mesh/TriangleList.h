@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/TouchedVector.h"
 #include "mesh/Mesh.h"
 
 #include <cstddef>
@@ -40,7 +41,7 @@ std::vector<Triangle> trianglesWhere(
       places[begin / VerticesPerRange + 1] = count;
     });
   std::partial_sum(places.begin(), places.end(), places.begin());
-  std::vector<Triangle> triangles(places.back());
+  auto triangles = touchedVector<std::vector<Triangle>>(places.back(), executor);
   executor.forEachRange(mesh.indexEnd(), VerticesPerRange,
     [&](std::size_t begin, std::size_t end)
     {

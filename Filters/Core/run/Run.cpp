@@ -78,7 +78,8 @@ Beginning Run::begin(std::uint64_t vertices, ProgressPart part)
   const Parameters parameters = parametersFor(vertices, request_);
   if (parameters.start == Start::OccupiedSpace && parameters.keepPieces > 0.)
   {
-    cleaned_ = withoutClusters(request_.cloud, partOf(progress_, part.begin, part.begin));
+    cleaned_ =
+      withoutClusters(request_.cloud, partOf(progress_, part.begin, part.begin), request_.executor);
   }
   return neuralmesh::begin(
     cloud(), parameters, partOf(progress_, part.begin, part.end), request_.executor);

@@ -232,8 +232,8 @@ SkinSurfaces skinSurfaces(
 }
 
 /// Of the finest grid that encloses something; if there is none, all of them give `skins`.
-std::optional<FirstSurface> closedSurface(
-  const PointCloud& cloud, std::vector<Skin>& skins, const Progress& progress)
+std::optional<FirstSurface> closedSurface(const PointCloud& cloud, std::vector<Skin>& skins,
+  const Progress& progress, const Executor& executor)
 {
   std::vector<SurfaceCandidate> candidates;
   bool isLeaky = false;
@@ -243,7 +243,7 @@ std::optional<FirstSurface> closedSurface(
     {
       break;
     }
-    OccupiedSolid solid = occupiedSolid(cloud, resolution);
+    OccupiedSolid solid = occupiedSolid(cloud, resolution, executor);
     const bool enclosesLess =
       !candidates.empty() && solid.interiorCount < candidates.back().interior;
     if (solid.enclosesSomething() && !enclosesLess)
@@ -272,7 +272,7 @@ std::optional<FirstSurface> closedSurface(
     {
       break;
     }
-    SurfaceCandidate next = candidate(occupiedSolid(cloud, resolution), resolution);
+    SurfaceCandidate next = candidate(occupiedSolid(cloud, resolution, executor), resolution);
     if (next.interior < candidates.back().interior)
     {
       break;
@@ -549,7 +549,7 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
     return {};
   }
   std::vector<Skin> skins;
-  auto solid = closedSurface(cloud, skins, partOf(progress, 0., PartOfGrids));
+  auto solid = closedSurface(cloud, skins, partOf(progress, 0., PartOfGrids), executor);
   const bool isSolid = solid.has_value();
   const NearestPoints nearest(cloud.points(), executor);
   const SkinSurfaces skin = isSolid ? SkinSurfaces() : skinSurfaces(cloud, nearest, skins);

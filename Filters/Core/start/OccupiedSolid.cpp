@@ -112,10 +112,10 @@ void fillEnclosed(const VoxelGrid& grid, Voxels& inside)
 }
 }
 
-OccupiedSolid occupiedSolid(const PointCloud& cloud, unsigned resolution)
+OccupiedSolid occupiedSolid(const PointCloud& cloud, unsigned resolution, const Executor& executor)
 {
   OccupiedSolid solid;
-  OccupiedVoxels occupied = occupiedVoxels(cloud, resolution);
+  OccupiedVoxels occupied = occupiedVoxels(cloud, resolution, executor);
   solid.grid = occupied.grid;
   VoxelVotes votes{ solid.grid, 1, std::move(occupied.isOccupied) };
   dropStrayPieces(solid.grid, votes.votes);

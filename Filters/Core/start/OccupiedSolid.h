@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "cloud/PointCloud.h"
 #include "start/VoxelGrid.h"
 
@@ -27,5 +28,6 @@ struct OccupiedSolid
 /// if it holds enough points, against what is usual; stray pieces are left out. Gaps of two voxels
 /// are closed, what is enclosed is filled. The surface of what comes out is a closed manifold. Of an
 /// open scan it is a thin skin around the points.
-OccupiedSolid occupiedSolid(const PointCloud& cloud, unsigned resolution);
+OccupiedSolid occupiedSolid(
+  const PointCloud& cloud, unsigned resolution, const Executor& executor = Executor::sequential());
 }

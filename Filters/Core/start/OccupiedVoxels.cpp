@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/OccupiedVoxels.h"
 
+#include "start/VoxelCounts.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,28 +39,27 @@ VoxelGrid gridAround(const PointCloud& cloud, unsigned resolution)
   return grid;
 }
 
-std::vector<std::uint32_t> countPoints(const PointCloud& cloud, const VoxelGrid& grid)
+std::vector<std::uint32_t> countPoints(
+  const PointCloud& cloud, const VoxelGrid& grid, const Executor& executor)
 {
-  std::vector<std::uint32_t> counts(grid.size(), 0);
   const auto strides = grid.strides();
   const Eigen::Vector3f first = grid.first.cast<float>();
   const auto inverse = float(1. / grid.width);
-  for (const Vector4 point : cloud.points())
+  const auto voxelOf = [&](Vector4 point)
   {
     std::size_t voxel = 0;
-    bool isIn = true;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const float place = (point.lanes[axis] - first[Eigen::Index(axis)]) * inverse + 0.5f;
-      isIn = isIn && place >= float(EmptyLayers) && place < float(grid.counts[axis] - EmptyLayers);
-      voxel += isIn ? std::size_t(place) * strides[axis] : 0;
+      if (!(place >= float(EmptyLayers) && place < float(grid.counts[axis] - EmptyLayers)))
+      {
+        return grid.size();
+      }
+      voxel += std::size_t(place) * strides[axis];
     }
-    if (isIn)
-    {
-      ++counts[voxel];
-    }
-  }
-  return counts;
+    return voxel;
+  };
+  return countsInVoxels(cloud.points(), grid.size(), voxelOf, executor);
 }
 
 struct FilledVoxel
@@ -173,12 +174,13 @@ double leastAgainstOutliers(std::span<const std::uint32_t> counts, std::size_t a
 }
 }
 
-OccupiedVoxels occupiedVoxels(const PointCloud& cloud, unsigned resolution)
+OccupiedVoxels occupiedVoxels(
+  const PointCloud& cloud, unsigned resolution, const Executor& executor)
 {
   OccupiedVoxels result{ gridAround(cloud, resolution), {} };
   const VoxelGrid& grid = result.grid;
   result.isOccupied.assign(grid.size(), 0);
-  const std::vector<std::uint32_t> counts = countPoints(cloud, grid);
+  const std::vector<std::uint32_t> counts = countPoints(cloud, grid, executor);
   UsualCounts usualCounts(grid, resolution);
   std::vector<FilledVoxel> filled;
   std::vector<std::uint32_t> sorted;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "cloud/PointCloud.h"
 #include "start/VoxelGrid.h"
 
@@ -23,5 +24,6 @@ struct OccupiedVoxels
 /// Counts the points in voxels, `resolution` along the longest side of the bulk. A voxel is occupied
 /// if it holds enough points: against what is usual around it, so that thinner parts of the cloud
 /// count as well, and against what outliers bring if they are spread evenly.
-OccupiedVoxels occupiedVoxels(const PointCloud& cloud, unsigned resolution);
+OccupiedVoxels occupiedVoxels(
+  const PointCloud& cloud, unsigned resolution, const Executor& executor = Executor::sequential());
 }

@@ -301,9 +301,10 @@ bool isMostOf(const PointCloud& cloud, const PointCloud& rest)
 }
 
 /// Without clusters that may touch the surface; nothing if there are none.
-std::optional<PointCloud> withoutThickParts(const PointCloud& cloud, const Progress& progress)
+std::optional<PointCloud> withoutThickParts(
+  const PointCloud& cloud, const Progress& progress, const Executor& executor)
 {
-  const OccupiedVoxels voxels = occupiedVoxels(cloud, Resolution);
+  const OccupiedVoxels voxels = occupiedVoxels(cloud, Resolution, executor);
   std::vector<Ball> clusters = progress(0.) ? findClusters(voxels) : std::vector<Ball>();
   if (!clusters.empty())
   {
@@ -327,7 +328,8 @@ std::optional<PointCloud> withoutThickParts(const PointCloud& cloud, const Progr
 }
 }
 
-std::optional<PointCloud> withoutClusters(const PointCloud& cloud, const Progress& progress)
+std::optional<PointCloud> withoutClusters(
+  const PointCloud& cloud, const Progress& progress, const Executor& executor)
 {
   if (!cloud.hasExtent())
   {
@@ -336,7 +338,8 @@ std::optional<PointCloud> withoutClusters(const PointCloud& cloud, const Progres
   bool goesOn = true;
   const Progress ask = [&](double fraction) { return goesOn = goesOn && progress(fraction); };
   const SeparateClusters separate(
-    cloud, [&] { return noiseOf(cloud, float(DiagonalOfNoise * cloud.diagonal()), ask); }, ask);
+    cloud, [&] { return noiseOf(cloud, float(DiagonalOfNoise * cloud.diagonal()), ask); }, ask,
+    executor);
   std::optional<PointCloud> rest;
   if (!separate.areNone())
   {
@@ -347,7 +350,7 @@ std::optional<PointCloud> withoutClusters(const PointCloud& cloud, const Progres
     }
   }
   std::optional<PointCloud> more =
-    ask(0.) ? withoutThickParts(rest ? *rest : cloud, ask) : std::nullopt;
+    ask(0.) ? withoutThickParts(rest ? *rest : cloud, ask, executor) : std::nullopt;
   if (!goesOn)
   {
     return {};

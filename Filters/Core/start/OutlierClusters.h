@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "base/Progress.h"
 #include "cloud/PointCloud.h"
 
@@ -13,5 +14,6 @@ namespace neuralmesh
 /// follows from the solid around it, and the points close to that stay. Of an open scan only those
 /// clusters go that do not touch it. Nothing, too, if `progress` ended it: it is told of no part, but asked often.
 std::optional<PointCloud> withoutClusters(
-  const PointCloud& cloud, const Progress& progress = [](double) { return true; });
+  const PointCloud& cloud, const Progress& progress = [](double) { return true; },
+  const Executor& executor = Executor::sequential());
 }

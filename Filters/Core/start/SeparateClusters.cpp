@@ -2,6 +2,7 @@
 #include "start/SeparateClusters.h"
 
 #include "cloud/NearestPoints.h"
+#include "start/VoxelCounts.h"
 #include "start/VoxelNeighbors.h"
 
 #include <Eigen/Eigenvalues>
@@ -50,6 +51,9 @@ constexpr double DeviationsOfHollow = 3.;
 constexpr double DeviationsInBody = 3.05;
 /// Around the middle of a group, so many of its radii have strewn points.
 constexpr double RadiiOfFringe = 1.6;
+
+/// A part for the executor.
+constexpr std::size_t PointsOfBox = 65536;
 
 constexpr std::uint32_t NoGroup = std::numeric_limits<std::uint32_t>::max();
 
@@ -135,12 +139,22 @@ std::vector<Vector4> somePoints(std::span<const Vector4> points)
 }
 
 /// All points are in it, and none in its outermost layers.
-VoxelGrid gridOfAll(const PointCloud& cloud)
+VoxelGrid gridOfAll(const PointCloud& cloud, const Executor& executor)
 {
+  const std::span<const Vector4> points = cloud.points();
+  std::vector<Eigen::AlignedBox3d> boxes((points.size() + PointsOfBox - 1) / PointsOfBox);
+  executor.forEachRange(points.size(), PointsOfBox,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (const Vector4 point : points.subspan(begin, end - begin))
+      {
+        boxes[begin / PointsOfBox].extend(point.toDouble());
+      }
+    });
   Eigen::AlignedBox3d box;
-  for (const Vector4 point : cloud.points())
+  for (const Eigen::AlignedBox3d& part : boxes)
   {
-    box.extend(point.toDouble());
+    box.extend(part);
   }
   VoxelGrid grid;
   grid.width = box.diagonal().norm() / VoxelsAlongDiagonal;
@@ -157,16 +171,13 @@ VoxelGrid gridOfAll(const PointCloud& cloud)
 class GroupSearch
 {
 public:
-  explicit GroupSearch(const PointCloud& cloud)
+  GroupSearch(const PointCloud& cloud, const Executor& executor)
     : cloud_(cloud)
-    , grid_(gridOfAll(cloud))
-    , counts_(grid_.size(), 0)
+    , grid_(gridOfAll(cloud, executor))
+    , counts_(countsInVoxels(
+        cloud.points(), grid_.size(), [this](Vector4 point) { return voxelOf(point); }, executor))
     , groupOf_(grid_.size(), NoGroup)
   {
-    for (const Vector4 point : cloud_.points())
-    {
-      ++counts_[voxelOf(point)];
-    }
     findGroups();
   }
 
@@ -345,10 +356,10 @@ bool areScattered(std::span<const Vector4> points)
   return true;
 }
 
-SeparateClusters::SeparateClusters(
-  const PointCloud& cloud, const std::function<double()>& noise, const Progress& progress)
+SeparateClusters::SeparateClusters(const PointCloud& cloud, const std::function<double()>& noise,
+  const Progress& progress, const Executor& executor)
 {
-  GroupSearch search(cloud);
+  GroupSearch search(cloud, executor);
   isLeftOut_ = search.leftOut(noise, progress);
   grid_ = search.grid();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "base/Progress.h"
 #include "cloud/PointCloud.h"
 #include "start/VoxelGrid.h"
@@ -31,7 +32,8 @@ public:
   /// There are none if `progress` ended it.
   SeparateClusters(
     const PointCloud& cloud, const std::function<double()>& noise,
-    const Progress& progress = [](double) { return true; });
+    const Progress& progress = [](double) { return true; },
+    const Executor& executor = Executor::sequential());
 
   bool areNone() const { return isLeftOut_.empty(); }
   /// Whether a point belongs to one of them, or to what is strewn around it.

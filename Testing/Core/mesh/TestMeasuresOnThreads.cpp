@@ -21,11 +21,14 @@
 #include "run/PointDistances.h"
 #include "Shapes.h"
 #include "SphereRuns.h"
+#include "start/OccupiedSolid.h"
+#include "start/OutlierClusters.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <set>
 #include <vector>
@@ -374,6 +377,88 @@ TEST(MeasuresOnThreads, Flips)
     EXPECT_TRUE(haveSameRings(flipped(pool), byValence));
     EXPECT_TRUE(haveSameRings(flippedToSamples(pool), bySamples));
   }
+}
+
+// Promise: which voxels points occupy, which clusters are left out, and how many points there are that are apart, is the
+// same on any number of threads; and without some points as of a cloud that never had them.
+TEST(MeasuresOnThreads, VoxelsOfClouds)
+{
+  CloudOptions options;
+  options.count = 150000;
+  std::vector<Eigen::Vector3d> points = generateCloud(makeTorus(), options);
+  Random random(1);
+  for (int i = 0; i < 20000; ++i)
+  {
+    // Points in a ball beside it, and the same points twice.
+    Eigen::Vector3d place = anyPlace(random) - Eigen::Vector3d::Constant(0.5);
+    place = 0.1 * std::cbrt(random.uniform()) * place.normalized();
+    points.push_back(Eigen::Vector3d(0., 0., 1.2) + place);
+    points.push_back(points[std::size_t(i)]);
+  }
+  const PointCloud cloud(points);
+  // Points that are equal may have others between them that are as far along the curve.
+  constexpr double FewApart = 5.;
+  EXPECT_NEAR(double(cloud.differentCount()), double(points.size() - 20000), FewApart);
+  const OccupiedSolid solid = occupiedSolid(cloud, 64);
+  const auto cleaned = withoutClusters(cloud);
+  ASSERT_TRUE(cleaned);
+  EXPECT_LT(cleaned->points().size(), cloud.points().size());
+  std::set<std::array<float, 3>> places;
+  for (const Vector4 point : cleaned->points())
+  {
+    places.insert({ point[0], point[1], point[2] });
+  }
+  EXPECT_NEAR(double(cleaned->differentCount()), double(places.size()), FewApart);
+  const auto haveSamePoints = [](const PointCloud& a, const PointCloud& b)
+  {
+    return std::equal(a.points().begin(), a.points().end(), b.points().begin(), b.points().end(),
+      [](Vector4 p, Vector4 q) { return squaredNorm(p - q) == 0.f; });
+  };
+  for (const unsigned threads : CountsOfThreads)
+  {
+    SCOPED_TRACE(threads);
+    const ThreadPool pool(threads);
+    EXPECT_EQ(PointCloud(points, {}, false, pool).differentCount(), cloud.differentCount());
+    const OccupiedSolid other = occupiedSolid(cloud, 64, pool);
+    EXPECT_EQ(other.inside, solid.inside);
+    EXPECT_EQ(other.occupiedCount, solid.occupiedCount);
+    const auto without = withoutClusters(
+      cloud, [](double) { return true; }, pool);
+    EXPECT_TRUE(without && haveSamePoints(*without, *cleaned));
+  }
+}
+
+// Promise: what goes over many places may be interrupted between ranges of them, also on one thread.
+TEST(MeasuresOnThreads, PlacesMayBeInterrupted)
+{
+  class Counting final : public Executor
+  {
+  public:
+    unsigned threadCount() const override { return 1; }
+    mutable std::size_t asked = 0;
+
+  protected:
+    void run(std::size_t count, Part part, const void* context) const override
+    {
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        ++asked;
+        part(context, i);
+      }
+    }
+  };
+  const std::vector<PlaceOnMesh> places(200000);
+  const Counting executor;
+  std::size_t visited = 0;
+  forEachPlaceByRows(
+    places, RowParts(1000, executor), executor, [](std::size_t) { return true; },
+    [&](const VertexRows&, std::size_t i)
+    {
+      EXPECT_EQ(i, visited);
+      ++visited;
+    });
+  EXPECT_EQ(visited, places.size());
+  EXPECT_GE(executor.asked, 10u);
 }
 
 // Promise: values are sorted as std::stable_sort() sorts them, on any number of threads.
