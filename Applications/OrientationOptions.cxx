@@ -136,8 +136,8 @@ void PrintSides(vtkPolyData* mesh)
   }
   if (unknown > 50.0 || guessed > 50.0)
   {
-    std::printf(
-      "%s --viewpoint or --up determines them", unknown > 50.0 ? ", most looks up, along z;" : ";");
+    std::printf("%s --viewpoint or --up determines them",
+      unknown > 50.0 ? ", most looks up, along z, or to what stands on it;" : ";");
   }
   std::printf("\n");
 }

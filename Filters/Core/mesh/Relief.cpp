@@ -20,6 +20,8 @@ constexpr double ThicknessOfGround = 0.02;
 constexpr double LeastRatioOfReliefs = 4.;
 /// The volume of the relief, of the area of the ground to the power of 1.5.
 constexpr double LeastRelief = 1. / 500.;
+/// The area of what stands on a ground without being connected to it, of that of the ground.
+constexpr double LeastStanding = 0.02;
 
 /// One triangle, in the direction of the sum of the normals.
 struct Facet
@@ -68,47 +70,110 @@ double heightOfGround(std::vector<Facet> facets)
   return 0.;
 }
 
+Eigen::Vector3d centroidOf(const Mesh& mesh, VertexIndex a, VertexIndex b, VertexIndex c)
+{
+  return (mesh.position(a).toDouble() + mesh.position(b).toDouble() + mesh.position(c).toDouble()) /
+    3.;
+}
+
+/// The level part of a piece, in the direction of the sum of the normals.
+struct Ground
+{
+  Ground(const Mesh& mesh, const Piece& piece)
+    : thickness(ThicknessOfGround * std::sqrt(piece.area))
+  {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    forEachTriangleOf(mesh, piece,
+      [&](VertexIndex a, VertexIndex b, VertexIndex c) { sum += areaVector(mesh, a, b, c); });
+    up = sum.normalized();
+    forEachTriangleOf(mesh, piece,
+      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+      {
+        const Eigen::Vector3d vector = areaVector(mesh, a, b, c);
+        facets.push_back({ centroidOf(mesh, a, b, c).dot(up), vector.dot(up), vector.norm() });
+      });
+    const double bottom = heightOfGround(facets);
+    for (Facet& facet : facets)
+    {
+      facet.height -= bottom;
+      area += facet.isLevel() && std::abs(facet.height) <= thickness ? facet.area : 0.;
+    }
+    height = bottom;
+    isGround = area >= LeastGroundOfPiece * piece.area;
+  }
+
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  double height = 0.; ///< along `up`
+  double thickness;   ///< what is no farther above or below belongs to it
+  double area = 0.;
+  bool isGround = false;     ///< whether it is large enough
+  std::vector<Facet> facets; ///< of the piece; their heights are above the ground
+};
+
 Side sideByRelief(const Mesh& mesh, const Piece& piece)
 {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  forEachTriangleOf(mesh, piece,
-    [&](VertexIndex a, VertexIndex b, VertexIndex c) { sum += areaVector(mesh, a, b, c); });
-  const Eigen::Vector3d up = sum.normalized();
-  std::vector<Facet> facets;
-  forEachTriangleOf(mesh, piece,
-    [&](VertexIndex a, VertexIndex b, VertexIndex c)
-    {
-      const Eigen::Vector3d area = areaVector(mesh, a, b, c);
-      const Eigen::Vector3d centroid =
-        (mesh.position(a).toDouble() + mesh.position(b).toDouble() + mesh.position(c).toDouble()) /
-        3.;
-      facets.push_back({ centroid.dot(up), area.dot(up), area.norm() });
-    });
-  const double bottom = heightOfGround(facets);
-  const double thickness = ThicknessOfGround * std::sqrt(piece.area);
-  double ground = 0., above = 0., below = 0.;
-  for (const Facet& facet : facets)
+  const Ground ground(mesh, piece);
+  double above = 0., below = 0.;
+  for (const auto& [height, level, area] : ground.facets)
   {
-    const double height = facet.height - bottom;
-    ground += facet.isLevel() && std::abs(height) <= thickness ? facet.area : 0.;
-    above += height > thickness ? height * facet.level : 0.;
-    below -= height < -thickness ? height * facet.level : 0.;
+    above += height > ground.thickness ? height * level : 0.;
+    below -= height < -ground.thickness ? height * level : 0.;
   }
   const double most = std::max(std::abs(above), std::abs(below));
   const double least = std::min(std::abs(above), std::abs(below));
-  const bool tells = ground >= LeastGroundOfPiece * piece.area &&
-    most >= LeastRatioOfReliefs * least && most >= LeastRelief * std::pow(ground, 1.5);
+  const bool tells = ground.isGround && most >= LeastRatioOfReliefs * least &&
+    most >= LeastRelief * std::pow(ground.area, 1.5);
   return tells ? Side{ SideEvidence::Volume, std::abs(below) > std::abs(above), true } : Side{};
+}
+
+Side sideByStanding(const Mesh& mesh, std::span<const Piece> pieces, const Piece& piece)
+{
+  const Ground ground(mesh, piece);
+  double above = 0., below = 0.;
+  for (const Piece& other : pieces)
+  {
+    if (!ground.isGround || other.area >= piece.area)
+    {
+      continue;
+    }
+    forEachTriangleOf(mesh, other,
+      [&](VertexIndex a, VertexIndex b, VertexIndex c)
+      {
+        const double height = centroidOf(mesh, a, b, c).dot(ground.up) - ground.height;
+        const double area = areaVector(mesh, a, b, c).norm();
+        above += height > ground.thickness ? area : 0.;
+        below += height < -ground.thickness ? area : 0.;
+      });
+  }
+  const double most = std::max(above, below), least = std::min(above, below);
+  const bool tells =
+    ground.isGround && most >= LeastRatioOfReliefs * least && most >= LeastStanding * ground.area;
+  return tells ? Side{ SideEvidence::Volume, below > above, true } : Side{};
+}
+
+/// Of the pieces whose side is not known.
+template <typename SideOf>
+std::vector<Side> sidesOfUnknown(
+  std::span<const Piece> pieces, std::span<const Side> known, const SideOf& sideOf)
+{
+  std::vector<Side> sides(pieces.size());
+  std::transform(pieces.begin(), pieces.end(), known.begin(), sides.begin(),
+    [&](const Piece& piece, const Side& side) { return side.isKnown() ? Side() : sideOf(piece); });
+  return sides;
 }
 }
 
 std::vector<Side> sidesByRelief(
   const Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> known)
 {
-  std::vector<Side> sides(pieces.size());
-  std::transform(pieces.begin(), pieces.end(), known.begin(), sides.begin(),
-    [&](const Piece& piece, const Side& side)
-    { return side.isKnown() ? Side() : sideByRelief(mesh, piece); });
-  return sides;
+  return sidesOfUnknown(
+    pieces, known, [&](const Piece& piece) { return sideByRelief(mesh, piece); });
+}
+
+std::vector<Side> sidesByStanding(
+  const Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> known)
+{
+  return sidesOfUnknown(
+    pieces, known, [&](const Piece& piece) { return sideByStanding(mesh, pieces, piece); });
 }
 }

@@ -123,14 +123,16 @@ std::vector<Side> withoutGroundAbove(std::vector<Side> sides, const std::vector<
   return sides;
 }
 
-/// Has what is unknown look up, as most of what is scanned from above does.
-void turnUp(const std::vector<Upwards>& upwards, std::vector<Side>& sides)
+/// Has what is unknown look to what stands on it, or up, as most of what is scanned from above does.
+void turnUp(const std::vector<Side>& byStanding, const std::vector<Upwards>& upwards,
+  std::vector<Side>& sides)
 {
   for (std::size_t i = 0; i < sides.size(); ++i)
   {
     if (!sides[i].isKnown())
     {
-      sides[i].isTurned = upwards[i].all < -LeastUpwards;
+      sides[i].isTurned =
+        byStanding[i].isKnown() ? byStanding[i].isTurned : upwards[i].all < -LeastUpwards;
     }
   }
 }
@@ -202,7 +204,7 @@ OrientationReport orientMesh(
     addSides(sidesByNeighbors(mesh, pieces, sides, ground), sides);
     addSides(withoutGroundAbove(byVolume, upwards), sides);
     addSides(withoutGroundAbove(sidesByRelief(mesh, pieces, sides), upwards), sides);
-    turnUp(upwards, sides);
+    turnUp(sidesByStanding(mesh, pieces, sides), upwards, sides);
     makePiecesAgree(mesh, pieces, sides, ground);
   }
   OrientationReport report = turn(mesh, pieces, sides);

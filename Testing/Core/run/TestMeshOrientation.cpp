@@ -335,6 +335,29 @@ TEST(MeshOrientation, WhatStandsOnATable)
   }
 }
 
+// A ground looks to what stands on it without being connected to it, in any position; it stays unknown, as that might be
+// seen through a window. Nothing is told by bodies on both sides.
+TEST(MeshOrientation, WhatStandsApartOnATable)
+{
+  const auto body = [](const Eigen::Vector3d& center, double scale)
+  { return placed(openSphere(60.), Eigen::Matrix3d::Identity(), center, scale); };
+  const Eigen::Vector3d above(0.4, 0.5, 0.15);
+  for (const TriangleMesh& table : { makeGrid(30), turned(makeGrid(30)) })
+  {
+    TriangleMesh all = table;
+    append(all, body(above, 0.12));
+    Scene scene(placed(all, upright(), Eigen::Vector3d::Zero()));
+    EXPECT_EQ(scene.orient().unknownPieces, 1u);
+    const double facing = scene.facing(
+      [&](const Eigen::Vector3d& centroid)
+      {
+        return std::abs(centroid.y()) < 1e-6 ? Eigen::Vector3d(-Eigen::Vector3d::UnitY())
+                                             : Eigen::Vector3d(centroid - upright() * above);
+      });
+    EXPECT_EQ(facing, 1.);
+  }
+}
+
 // The result does not depend on the number of threads.
 TEST(MeshOrientation, ThreadsDoNotMatter)
 {

@@ -115,7 +115,7 @@ def _print_sides(fields: dict[str, Any]) -> None:
     if 0.0 < unknown <= 50.0:
         text += f", {unknown:.2g} % of the area unknown"
     if unknown > 50.0 or guessed > 50.0:
-        text += ", most looks up, along z;" if unknown > 50.0 else ";"
+        text += ", most looks up, along z, or to what stands on it;" if unknown > 50.0 else ";"
         text += " --viewpoint or --up determines them"
     print(f"sides      {text}")
 
