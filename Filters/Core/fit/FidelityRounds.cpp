@@ -42,6 +42,8 @@ constexpr double MostDistributed = 0.1;
 constexpr double MostAddedAtCorners = 0.05;
 /// Of lambda, on a clean cloud: creases no longer need so much of it.
 constexpr double PartOnCleanClouds = 0.5;
+/// Of that, at least, in rounds that come near enough to measure it again. Less makes triangles uneven.
+constexpr double LeastPartOfSettled = 0.5;
 /// Beyond so many deviations of the usual bend it is a crease.
 constexpr double DeviationsOfCreaseIfClean = 2.;
 /// The mesh on which places are found first is so much smoother than that of the rounds before, but its lambda is at
@@ -63,6 +65,7 @@ bool FidelityRounds::run(Fidelity fidelity, int rounds, bool isClean, bool isFix
   const Progress& progress)
 {
   lambda_ = lambda * (isClean && !isFixed ? PartOnCleanClouds : 1.);
+  least_ = lambda_ * (fidelity == Fidelity::High && !isFixed ? LeastPartOfSettled : 1.);
   fit_.findExactly();
   fit_.keepBoundaries();
   if (isClean)
@@ -136,6 +139,10 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   {
     // Before, creases are not sharp yet, and tips may come to have more vertices.
     fit_.endWithSamples();
+    if (least_ < lambda_)
+    {
+      lambda_ = std::clamp(fit_.settledSmoothness(), least_, lambda_);
+    }
   }
   PackedVectors before;
   if (!move(lambda_, partOf(progress, 0.7, 1.), before))

@@ -70,6 +70,7 @@ private:
   bool mayBeBroken_ = true; ///< by intersections or folds
   bool staysUnbroken_ = false;
   double lambda_ = 0.;
+  double least_ = 0.; ///< lambda once the mesh has settled
   std::size_t heldVertices_ = 0;
   NoiseParts noiseParts_;
 };

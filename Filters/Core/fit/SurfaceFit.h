@@ -115,7 +115,9 @@ public:
   void tellSmoothness(VertexProperty<float> property) { smoothnessOfVertices_ = property; }
   /// The lambda of the last moveVertices().
   double smoothness() const { return smoothness_; }
-  /// Whether that lambda is one of a clean cloud.
+  /// The lambda for the next moveVertices() of a clean cloud, once the mesh has settled.
+  double settledSmoothness() const;
+  /// Whether the last lambda is one of a clean cloud.
   bool isClean() const { return smoothness_ < CleanSmoothness * partOfUsualSamples(); }
 
   /// The root mean square distance of used samples to the planes of their triangles, plus the noise

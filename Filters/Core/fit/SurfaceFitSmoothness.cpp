@@ -27,6 +27,9 @@ constexpr std::size_t LeastVerticesIfClean = 1000;
 /// Lambda is a little larger than measured: a surface that is too rough follows the noise.
 constexpr double SmoothnessFactor = 1.1;
 constexpr int MostChoices = 8;
+/// Of the most lambda of a clean cloud: from there on, what a settled mesh leaves is noise. With so little of it, the
+/// rest is what triangles cannot follow, which is no reason to smooth.
+constexpr double PartIfNoisy = 0.25;
 /// Lambda is found if the next one is more than this part of it.
 constexpr double NearPart = 0.85;
 /// A learnt mesh follows noise. It leaves q / (q + 7) of the variance if there are q points per
@@ -125,6 +128,15 @@ double SurfaceFit::firstSmoothness() const
 double SurfaceFit::partOfUsualSamples() const
 {
   return std::min(1., double(samples_.size()) / (UsualSamples * double(mesh_.vertexCount())));
+}
+
+double SurfaceFit::settledSmoothness() const
+{
+  const double rough = roughness(mesh_.positions());
+  const double ratio =
+    rough > 0. ? residualVariance(mesh_.positions(), smoothness_) / rough : MostSmoothness;
+  const double part = ratio / (PartIfNoisy * CleanSmoothness);
+  return partOfUsualSamples() * part * ratio;
 }
 
 double SurfaceFit::meanSquaredDistance() const

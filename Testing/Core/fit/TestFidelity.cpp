@@ -114,6 +114,26 @@ TEST(Fidelity, SharpensACube)
   EXPECT_LT(errorOfHigh, 0.5 * errorOfDraft);
 }
 
+// With high fidelity a mesh that has settled is smoothed half as much if there is no noise, but as before with noise,
+// and if lambda is given.
+TEST(Fidelity, SmoothsOnlyNoise)
+{
+  const auto smoothnessOf = [](double noise, Fidelity fidelity, double given = 0.)
+  {
+    Parameters parameters;
+    parameters.numberOfVertices = 3000;
+    parameters.fidelity = fidelity;
+    parameters.fitSmoothness = given;
+    const std::vector<Eigen::Vector3d> points = pointsOf(trueTorus(), 40000, noise);
+    const Reconstruction run = reconstruct(PointCloud(points), parameters, goOn);
+    EXPECT_TRUE(run.finish->isClean);
+    return run.finish->smoothness;
+  };
+  EXPECT_DOUBLE_EQ(smoothnessOf(0., Fidelity::High), 0.5 * smoothnessOf(0., Fidelity::Default));
+  EXPECT_EQ(smoothnessOf(0.0003, Fidelity::High), smoothnessOf(0.0003, Fidelity::Default));
+  EXPECT_EQ(smoothnessOf(0., Fidelity::High, 0.1), 0.1);
+}
+
 // The first surface of a small draft has half of the vertices, and the others are learnt: fifty samples for each, and
 // some more for those that are removed.
 TEST(Fidelity, DraftLearnsHalfOfTheVertices)
