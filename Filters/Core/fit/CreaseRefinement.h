@@ -16,8 +16,9 @@ inline constexpr std::size_t PointsThatTellCreases = 10;
 
 /// The length of creases, in widths of the surface: roots of its area.
 double creaseWidths(const Mesh& mesh, const Executor& executor = Executor::sequential());
-/// From this on, creases are a large part of the surface.
+/// Beyond this, creases are a large part of the surface.
 inline constexpr double WidthsOfCreases = 2.;
+/// Whether they are.
 bool hasCreases(const Mesh& mesh, const Executor& executor = Executor::sequential());
 
 /// Refines a finished mesh with creases to `count` vertices and keeps the creases as they are.

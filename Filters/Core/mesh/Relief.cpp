@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace neuralmesh
 {
@@ -22,6 +23,8 @@ constexpr double LeastRatioOfReliefs = 4.;
 constexpr double LeastRelief = 1. / 500.;
 /// The area of what stands on a ground without being connected to it, of that of the ground.
 constexpr double LeastStanding = 0.02;
+/// The area of such a ground, of that of all pieces. So there are few of them, however many pieces there are.
+constexpr double LeastGroundOfAll = 0.1;
 
 /// One triangle, in the direction of the sum of the normals.
 struct Facet
@@ -92,13 +95,12 @@ struct Ground
         const Eigen::Vector3d vector = areaVector(mesh, a, b, c);
         facets.push_back({ centroidOf(mesh, a, b, c).dot(up), vector.dot(up), vector.norm() });
       });
-    const double bottom = heightOfGround(facets);
+    height = heightOfGround(facets);
     for (Facet& facet : facets)
     {
-      facet.height -= bottom;
+      facet.height -= height;
       area += facet.isLevel() && std::abs(facet.height) <= thickness ? facet.area : 0.;
     }
-    height = bottom;
     isGround = area >= LeastGroundOfPiece * piece.area;
   }
 
@@ -173,7 +175,10 @@ std::vector<Side> sidesByRelief(
 std::vector<Side> sidesByStanding(
   const Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> known)
 {
-  return sidesOfUnknown(
-    pieces, known, [&](const Piece& piece) { return sideByStanding(mesh, pieces, piece); });
+  const double all = std::accumulate(pieces.begin(), pieces.end(), 0.,
+    [](double sum, const Piece& piece) { return sum + piece.area; });
+  return sidesOfUnknown(pieces, known,
+    [&](const Piece& piece)
+    { return piece.area < LeastGroundOfAll * all ? Side() : sideByStanding(mesh, pieces, piece); });
 }
 }

@@ -18,8 +18,8 @@ namespace neuralmesh
 std::vector<Side> sidesByRelief(
   const Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> known);
 
-/// The same by smaller pieces that stand on a ground without being connected to it, most of them on one side. That is
-/// less than a guess: a part may also be seen through a window in a wall.
+/// The same by smaller pieces that stand on a ground, a tenth of the whole area or more, without being connected to it,
+/// most of them on one side. That is less than a guess: a part may also be seen through a window in a wall.
 std::vector<Side> sidesByStanding(
   const Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> known);
 }

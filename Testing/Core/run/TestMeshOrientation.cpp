@@ -336,7 +336,7 @@ TEST(MeshOrientation, WhatStandsOnATable)
 }
 
 // A ground looks to what stands on it without being connected to it, in any position; it stays unknown, as that might be
-// seen through a window. Nothing is told by bodies on both sides.
+// seen through a window.
 TEST(MeshOrientation, WhatStandsApartOnATable)
 {
   const auto body = [](const Eigen::Vector3d& center, double scale)
