@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/FidelityRounds.h"
 
+#include "fit/BareFolds.h"
 #include "fit/CreaseRefinement.h"
 #include "fit/CreaseSnapping.h"
 #include "fit/CutCorners.h"
@@ -106,6 +107,10 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   }
   if (!keepsPlaces_)
   {
+    if (!distributes)
+    {
+      fit_.follow(collapseBareFolds(mesh_, fit_.placedSamples(), fit_.variance(), executor_));
+    }
     fit_.follow(snapToCreases(mesh_, fit_.placedSamples(), fit_.variance(), executor_));
   }
   if (!progress(0.4))

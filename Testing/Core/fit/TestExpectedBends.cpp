@@ -3,6 +3,7 @@
 // number of threads; creases tell of none.
 #include "fit/ExpectedBends.h"
 
+#include "base/Random.h"
 #include "base/ThreadPool.h"
 #include "mesh/UmbrellaLaplacian.h"
 
