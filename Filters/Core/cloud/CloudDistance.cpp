@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/CloudDistance.h"
 
+#include "cloud/PlaceOnMesh.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -57,14 +59,19 @@ ClosestTriangle closestTriangle(const Eigen::Vector3d& point, const Mesh& mesh, 
 
 double distanceToSurface(Vector4 point, const Mesh& mesh, const VertexGrid& grid)
 {
-  const Eigen::Vector3d p = point.toDouble();
   const VertexIndex closest = grid.closest(point, mesh.positions());
-  double best = closestTriangle(p, mesh, closest).squaredDistance;
+  PlaceOnMesh best = closestPlaceAt(point, mesh, closest);
   for (const VertexIndex neighbor : mesh.ring(closest))
   {
-    best = std::min(best, closestTriangle(p, mesh, neighbor).squaredDistance);
+    const PlaceOnMesh place = closestPlaceAt(point, mesh, neighbor);
+    if (place.squaredDistance < best.squaredDistance)
+    {
+      best = place;
+    }
   }
-  return std::sqrt(best);
+  // A place is known with single precision.
+  const auto corner = [&](std::size_t i) { return mesh.position(best.triangle[i]).toDouble(); };
+  return std::sqrt(squaredDistanceToTriangle(point.toDouble(), corner(0), corner(1), corner(2)));
 }
 
 double meanDistanceToSurface(

@@ -146,7 +146,10 @@ public:
     left_ -= bytes;
     const std::uint64_t known = std::min<std::uint64_t>(bytes, piece_.size() - place_);
     place_ += std::size_t(known);
-    file_.seekg(std::streamoff(bytes - known), std::ios::cur);
+    if (bytes > known)
+    {
+      file_.seekg(std::streamoff(bytes - known), std::ios::cur);
+    }
   }
 
   /// All of an element that is the first to be read.

@@ -203,6 +203,12 @@ void VertexGrid::eraseAt(CellIndex cell, VertexIndex v)
   assert(false && "the grid was not told of this position");
 }
 
+VertexGrid::Candidate VertexGrid::candidate(VertexIndex v, Vector4 sample, const Vector4* positions)
+{
+  const auto distance = std::bit_cast<std::uint32_t>(squaredNorm(positions[v] - sample));
+  return Candidate(distance) << 32 | v;
+}
+
 VertexGrid::Candidate VertexGrid::searchCell(
   std::uint32_t number, Vector4 sample, const Vector4* positions, Candidate best) const
 {
@@ -211,9 +217,7 @@ VertexGrid::Candidate VertexGrid::searchCell(
     const Line& line = lines_[number];
     for (unsigned i = 0; i < line.count; ++i)
     {
-      const VertexIndex v = line.vertices[i];
-      const auto distance = std::bit_cast<std::uint32_t>(squaredNorm(positions[v] - sample));
-      best = std::min(best, Candidate(distance) << 32 | v);
+      best = std::min(best, candidate(line.vertices[i], sample, positions));
     }
   }
   return best;
@@ -368,6 +372,16 @@ VertexGrid::Candidate VertexGrid::searchOctant(
   return best;
 }
 
+VertexGrid::Candidate VertexGrid::searchAround(
+  CellIndex home, Vector4 sample, const Vector4* positions, Candidate best) const
+{
+  // In a ball of many cells, most of which are empty, it is quicker to look at blocks.
+  const float farthest = 0.5f * BlockWidth * cellSize_;
+  return squaredDistanceOf(best) < farthest * farthest
+    ? searchBall(home, sample, positions, best)
+    : searchBlocks(home, sample, positions, best);
+}
+
 VertexIndex VertexGrid::closest(Vector4 sample, std::span<const Vector4> positions) const
 {
   const CellIndex home = cellOf(sample);
@@ -376,12 +390,16 @@ VertexIndex VertexGrid::closest(Vector4 sample, std::span<const Vector4> positio
   {
     best = searchOctant(home, sample, positions.data());
   }
-  // In a ball of many cells, most of which are empty, it is quicker to look at blocks.
-  const float farthest = 0.5f * BlockWidth * cellSize_;
-  best = squaredDistanceOf(best) < farthest * farthest
-    ? searchBall(home, sample, positions.data(), best)
-    : searchBlocks(home, sample, positions.data(), best);
-  return VertexIndex(best & NoVertex);
+  return VertexIndex(searchAround(home, sample, positions.data(), best) & NoVertex);
+}
+
+VertexIndex VertexGrid::closest(
+  Vector4 sample, std::span<const Vector4> positions, VertexIndex near) const
+{
+  const CellIndex home = cellOf(sample);
+  const Candidate best =
+    searchCell(lineOf(home), sample, positions.data(), candidate(near, sample, positions.data()));
+  return VertexIndex(searchAround(home, sample, positions.data(), best) & NoVertex);
 }
 
 void VertexGrid::closest(std::span<const Vector4> samples, std::span<const Vector4> positions,

@@ -56,6 +56,9 @@ public:
   /// those that the grid was told of. NoVertex if the grid is empty.
   VertexIndex closest(Vector4 sample, std::span<const Vector4> positions) const;
 
+  /// The same, and faster where `near` is closer than the width of a few cells and the sample is in an empty one.
+  VertexIndex closest(Vector4 sample, std::span<const Vector4> positions, VertexIndex near) const;
+
   /// The same for all samples, each of which finds in the cache what the one before it has used if
   /// they are neighbours in space. `winners` has room for as many.
   void closest(std::span<const Vector4> samples, std::span<const Vector4> positions,
@@ -126,6 +129,10 @@ private:
   void eraseAt(CellIndex cell, VertexIndex v);
   std::uint32_t takeLine();
 
+  static Candidate candidate(VertexIndex v, Vector4 sample, const Vector4* positions);
+  /// What lies around the cell of the sample, too, which was searched.
+  Candidate searchAround(
+    CellIndex home, Vector4 sample, const Vector4* positions, Candidate best) const;
   Candidate searchCell(
     std::uint32_t line, Vector4 sample, const Vector4* positions, Candidate best) const;
   Candidate searchOctant(CellIndex home, Vector4 sample, const Vector4* positions) const;

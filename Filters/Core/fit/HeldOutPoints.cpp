@@ -35,7 +35,7 @@ void measureToAll(const PointCloud& cloud, const std::vector<std::size_t>& point
       {
         if (isFar(squared[i]))
         {
-          const auto found = nearest.find(cloud.points()[points[i]].toDouble());
+          const auto found = nearest.find(cloud.points()[points[i]].toDouble(), double(squared[i]));
           squared[i] = std::min(squared[i], float(found.squaredDistance));
         }
       }

@@ -89,7 +89,7 @@ private:
     }
     const Vector4 inwards = -1.f / std::sqrt(squared) * normal;
     const VertexIndex found = grid_.closest(
-      position + EdgesBehindSide * std::max(meanEdge_, most) * inwards, mesh_.positions());
+      position + EdgesBehindSide * std::max(meanEdge_, most) * inwards, mesh_.positions(), v);
     const float reach = most + EdgesBehindSide * meanEdge_;
     if (found == v || found == NoVertex || dot(mesh_.normal(found), inwards) <= 0.f ||
       squaredNorm(mesh_.position(found) - position) > reach * reach)

@@ -21,9 +21,10 @@ namespace
 constexpr std::size_t DistancesPerRange = 256;
 /// Places found at a time: what is kept of them is less.
 constexpr std::size_t PointsPerBlock = 262144;
-/// The triangles of the closest vertex need not have the closest place of the mesh: where a point is farther
-/// than so many medians, those around it are looked at, too.
-constexpr float MediansToLookAgain = 4.f;
+/// Noise leaves few points farther away than so many medians, and a group among them is a loss.
+constexpr float MediansToMeasureExactly = 4.f;
+/// Of a distance: what another triangle may be farther away by rounding.
+constexpr double RoundedUp = 1.0001;
 constexpr std::size_t MedianPoints = 2000;
 /// Of a corner in a place: less is rounding.
 constexpr float LeastWeight = 1e-5f;
@@ -37,6 +38,13 @@ std::vector<std::size_t> evenlyPicked(std::size_t all, std::size_t most)
     points[i] = i * all / count;
   }
   return points;
+}
+
+/// Whether `most` of the numbers below `all`, evenly picked, have this one.
+bool isEvenlyPicked(std::size_t number, std::size_t all, std::size_t most)
+{
+  const std::size_t i = (number * most + all - 1) / all;
+  return i * all / most == number;
 }
 
 /// Whether what is closest to a place lies beyond the boundary. At a corner of the boundary, the triangle of the place
@@ -72,10 +80,6 @@ public:
   PlaceOnMesh of(std::size_t point) const
   {
     return closestPlace(cloud_.points()[point], mesh_, grid_);
-  }
-  float distance(std::size_t point) const
-  {
-    return float(distanceToSurface(cloud_.points()[point], mesh_, grid_));
   }
 
   /// The median distance of some of these points.
@@ -149,9 +153,13 @@ void findExactly(const Mesh& mesh, const PointCloud& cloud, float least,
     {
       for (std::size_t i = begin; i < end; ++i)
       {
+        if (!(result.distances[i] > least))
+        {
+          continue;
+        }
         const Vector4 point = cloud.points()[result.points[i]];
-        const NearestTriangle::Found found =
-          result.distances[i] > least ? nearest.find(point.toDouble()) : NearestTriangle::Found{};
+        const double most = RoundedUp * double(result.distances[i]);
+        const NearestTriangle::Found found = nearest.find(point.toDouble(), most * most);
         if (found.triangle != NearestTriangle::None)
         {
           const PlaceOnMesh place =
@@ -218,15 +226,8 @@ private:
 };
 }
 
-PointDistances distancesTo(
-  const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
-{
-  return *distancesTo(
-    mesh, cloud, most, [](double) { return true; }, executor);
-}
-
-std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cloud,
-  std::size_t most, const Progress& progress, const Executor& executor)
+std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& cloud,
+  std::size_t most, std::size_t mostOfSupport, const Progress& progress, const Executor& executor)
 {
   const PlacesOfCloud places(mesh, cloud, executor);
   PointDistances result;
@@ -238,35 +239,66 @@ std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cl
   result.pieces.resize(pieceOf.empty() ? 0 : count);
   result.meanEdge = mesh.meanEdge(executor);
   const float median = places.medianOfSome(result.points, executor);
+  const float farthest = outlierDistance(median, result.meanEdge);
+  SupportSum sum(mesh, cloud);
+  const RowParts rows(mesh.indexEnd(), executor);
+  const std::size_t ofSupport = std::min(count, mostOfSupport);
+  std::vector<PlaceOnMesh> found(std::min(count, PointsPerBlock));
   for (std::size_t first = 0; first < count; first += PointsPerBlock)
   {
     if (!progress(double(first) / double(count)))
     {
       return std::nullopt;
     }
-    executor.forEachRange(std::min(PointsPerBlock, count - first), DistancesPerRange,
+    const std::size_t size = std::min(PointsPerBlock, count - first);
+    executor.forEachRange(size, DistancesPerRange,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = first + begin; i < first + end; ++i)
         {
-          const PlaceOnMesh place = places.of(result.points[i]);
-          float& distance = result.distances[i];
-          distance = std::sqrt(place.squaredDistance);
+          const PlaceOnMesh place = found[i - first] = places.of(result.points[i]);
+          result.distances[i] = std::sqrt(place.squaredDistance);
           result.isBeyondBoundary[i] = isBeyondBoundary(place, mesh) ? 1 : 0;
           setPiece(result, i, pieceOf, place);
-          if (distance > MediansToLookAgain * median)
-          {
-            distance = std::min(distance, places.distance(result.points[i]));
-          }
         }
       });
+    if (ofSupport > 0)
+    {
+      forEachPlaceByRows(
+        std::span(found).first(size), rows, executor,
+        [&](std::size_t i)
+        {
+          return found[i].squaredDistance <= farthest * farthest &&
+            isEvenlyPicked(first + i, count, ofSupport);
+        },
+        [&](const VertexRows& some, std::size_t i)
+        { sum.add(result.points[first + i], found[i], some); });
+    }
   }
   if (!progress(1.))
   {
     return std::nullopt;
   }
-  findExactly(mesh, cloud, MediansAway * median, pieceOf, executor, result);
-  return result;
+  findExactly(mesh, cloud, MediansToMeasureExactly * median, pieceOf, executor, result);
+  const double pointsOfEach =
+    double(cloud.points().size()) / double(std::max<std::size_t>(1, ofSupport));
+  return MeasuredPoints{ std::move(result), sum.result(pointsOfEach, executor) };
+}
+
+PointDistances distancesTo(
+  const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
+{
+  return measurePoints(
+    mesh, cloud, most, 0, [](double) { return true; }, executor)
+    ->distances;
+}
+
+VertexSupport supportOf(
+  const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
+{
+  return measurePoints(
+    mesh, cloud, most, most, [](double) { return true; }, executor)
+    ->support;
 }
 
 PointDistances exactly(
@@ -274,57 +306,5 @@ PointDistances exactly(
 {
   findExactly(mesh, cloud, -1.f, piecesOf(mesh, executor), executor, distances);
   return distances;
-}
-
-PointDistances withExactTail(
-  PointDistances distances, const Mesh& mesh, const PointCloud& cloud, const Executor& executor)
-{
-  if (!distances.distances.empty())
-  {
-    const float least = MediansToLookAgain * medianOf(distances.distances, executor);
-    findExactly(mesh, cloud, least, piecesOf(mesh, executor), executor, distances);
-  }
-  return distances;
-}
-
-VertexSupport supportOf(
-  const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
-{
-  return *supportOf(
-    mesh, cloud, most, [](double) { return true; }, executor);
-}
-
-std::optional<VertexSupport> supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
-  const Progress& progress, const Executor& executor)
-{
-  const std::vector<std::size_t> points = evenlyPicked(cloud.points().size(), most);
-  const PlacesOfCloud places(mesh, cloud, executor);
-  const float farthest =
-    outlierDistance(places.medianOfSome(points, executor), mesh.meanEdge(executor));
-  SupportSum sum(mesh, cloud);
-  const RowParts rows(mesh.indexEnd(), executor);
-  std::vector<PlaceOnMesh> found(std::min(points.size(), PointsPerBlock));
-  for (std::size_t first = 0; first < points.size(); first += PointsPerBlock)
-  {
-    if (!progress(double(first) / double(points.size())))
-    {
-      return std::nullopt;
-    }
-    const std::size_t size = std::min(PointsPerBlock, points.size() - first);
-    executor.forEachRange(size, DistancesPerRange,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          found[i] = places.of(points[first + i]);
-        }
-      });
-    forEachPlaceByRows(
-      std::span(found).first(size), rows, executor,
-      [&](std::size_t i) { return found[i].squaredDistance <= farthest * farthest; },
-      [&](const VertexRows& some, std::size_t i) { sum.add(points[first + i], found[i], some); });
-  }
-  return sum.result(
-    double(cloud.points().size()) / double(std::max<std::size_t>(1, points.size())), executor);
 }
 }

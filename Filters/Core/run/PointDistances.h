@@ -41,28 +41,28 @@ struct VertexSupport
   double pointsPerAsked = 1.;
 };
 
-/// Picks at most `most` points of the cloud evenly, and measures their distances to a mesh. No
-/// vertex may be erased.
+struct MeasuredPoints
+{
+  PointDistances distances;
+  VertexSupport support;
+};
+
+/// Picks at most `most` points of the cloud evenly, and measures their distances to a mesh. The triangles of the closest
+/// vertex need not have the closest place: a point farther than four medians is measured to all triangles. No vertex may
+/// be erased. At most `mostOfSupport` of these points count for what vertices rest on. Nothing if `progress` ended it.
+std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& cloud,
+  std::size_t most, std::size_t mostOfSupport, const Progress& progress,
+  const Executor& executor = Executor::sequential());
+
+/// These distances alone, ...
 PointDistances distancesTo(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
   const Executor& executor = Executor::sequential());
-/// The same; nothing if `progress` ended it.
-std::optional<PointDistances> distancesTo(const Mesh& mesh, const PointCloud& cloud,
-  std::size_t most, const Progress& progress, const Executor& executor = Executor::sequential());
-
-/// The same points with what is closest of all triangles. distancesTo() looks that up only where a point is far from the
-/// mesh: where layers are closer than edges are long, the closest vertex may be one of another piece.
-PointDistances exactly(PointDistances distances, const Mesh& mesh, const PointCloud& cloud,
-  const Executor& executor = Executor::sequential());
-
-/// The same only for points farther away than four median distances. Noise leaves few there, and a group among them is a
-/// loss.
-PointDistances withExactTail(PointDistances distances, const Mesh& mesh, const PointCloud& cloud,
-  const Executor& executor = Executor::sequential());
-
-/// The support of the vertices of such a mesh, by at most so many points.
+/// ... and the support alone.
 VertexSupport supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
   const Executor& executor = Executor::sequential());
-/// The same; nothing if `progress` ended it.
-std::optional<VertexSupport> supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
-  const Progress& progress, const Executor& executor = Executor::sequential());
+
+/// The same points, all of them measured to all triangles: where layers are closer than edges are long, the closest
+/// vertex may be one of another piece.
+PointDistances exactly(PointDistances distances, const Mesh& mesh, const PointCloud& cloud,
+  const Executor& executor = Executor::sequential());
 }

@@ -41,7 +41,7 @@ constexpr std::uint64_t FewestDistributedLater = 10000;
 constexpr int FidelityRoundsAgain = 2;
 
 /// So many points are explained if only their numbers are wanted. They are as many as the fit uses,
-/// as a part that is lost may have only a few points.
+/// as a part that is lost may have only a few points. Of a draft they are only those of the support.
 constexpr std::size_t FewestExplained = 10000;
 constexpr std::size_t PointsPerVertexExplained = 10;
 /// With so many points per vertex, almost every vertex rests on some.
@@ -404,7 +404,8 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
 }
 
 bool explainPoints(const PointCloud& cloud, const PointCloud* left, double leastPiece,
-  bool explainsAll, Reconstruction& result, const Progress& progress, const Executor& executor)
+  ExplainedPoints points, Reconstruction& result, const Progress& progress,
+  const Executor& executor)
 {
   ExplanationRules rules;
   rules.leastPiece = leastPiece;
@@ -412,34 +413,34 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
   {
     rules.isLeftOut = leftOutOf(cloud, *left);
   }
-  const auto mostOf = [&](std::size_t some) { return explainsAll ? cloud.points().size() : some; };
-  const std::size_t explained =
-    std::max(FewestExplained, PointsPerVertexExplained * result.surface.vertexCount());
-  std::optional<PointDistances> distances =
-    distancesTo(result.surface, cloud, mostOf(explained), partOf(progress, 0., 0.6), executor);
-  if (!distances || !progress(0.6))
+  const std::size_t all = cloud.points().size(), vertices = result.surface.vertexCount();
+  const auto mostOf = [&](std::size_t perVertex)
+  { return points == ExplainedPoints::All ? all : perVertex * vertices; };
+  const std::size_t perVertex =
+    points == ExplainedPoints::Few ? PointsPerVertexOfSupport : PointsPerVertexExplained;
+  std::optional<MeasuredPoints> measured =
+    measurePoints(result.surface, cloud, std::max(FewestExplained, mostOf(perVertex)),
+      mostOf(PointsPerVertexOfSupport), partOf(progress, 0., 0.9), executor);
+  if (!measured || !progress(0.9))
   {
     return false;
   }
-  result.explanation = explain(
-    cloud, withExactTail(*std::move(distances), result.surface, cloud, executor), rules, executor);
+  result.explanation = explain(cloud, std::move(measured->distances), rules, executor);
   confirmTears(result.surface, cloud, *result.explanation, executor);
   findLeftOut(cloud, rules.isLeftOut, *result.explanation);
   result.explanation->scatteredShare = scatteredShare(cloud, executor);
-  std::optional<VertexSupport> support = supportOf(result.surface, cloud,
-    mostOf(PointsPerVertexOfSupport * result.surface.vertexCount()), partOf(progress, 0.7, 1.),
-    executor);
-  if (!support || !progress(1.))
+  if (!progress(1.))
   {
     return false;
   }
   // An interruption leaves neither.
-  result.gaps = spannedGaps(result.surface, *support, cloud, result.explanation->asked, executor);
+  result.gaps =
+    spannedGaps(result.surface, measured->support, cloud, result.explanation->asked, executor);
   if (result.finish && !result.finish->isClean)
   {
-    result.noiseWebs = findNoiseWebs(result.surface, *support, cloud, executor);
+    result.noiseWebs = findNoiseWebs(result.surface, measured->support, cloud, executor);
   }
-  result.support = *std::move(support);
+  result.support = std::move(measured->support);
   return true;
 }
 }

@@ -43,21 +43,20 @@ std::vector<std::uint32_t> countPoints(
   const PointCloud& cloud, const VoxelGrid& grid, const Executor& executor)
 {
   const auto strides = grid.strides();
-  const Eigen::Vector3f first = grid.first.cast<float>();
+  const Vector4 first(grid.first);
   const auto inverse = float(1. / grid.width);
-  const auto voxelOf = [&](Vector4 point)
+  constexpr auto Begin = float(EmptyLayers);
+  const auto endOf = [&](std::size_t axis) { return float(grid.counts[axis] - EmptyLayers); };
+  const float endX = endOf(0), endY = endOf(1), endZ = endOf(2);
+  const std::size_t none = grid.size();
+  const auto voxelOf = [=](Vector4 point)
   {
-    std::size_t voxel = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const float place = (point.lanes[axis] - first[Eigen::Index(axis)]) * inverse + 0.5f;
-      if (!(place >= float(EmptyLayers) && place < float(grid.counts[axis] - EmptyLayers)))
-      {
-        return grid.size();
-      }
-      voxel += std::size_t(place) * strides[axis];
-    }
-    return voxel;
+    const Vector4 place = inverse * (point - first) + Vector4(0.5f, 0.5f, 0.5f);
+    const bool isWithin = place[0] >= Begin && place[1] >= Begin && place[2] >= Begin &&
+      place[0] < endX && place[1] < endY && place[2] < endZ;
+    const auto along = [&](int axis)
+    { return std::size_t(place[axis]) * strides[std::size_t(axis)]; };
+    return isWithin ? along(0) + along(1) + along(2) : none;
   };
   return countsInVoxels(cloud.points(), grid.size(), voxelOf, executor);
 }

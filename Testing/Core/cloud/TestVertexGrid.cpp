@@ -55,6 +55,10 @@ public:
   {
     return this->grid_.closest(sample, this->positions_);
   }
+  VertexIndex closest(Vector4 sample, VertexIndex near) const
+  {
+    return this->grid_.closest(sample, this->positions_, near);
+  }
   VertexIndex closestOfAll(Vector4 sample) const
   {
     VertexIndex best = NoVertex;
@@ -289,6 +293,8 @@ TEST(VertexGrid, LowestIndexWinsTie)
       grid.move(random.below(400), vertex(random));
       const Vector4 asked = sample(random);
       ASSERT_EQ(grid.closest(asked), grid.closestOfAll(asked)) << "cells of " << cellSize;
+      // From whichever vertex the search begins.
+      ASSERT_EQ(grid.closest(asked, random.below(400)), grid.closestOfAll(asked));
     }
   }
 }

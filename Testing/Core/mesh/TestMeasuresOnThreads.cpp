@@ -181,14 +181,13 @@ TEST(MeasuresOnThreads, Points)
   const PointCloud cloud(generateCloud(makeTorus(), options));
   const Mesh mesh = buildMesh(makeTorus(0.4, 96), cloud);
   const std::size_t some = 280000;
-  const PointDistances distances = withExactTail(distancesTo(mesh, cloud, some), mesh, cloud);
+  const PointDistances distances = distancesTo(mesh, cloud, some);
   const VertexSupport support = supportOf(mesh, cloud, some);
   for (const unsigned threads : CountsOfThreads)
   {
     SCOPED_TRACE(threads);
     const ThreadPool pool(threads);
-    const PointDistances others =
-      withExactTail(distancesTo(mesh, cloud, some, pool), mesh, cloud, pool);
+    const PointDistances others = distancesTo(mesh, cloud, some, pool);
     EXPECT_EQ(others.distances, distances.distances);
     EXPECT_EQ(others.isBeyondBoundary, distances.isBeyondBoundary);
     EXPECT_EQ(supportOf(mesh, cloud, some, pool).weights, support.weights);

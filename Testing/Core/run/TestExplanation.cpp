@@ -247,6 +247,19 @@ TEST(Explanation, Support)
   EXPECT_NEAR(sum, 20000., 20.);
 }
 
+// Promise: what vertices rest on is the same by some of the points that are measured as by these alone.
+TEST(Explanation, SupportBySome)
+{
+  const PointCloud cloud(sphere(20000));
+  const Mesh mesh = buildMesh(makeSphere(40), cloud);
+  const auto measured = measurePoints(mesh, cloud, All, 7000, [](double) { return true; });
+  ASSERT_TRUE(measured);
+  EXPECT_EQ(measured->distances.distances, distancesTo(mesh, cloud, All).distances);
+  const VertexSupport some = supportOf(mesh, cloud, 7000);
+  EXPECT_EQ(measured->support.weights, some.weights);
+  EXPECT_EQ(measured->support.pointsPerAsked, some.pointsPerAsked);
+}
+
 namespace
 {
 Reconstruction reconstructed(const PointCloud& cloud, std::uint64_t vertices)

@@ -160,7 +160,7 @@ TEST(TornParts, CloseLayersAreNotTorn)
   {
     const Eigen::Vector3d scale(radius, radius, radius);
     append(shells, scaled(makeSphere(), scale), { 0., 0., 0. });
-    TriangleMesh shell = scaled(makeSphere(5), scale);
+    TriangleMesh shell = scaled(makeSphere(4), scale);
     // Vertices do not lie one below the other.
     const Eigen::AngleAxisd turn(5. * radius, Eigen::Vector3d(1., 2., 3.).normalized());
     for (Eigen::Vector3d& point : shell.points)
@@ -174,7 +174,8 @@ TEST(TornParts, CloseLayersAreNotTorn)
   Reconstruction result;
   result.surface = buildMesh(coarse, cloud);
   ASSERT_TRUE(explainPoints(
-    cloud, nullptr, 0.0005, false, result, [](double) { return true; }, Executor::sequential()));
+    cloud, nullptr, 0.0005, ExplainedPoints::Some, result, [](double) { return true; },
+    Executor::sequential()));
   EXPECT_FALSE(result.explanation->torn.any());
   // Nor does it seem to pass points by.
   const PointDistances& told = result.explanation->asked;
