@@ -32,6 +32,12 @@ constexpr float PartOfNoise = 0.5f;
 constexpr float MediansInNoise = 3.f;
 constexpr float RimSpacingsInNoise = 2.f;
 constexpr std::size_t PointsAtRim = 16;
+/// A place is in a ring of points if so many are farther from it than the closest one, but by less than half. Points at
+/// random leave one place in e^18 so empty. The wall of a bore that the mesh spans is such a ring.
+constexpr std::size_t PointsInRing = 32;
+constexpr float WidthOfRing = 1.5f;
+/// ... unless a flat ring as wide has twice as many elsewhere: then the points are sparse there.
+constexpr float PartOfUsualRing = 0.5f;
 /// From there, the gap reaches as far as triangles are this part of that away from all points.
 constexpr float PartAtRim = 0.5f;
 /// The points at the rim of a gap have fewer neighbors, and larger spacings. Half of so many around
@@ -86,8 +92,10 @@ private:
 enum class Place : std::uint8_t
 {
   NearPoints,
+  Bare, ///< near points, but at a vertex that rests on none
   FarFromPoints,
-  WithinRim ///< of a gap, in noise
+  WithinRim, ///< of a gap, in noise
+  InRing     ///< of points
 };
 
 /// A patch of triangles that spans a gap.
@@ -109,6 +117,7 @@ public:
     , cloud_(cloud)
     , executor_(executor)
     , median_(median)
+    , onSurface_(onSurface)
     , isNoisy_(MediansOfGap * median > PartOfNoise * SpacingsOfGap * onSurface)
     , nearest_(cloud.points(), executor)
     , spacing_(nearest_, isNoisy_ ? onSurface : 0.f)
@@ -135,7 +144,7 @@ public:
         }
       });
     std::vector<Patch> patches;
-    for (const Place place : { Place::WithinRim, Place::FarFromPoints })
+    for (const Place place : { Place::InRing, Place::WithinRim, Place::FarFromPoints })
     {
       for (std::size_t t = 0; t < places_.size(); ++t)
       {
@@ -153,14 +162,22 @@ private:
   {
     const NearPoint closest = closestTo(t);
     const float distance = std::sqrt(closest.squaredDistance);
-    if (!(distance > MediansInNoise * median_ &&
-          distance > SpacingsOfGap * spacing_.at(closest.index)))
+    if (!(distance > MediansInNoise * median_))
     {
-      return Place::NearPoints;
+      return Place::Bare;
     }
-    return isNoisy_ && isBeyondRim(t)     ? Place::WithinRim
-      : distance > MediansOfGap * median_ ? Place::FarFromPoints
-                                          : Place::NearPoints;
+    if (distance > SpacingsOfGap * spacing_.at(closest.index))
+    {
+      if (isNoisy_ && isBeyondRim(t))
+      {
+        return Place::WithinRim;
+      }
+      if (distance > MediansOfGap * median_)
+      {
+        return Place::FarFromPoints;
+      }
+    }
+    return isInRing(t) ? Place::InRing : Place::Bare;
   }
 
   bool isBeyondRim(std::size_t t) const
@@ -173,6 +190,27 @@ private:
     return squared * others > RimSpacingsInNoise * RimSpacingsInNoise * disc;
   }
 
+  bool isInRing(std::size_t t) const
+  {
+    std::array<NearPoint, PointsInRing> found;
+    const std::size_t count = nearest_.find(centerOf(mesh_, triangles_.all()[t]), found);
+    constexpr float Outer = WidthOfRing * WidthOfRing;
+    const float squared = found[0].squaredDistance;
+    if (count < found.size() || !(found.back().squaredDistance < Outer * squared))
+    {
+      return false;
+    }
+    const float usual =
+      std::numbers::pi_v<float> * (Outer - 1.f) * squared / (onSurface_ * onSurface_);
+    // Repeated points count as one.
+    std::vector<float> inRing;
+    nearest_.forEachWithin(centerOf(mesh_, triangles_.all()[t]), WidthOfRing * std::sqrt(squared),
+      [&inRing](std::uint32_t, float other) { inRing.push_back(other); });
+    std::sort(inRing.begin(), inRing.end());
+    const auto different = float(std::unique(inRing.begin(), inRing.end()) - inRing.begin());
+    return different >= float(PointsInRing) && different > PartOfUsualRing * usual;
+  }
+
   NearPoint closestTo(std::size_t t) const
   {
     std::array<NearPoint, 1> found;
@@ -183,10 +221,15 @@ private:
   /// The triangles that are connected to this one, and as far in the gap.
   Patch patchFrom(std::uint32_t first)
   {
-    const bool isWithinRim = places_[first] == Place::WithinRim;
-    const float rim = isWithinRim ? PartAtRim * PartAtRim * closestTo(first).squaredDistance : 0.f;
-    const auto isInPatch = [&](std::uint32_t t) {
-      return places_[t] != Place::NearPoints || (isWithinRim && closestTo(t).squaredDistance > rim);
+    const bool isInRing = places_[first] == Place::InRing;
+    const bool hasRim = isInRing || places_[first] == Place::WithinRim;
+    const float rim = hasRim ? PartAtRim * PartAtRim * closestTo(first).squaredDistance : 0.f;
+    // A ring may be so narrow that half of its radius is nothing unusual.
+    const Place least = isInRing ? Place::Bare : Place::NearPoints;
+    const auto isInPatch = [&](std::uint32_t t)
+    {
+      return places_[t] > Place::Bare ||
+        (hasRim && places_[t] >= least && closestTo(t).squaredDistance > rim);
     };
     Patch patch;
     std::vector<std::uint32_t> open{ first };
@@ -217,6 +260,7 @@ private:
   const PointCloud& cloud_;
   const Executor& executor_;
   float median_;
+  float onSurface_;
   bool isNoisy_;
   NearestPoints nearest_;
   SpacingAtGap spacing_;

@@ -22,7 +22,7 @@ struct SpannedGap
 /// The patches of a mesh that span a gap of the cloud, the largest first. Their triangles have a
 /// vertex that rests on no point. Their centres are farther from all points than three times the
 /// spacing there, and than the noise; in noise, those beside them count, too, half as far away.
-/// Sparse parts of a surface are no gaps.
+/// Less is enough in a ring of points, such as the wall of a bore. Sparse parts of a surface are no gaps.
 /// `distances` are those of points to the mesh.
 std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& support,
   const PointCloud& cloud, const PointDistances& distances,

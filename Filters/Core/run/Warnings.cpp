@@ -122,9 +122,9 @@ void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud, WarningLi
   where += otherPlaces(gaps.size(), MostPlacesNamed);
   warnings.add(WarningTopic::GapIsSpanned,
     "The mesh spans gaps of the cloud: " + where +
-      ". The nearest points are farther away than three times their spacing, so the surface is a "
-      "guess. Scan these places, or remove the triangles there. If gaps are to be filled, use "
-      "--boundaries close.");
+      ". The points around are farther away than from each other, so the surface is a guess, or a "
+      "hole is closed there. Scan these places, use more vertices, or remove the triangles there. "
+      "If gaps are to be filled, use --boundaries close.");
 }
 
 /// The reason why triangles intersect, and the cure.

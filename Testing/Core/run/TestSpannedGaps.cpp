@@ -12,6 +12,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -19,15 +21,25 @@ namespace neuralmesh::testing
 {
 namespace
 {
+/// Points of the unit sphere.
+std::vector<Eigen::Vector3d> onSphere(std::size_t count, double noise = 0.)
+{
+  CloudOptions options;
+  options.count = count;
+  options.noise = noise;
+  return generateCloud(makeSphere(), options);
+}
+
 /// A mesh of the unit sphere over points of it, of which but a part is there within a distance of the pole.
 struct Pole
 {
   Pole(double radius, double part, double noise = 0.)
+    : Pole(onSphere(100000, noise), radius, part)
   {
-    CloudOptions options;
-    options.count = 100000;
-    options.noise = noise;
-    std::vector<Eigen::Vector3d> points = generateCloud(makeSphere(), options);
+  }
+
+  Pole(std::vector<Eigen::Vector3d> points, double radius, double part)
+  {
     std::mt19937 engine(3);
     std::erase_if(points,
       [&](const Eigen::Vector3d& point)
@@ -85,6 +97,25 @@ TEST(SpannedGaps, InNoise)
   EXPECT_FALSE(Pole(0.025, 0., Noise).isWarnedOf());
   EXPECT_FALSE(Pole(0.2, 0.1, Noise).isWarnedOf());
   EXPECT_FALSE(Pole(0.2, 1., Noise).isWarnedOf());
+}
+
+// A bore is told by the points of its wall, where a flat hole as narrow is not.
+TEST(SpannedGaps, AcrossABore)
+{
+  constexpr std::size_t Count = 5000;
+  constexpr double Radius = 0.13;
+  std::vector<Eigen::Vector3d> points = onSphere(Count);
+  EXPECT_FALSE(Pole(points, Radius, 0.).isWarnedOf());
+  // From the sphere inwards, as dense as on it.
+  constexpr double Depth = 0.4;
+  const auto onWall = std::size_t(0.5 * Radius * Depth * double(Count));
+  for (std::size_t i = 0; i < onWall; ++i)
+  {
+    const double angle = double(i) * std::numbers::phi * 2. * std::numbers::pi;
+    points.emplace_back(Radius * std::cos(angle), Radius * std::sin(angle),
+      0.99 - Depth * double(i) / double(onWall));
+  }
+  EXPECT_TRUE(Pole(points, 0.99 * Radius, 0.).isWarnedOf());
 }
 
 TEST(SpannedGaps, SparseIsNoGap)
