@@ -30,10 +30,12 @@ void RequireDistinctFiles(const std::vector<NamedFile>& files)
     for (auto other = files.begin(); other != one; ++other)
     {
       const bool areNamed = !one->Path.empty() && !other->Path.empty();
-      if (areNamed && (one->IsWritten || other->IsWritten) && IsSameFile(one->Path, other->Path))
+      const bool isTwice = one->Option == other->Option;
+      if (areNamed && (isTwice || one->IsWritten || other->IsWritten) &&
+        IsSameFile(one->Path, other->Path))
       {
-        throw UsageError(
-          one->Option + ": " + one->Path + " is the file of " + other->Option + ", too");
+        throw UsageError(one->Option + ": " + one->Path +
+          (isTwice ? " is given twice" : " is the file of " + other->Option + ", too"));
       }
     }
   }

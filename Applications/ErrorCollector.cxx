@@ -34,11 +34,12 @@ std::string PlainText(const char* vtkMessage)
   }
   return neuralmesh::oneLine(text, LongestMessage);
 }
-
-void Show(const std::string& warning)
-{
-  std::cerr << "neuralmesh: warning: " << warning << std::endl;
 }
+
+void ErrorCollector::Show(const std::string& warning)
+{
+  ErrorCollector::AnyShown = true;
+  std::cerr << "neuralmesh: warning: " << warning << std::endl;
 }
 
 void ErrorCollector::Execute(vtkObject* caller, unsigned long event, void* callData)
@@ -50,7 +51,6 @@ void ErrorCollector::Execute(vtkObject* caller, unsigned long event, void* callD
     {
       return;
     }
-    this->Warning = true;
     this->Shown.push_back(text);
     if (this->Deferring)
     {
@@ -58,7 +58,7 @@ void ErrorCollector::Execute(vtkObject* caller, unsigned long event, void* callD
     }
     else
     {
-      Show(text);
+      ErrorCollector::Show(text);
     }
   }
   else
@@ -82,7 +82,7 @@ bool ErrorCollector::IsHidden(const std::string& warning) const
 
 void ErrorCollector::ShowDeferredWarnings()
 {
-  std::for_each(this->DeferredWarnings.begin(), this->DeferredWarnings.end(), Show);
+  std::for_each(this->DeferredWarnings.begin(), this->DeferredWarnings.end(), ErrorCollector::Show);
   this->DeferredWarnings.clear();
 }
 

@@ -28,7 +28,8 @@ public:
   /** Empty if all that is known is that there was an error. */
   const std::string& GetMessage() const { return this->Message; }
 
-  bool HasWarning() const { return this->Warning; }
+  /** Whether any collector has shown a warning in this process. */
+  static bool HasShownWarning() { return ErrorCollector::AnyShown; }
 
   /** Keeps warnings back from now on, until they are asked for. */
   void DeferWarnings() { this->Deferring = true; }
@@ -40,8 +41,10 @@ public:
 private:
   bool IsHidden(const std::string& warning) const;
 
+  static void Show(const std::string& warning);
+
+  static inline bool AnyShown = false;
   bool Error = false;
-  bool Warning = false;
   std::string Message;
   bool Deferring = false;
   std::vector<std::string> DeferredWarnings;

@@ -216,8 +216,7 @@ int PrintEstimate(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructO
   return 0;
 }
 
-/** Returns whether there was a warning. */
-bool Learn(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions& options)
+void Learn(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions& options)
 {
   vtkNew<ErrorCollector> errors;
   errors->Observe(filter);
@@ -233,16 +232,15 @@ bool Learn(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions&
   filter->Update();
   bar->Clear();
   RequireResult(filter, *errors, options);
-  return errors->HasWarning();
 }
 
 /** The same, and where there is not enough memory says how much it takes. */
-bool LearnInMemory(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions& options)
+void LearnInMemory(vtkNeuralMesh* filter, vtkPointSet* points, const ReconstructOptions& options)
 {
   const double bytes = neuralmesh::estimatedBytes(PlanRun(filter, points));
   try
   {
-    return Learn(filter, points, options);
+    Learn(filter, points, options);
   }
   catch (const std::bad_alloc&)
   {
@@ -388,7 +386,7 @@ int Reconstruct(const ReconstructOptions& options)
   filter->KeepCheckpointOn(); // until the mesh is written
   vtkNew<Interruption> interruption;
   filter->AddObserver(vtkCommand::ProgressEvent, interruption);
-  const bool isWarned = LearnInMemory(filter, points, options);
+  LearnInMemory(filter, points, options);
   seconds.Learning = stopwatch.Lap();
 
   vtkPolyData* mesh = filter->GetOutput();
@@ -426,7 +424,7 @@ int Reconstruct(const ReconstructOptions& options)
   {
     return interruption->GetExitStatus();
   }
-  return options.Strict && isWarned ? WarnedStatus : 0;
+  return options.Strict && ErrorCollector::HasShownWarning() ? WarnedStatus : 0;
 }
 }
 

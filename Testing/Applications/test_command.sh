@@ -55,6 +55,8 @@ test_parameters()
 # Promise: exit status 2 and a message for wrong use, and nothing is written.
 test_wrong_use()
 {
+  expect 2 "$neuralmesh" reconstruct cloud.xyz ./cloud.xyz mesh.ply
+  grep -q '^neuralmesh: INPUT: ./cloud.xyz is given twice$' err || { cat err; fail "it counts twice"; }
   local arguments
   while read -r arguments; do
     # shellcheck disable=SC2086
@@ -66,8 +68,8 @@ nonsense
 reconstruct
 reconstruct cloud.xyz
 reconstruct cloud.xyz mesh.ply mesh.doc
-reconstruct cloud.xyz cloud.xyz mesh.ply --in-place
-reconstruct cloud.xyz cloud.xyz mesh.ply --raw float
+reconstruct cloud.xyz again.xyz mesh.ply --in-place
+reconstruct cloud.xyz again.xyz mesh.ply --raw float
 reconstruct cloud.xyz mesh.ply --vertices 3
 reconstruct cloud.xyz mesh.ply --vertices many
 reconstruct cloud.xyz mesh.ply --seed -1
@@ -622,7 +624,8 @@ test_columns()
   cmp cloud.xyz.ply other.csv.ply || fail "another mesh with other names"
   [ ! -s named.csv.err ] || { cat named.csv.err; fail "names are warned of"; }
   [ "$(cat other.csv.err)" = "neuralmesh: warning: other.csv: no columns are named x, y and z; \
-the program reads the first three" ] || { cat other.csv.err; fail "another warning"; }
+the program reads the first three. Name the columns of the coordinates x, y and z." ] ||
+    { cat other.csv.err; fail "another warning"; }
 }
 
 # Promise: a dry run says what it will take, and writes nothing.

@@ -74,6 +74,9 @@ test_strict()
   [ -s mesh.ply ] || fail "there is no mesh"
   [ ! -s out ] || fail "there is something on stdout"
   expect 0 "$neuralmesh" reconstruct few.xyz mesh.ply --vertices 400 --strict
+  # So is one of a reader, before anything is learnt.
+  (echo Easting Northing Height; cat few.xyz) > named.xyz
+  expect 3 "$neuralmesh" reconstruct named.xyz mesh.ply --vertices 400 --strict
 }
 
 # Promise: holes are filled up to a length, and pieces dropped below a part.

@@ -102,6 +102,7 @@ class Alone(CommandTest):
             (["reconstruct", "ball.xyz", "b.ply", "--up", "0,0,0"], 2, "is no direction"),
             (["reconstruct", "ball.xyz", "b.ply", "--shift", "1,2"], 2, "neither auto nor X,Y,Z"),
             (["reconstruct", "ball.xyz", "ball.xyz"], 2, "is the file of INPUT, too"),
+            (["reconstruct", "ball.xyz", "./ball.xyz", "b.ply"], 2, "./ball.xyz is given twice"),
             (["reconstruct", "ball.xyz", "b.ply", "--features"], 2, "must be a .vtp or .vtk"),
             (["reconstruct", "ball.xyz", "b.ply", "--uncertainty"], 2, "must be a .vtp or .vtk"),
             (["reconstruct", "ball.xyz", "b.vtp", "--uncertainty", "--set", "FitRounds=0"], 2,
@@ -163,6 +164,12 @@ class Alone(CommandTest):
             self.assertEqual(status, wanted)
             self.assertIn("neuralmesh: warning: The mesh is finer than its data", errors)
         self.assertEqual(len(neuralmesh.read(self.folder / "c.ply").points), 3000)
+        names = "Easting Northing Height\n"
+        (self.folder / "named.xyz").write_text(names + (self.folder / "ball.xyz").read_text())
+        _, errors, status = self.run_command(
+            "reconstruct", "named.xyz", "c.ply", "--vertices", 500, "--strict"
+        )
+        self.assertEqual(status, 3, errors)
 
     # Promise: after Ctrl-C the mesh learnt so far is written, the status is 130, and a checkpoint is there
     # from which the same command goes on. SIGTERM does the same, and the status is 143.

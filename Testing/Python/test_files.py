@@ -184,6 +184,7 @@ class Read(FileTest):
             "cut.npy": array[:-8],
             "text.npy": "no array",
             "a.doc": "",
+            "a.xyz.gz": "",
             "a.las": "LASF",
             "a.e57": "ASTM-E57",
             "a.vtp": "<VTKFile",

@@ -166,6 +166,10 @@ std::uint64_t PlyElement::placeOf(const PlyProperty& property) const
 PlyHeader readPlyHeader(std::string_view beginning)
 {
   constexpr std::string_view lastLine = "\nend_header";
+  if (beginning.empty())
+  {
+    throw std::runtime_error("there is nothing in it");
+  }
   if (!beginning.starts_with("ply\n") && !beginning.starts_with("ply\r\n"))
   {
     throw std::runtime_error("this is no .ply with lines as they should be");

@@ -17,6 +17,20 @@ namespace neuralmesh
 {
 namespace
 {
+/// What other systems write as text is told apart from a line that is wrong.
+void requireText(std::string_view line)
+{
+  if (line.find('\0') != std::string_view::npos)
+  {
+    throw std::runtime_error("this is UTF-16 or no text; save it as text in UTF-8");
+  }
+  const std::size_t end = line.find_last_not_of(" \t\r");
+  if (end != std::string_view::npos && line.find('\r') < end)
+  {
+    throw std::runtime_error("its lines end with CR alone; save it with LF or CRLF");
+  }
+}
+
 bool isComment(std::string_view word) { return word.starts_with('#') || word.starts_with("//"); }
 
 class PointTextReader
@@ -54,6 +68,7 @@ FileContents PointTextReader::read()
   while (file_.nextLine())
   {
     std::string_view line = file_.line();
+    requireText(line);
     const std::string_view first = takeWord(line);
     if (isComment(first))
     {
@@ -72,11 +87,14 @@ FileContents PointTextReader::read()
   }
   if (double(contents_.size()) < announced_)
   {
-    throw file_.error("damaged: it ends before its last point");
+    throw file_.error("damaged: it ends before its last point: " + textOf(announced_) +
+      " are announced, and " + std::to_string(contents_.size()) +
+      " are there; if none is missing, correct the number");
   }
   if (hasNames_ && columns_.count == 0 && contents_.size() > 0)
   {
-    contents_.remark = "no columns are named x, y and z; the program reads the first three";
+    contents_.remark = "no columns are named x, y and z; the program reads the first three. Name "
+                       "the columns of the coordinates x, y and z.";
   }
   return std::move(contents_);
 }

@@ -120,6 +120,16 @@ std::string conversionOf(const std::string& path)
       "1), '%.6f') for i in n for s in [e.read_scan(i, ignore_missing_fields=True)]]\" " +
       shellWord(path) + " " + shellWord(stem);
   }
+  if (extension == ".gz" || extension == ".bz2" || extension == ".xz" || extension == ".zip" ||
+    extension == ".7z")
+  {
+    return "unpack it first: " + extension + " files are packed";
+  }
+  if (extension == ".npy")
+  {
+    return extension + " files are read by Python: neuralmesh.reconstruct(numpy.load(" +
+      shellWord(path) + ")); or save text by numpy.savetxt";
+  }
   return "";
 }
 }

@@ -91,6 +91,22 @@ TEST_F(PointText, ValuesWithoutNames)
   EXPECT_EQ(contentsOf("a.csv", "x,y,z,id\n1.25,2.5,3.75\n-4,5.5,6,\n").doubles, TwoPoints);
 }
 
+// Promise: text of other systems, which would be read as other points or as none, is refused with a cure,
+// and a count of points that is too high is told with the one that is right.
+TEST_F(PointText, RefusalsSayWhatToDo)
+{
+  const std::string wide("\xFF\xFE"
+                         "1\0 \0"
+                         "2\0 \0"
+                         "3\0\n\0",
+    14);
+  EXPECT_NE(refusal("a.csv", wide).find("save it as text in UTF-8"), std::string::npos);
+  EXPECT_NE(refusal("a.csv", "1 2 3\r4 5 6\r").find("save it with LF"), std::string::npos);
+  EXPECT_EQ(contentsOf("a.csv", "\r\n1.25 2.5 3.75\r \n-4 5.5 6\r\r\n").doubles, TwoPoints);
+  const std::string fewer = refusal("a.pts", "3\n1 2 3\n4 5 6\n");
+  EXPECT_NE(fewer.find("3 are announced, and 2 are there"), std::string::npos) << fewer;
+}
+
 // Promise: decimal commas are read as such where something else sets numbers apart.
 TEST_F(PointText, DecimalCommas)
 {

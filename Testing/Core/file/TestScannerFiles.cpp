@@ -255,6 +255,8 @@ TEST_F(ScannerFiles, ConversionsAreTold)
     EXPECT_NE(message.find("python3 -c"), std::string::npos) << message;
   }
   EXPECT_NE(conversionOf("it's.e57").find("'it'\\''s.e57'"), std::string::npos);
+  EXPECT_NE(refusal("a.npy", "x").find("numpy.load('"), std::string::npos);
+  EXPECT_NE(refusal("a.xyz.gz", "x").find("unpack it first"), std::string::npos);
   EXPECT_EQ(conversionOf("a.ply"), "");
   EXPECT_NE(refusal("a.doc", "0 0 0\n").find("unknown extension"), std::string::npos);
   EXPECT_TRUE(canReadFile("a.PCD"));

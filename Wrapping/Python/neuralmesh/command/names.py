@@ -19,6 +19,10 @@ OUTPUTS = (".vtp", ".ply", ".obj", ".stl", ".glb", ".off", ".vtk")
 _MESHES = (".ply", ".vtp", ".vtk", ".obj", ".stl", ".off")
 
 
+# The warnings of files that the command has printed.
+told_warnings: list[str] = []
+
+
 @dataclass
 class NamedFile:
     """A file, and the option that names it."""
@@ -29,12 +33,14 @@ class NamedFile:
 
 
 def require_distinct(named: list[NamedFile]) -> None:
-    """UsageError where a file that is written is that of another option, too."""
+    """UsageError where a file that is written is that of another option, too, or one is given twice."""
     for i, one in enumerate(named):
         for other in named[:i]:
-            is_written = one.is_written or other.is_written
-            if one.path and other.path and is_written and _is_same(one.path, other.path):
-                raise UsageError(f"{one.option}: {one.path} is the file of {other.option}, too")
+            is_twice = one.option == other.option
+            counts = is_twice or one.is_written or other.is_written
+            if one.path and other.path and counts and _is_same(one.path, other.path):
+                what = "given twice" if is_twice else f"the file of {other.option}, too"
+                raise UsageError(f"{one.option}: {one.path} is {what}")
 
 
 def _is_same(one: str, other: str) -> bool:
@@ -76,6 +82,7 @@ def read_points(path: str) -> Mesh:
         points = files.read(path)
     for warning in told:
         print(f"neuralmesh: warning: {warning.message}", file=sys.stderr)
+        told_warnings.append(str(warning.message))
     return points
 
 

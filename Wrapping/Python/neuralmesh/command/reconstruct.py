@@ -24,7 +24,7 @@ from .estimate import print_estimate
 from .inputs import read_inputs
 from .names import (
     NamedFile, read_mesh, read_points, require_distinct, require_explanation, require_lines,
-    require_output,
+    require_output, told_warnings,
 )  # fmt: skip
 from .parsing import UsageError, three_numbers, words_of
 from .progress_bar import ProgressBar
@@ -37,6 +37,7 @@ _OF_SIGNALS = 128  # and the number of the signal that has ended the learning
 
 def run(arguments: Sequence[str]) -> int:
     """Make a triangle mesh from a point cloud; the exit status."""
+    told_warnings.clear()
     options = parser().parse(arguments)
     options.inputs, options.output = _names(options)
     mesh = _filter_of(options)
@@ -90,7 +91,7 @@ def run(arguments: Sequence[str]) -> int:
             _print_shift(stored, options.output)
     if reason == "cancelled":
         return _OF_SIGNALS + (is_interrupted() or signal.SIGINT)
-    return _WARNED if options.strict and outcome.warnings else 0
+    return _WARNED if options.strict and (told_warnings or outcome.warnings) else 0
 
 
 def _require_sound_size(options: argparse.Namespace, mesh: Any) -> None:

@@ -174,6 +174,8 @@ def _reader_of(path: str) -> Callable[[str], Mesh]:
         from .lidar_files import read_e57, read_las
 
         return read_las if extension in _BY_LASPY else read_e57
+    if extension in (".gz", ".bz2", ".xz", ".zip", ".7z"):
+        raise ValueError(f"{path}: unpack it first: {extension} files are packed")
     raise ValueError(f"{path}: unknown extension; readable are {' '.join(READABLE)}")
 
 
