@@ -198,9 +198,9 @@ private:
   TriangleSamples samples_;
   double scale_; ///< mean squared distance of a sample
   ChangedVertices changed_;
-  std::vector<float> counts_;    ///< of the samples on the triangles of each vertex
-  std::vector<float> areas_;     ///< of these
-  std::vector<float> densities_; ///< usual samples on an area there
+  std::vector<float> counts_;         ///< of the samples on the triangles of each vertex
+  std::vector<float> areas_;          ///< of these
+  std::vector<float> densities_;      ///< usual samples on an area there
   std::vector<std::uint32_t> onStar_; ///< samples
   SampleBundle bundle_;               ///< of these
   std::vector<TriangleDistances> distances_;

@@ -11,7 +11,8 @@ namespace neuralmesh
 /// triangles can be left. Samples do not pull at it, as all of them lie nearer to other triangles. A vertex is collapsed
 /// into a neighbour if that takes away area that should have samples, and if samples get no farther from the mesh. Beside
 /// a neighbour without samples there is a gap that was closed, and vertices stay. Meant for rounds in which vertices have
-/// settled: before, a web may still sink into a slit whose samples lie below it.
+/// settled: before, a web may still sink into a slit whose samples lie below it. Of an open scan, what was not seen has
+/// few samples, too.
 ChangedVertices collapseBareFolds(Mesh& mesh, const PlacedSamples& samples, double variance,
   const Executor& executor = Executor::sequential());
 }

@@ -107,7 +107,7 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   }
   if (!keepsPlaces_)
   {
-    if (!distributes)
+    if (!distributes && !mesh_.isOpen(executor_))
     {
       fit_.follow(collapseBareFolds(mesh_, fit_.placedSamples(), fit_.variance(), executor_));
     }

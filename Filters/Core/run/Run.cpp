@@ -246,11 +246,8 @@ Reconstruction Run::describe(LearntRun run, std::uint64_t asked, ProgressPart pa
     request_.hints, result, describing, interruptible_);
   const auto explains = [&]
   {
-    const ExplainedPoints points = request_.explainsAll ? ExplainedPoints::All
-      : request_.parameters.fidelity == Fidelity::Draft ? ExplainedPoints::Few
-                                                        : ExplainedPoints::Some;
     return explainPoints(request_.cloud, cleaned_ ? &*cleaned_ : nullptr,
-      request_.parameters.keepPieces, points, result, describing, interruptible_);
+      request_.parameters.keepPieces, request_.explainsAll, result, describing, interruptible_);
   };
   if (isWhole && !unlessInterrupted(explains))
   {

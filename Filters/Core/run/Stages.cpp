@@ -41,7 +41,7 @@ constexpr std::uint64_t FewestDistributedLater = 10000;
 constexpr int FidelityRoundsAgain = 2;
 
 /// So many points are explained if only their numbers are wanted. They are as many as the fit uses,
-/// as a part that is lost may have only a few points. Of a draft they are only those of the support.
+/// as a part that is lost may have only a few points.
 constexpr std::size_t FewestExplained = 10000;
 constexpr std::size_t PointsPerVertexExplained = 10;
 /// With so many points per vertex, almost every vertex rests on some.
@@ -404,8 +404,7 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
 }
 
 bool explainPoints(const PointCloud& cloud, const PointCloud* left, double leastPiece,
-  ExplainedPoints points, Reconstruction& result, const Progress& progress,
-  const Executor& executor)
+  bool explainsAll, Reconstruction& result, const Progress& progress, const Executor& executor)
 {
   ExplanationRules rules;
   rules.leastPiece = leastPiece;
@@ -413,14 +412,11 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
   {
     rules.isLeftOut = leftOutOf(cloud, *left);
   }
-  const std::size_t all = cloud.points().size(), vertices = result.surface.vertexCount();
-  const auto mostOf = [&](std::size_t perVertex)
-  { return points == ExplainedPoints::All ? all : perVertex * vertices; };
-  const std::size_t perVertex =
-    points == ExplainedPoints::Few ? PointsPerVertexOfSupport : PointsPerVertexExplained;
-  std::optional<MeasuredPoints> measured =
-    measurePoints(result.surface, cloud, std::max(FewestExplained, mostOf(perVertex)),
-      mostOf(PointsPerVertexOfSupport), partOf(progress, 0., 0.9), executor);
+  const std::size_t vertices = result.surface.vertexCount();
+  const auto mostOf = [&](std::size_t some) { return explainsAll ? cloud.points().size() : some; };
+  std::optional<MeasuredPoints> measured = measurePoints(result.surface, cloud,
+    mostOf(std::max(FewestExplained, PointsPerVertexExplained * vertices)),
+    mostOf(PointsPerVertexOfSupport * vertices), partOf(progress, 0., 0.9), executor);
   if (!measured || !progress(0.9))
   {
     return false;

@@ -99,19 +99,11 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
   const OrientationHints& hints, Reconstruction& result, const Progress& progress,
   const Executor& executor = Executor::sequential());
 
-/// Of which points of a cloud a user learns why they are off the mesh. Some are ten a vertex, few are four.
-enum class ExplainedPoints
-{
-  Few,
-  Some,
-  All
-};
-
-/// Adds to `result` an explanation of these points of the cloud. `left` are the
+/// Adds to `result` an explanation of the points of the cloud, of all or of some. `left` are the
 /// points without clusters of outliers; it is null if there are no clusters. A piece with less than
 /// the part `leastPiece` of the points is small. Returns false if `progress` ended it: then a part
 /// of the explanation is missing.
 bool explainPoints(const PointCloud& cloud, const PointCloud* left, double leastPiece,
-  ExplainedPoints points, Reconstruction& result, const Progress& progress,
+  bool explainsAll, Reconstruction& result, const Progress& progress,
   const Executor& executor = Executor::sequential());
 }

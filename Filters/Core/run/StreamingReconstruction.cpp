@@ -286,8 +286,8 @@ Reconstruction StreamingReconstruction::mesh(
   describe(std::move(learnt), *cloud_, isMeasured ? &all : nullptr, allHints, result, describing);
   if (isMeasured &&
     (!result.quality ||
-      !explainPoints(all, withClusters_ ? &*cloud_ : nullptr, parameters_.keepPieces,
-        ExplainedPoints::Some, result, describing)))
+      !explainPoints(all, withClusters_ ? &*cloud_ : nullptr, parameters_.keepPieces, false, result,
+        describing)))
   {
     result.stopReason = StopReason::Cancelled;
     result.quality.reset();

@@ -174,8 +174,7 @@ TEST(TornParts, CloseLayersAreNotTorn)
   Reconstruction result;
   result.surface = buildMesh(coarse, cloud);
   ASSERT_TRUE(explainPoints(
-    cloud, nullptr, 0.0005, ExplainedPoints::Some, result, [](double) { return true; },
-    Executor::sequential()));
+    cloud, nullptr, 0.0005, false, result, [](double) { return true; }, Executor::sequential()));
   EXPECT_FALSE(result.explanation->torn.any());
   // Nor does it seem to pass points by.
   const PointDistances& told = result.explanation->asked;
