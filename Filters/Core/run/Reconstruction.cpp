@@ -31,8 +31,8 @@ constexpr std::uint64_t MostLearntForThinParts = 100000;
 constexpr std::uint64_t PointsToHoldThinParts = 5;
 /// A part of all points: a coarse mesh leaves some unexplained beside its bends.
 constexpr double LeastDifferenceOfUnexplained = 0.005;
-/// What is clearly closer has a residual this factor smaller.
-constexpr double TimesOfClearlyCloser = 1.2;
+/// Residuals within this factor are a draw: a few points at creases make most of a residual.
+constexpr double TimesOfDraw = 1.2;
 /// Of the triangles: so few slivers are none.
 constexpr double FewSlivers = 0.0002;
 
@@ -99,9 +99,9 @@ bool isCloser(const Reconstruction& first, const Reconstruction& second, std::ui
 }
 
 /// Whether a mesh that was refined beside its creases is better than one that has learnt all its
-/// vertices. It has to be closer, as it is less regular and coarser in bends. With more slivers it has
-/// to be clearly closer. With more warnings it loses: the coarser mesh may have lost thin or small
-/// parts.
+/// vertices. It has to be closer, as it is less regular and coarser in bends. With fewer warnings it
+/// wins a draw; with more it loses: the coarser mesh may have lost thin or small parts. With more
+/// slivers it has to be clearly closer.
 bool isBetterRefined(const Reconstruction& refined, const Reconstruction& learnt)
 {
   if (!refined.finish || !refined.quality || !learnt.quality ||
@@ -113,8 +113,10 @@ bool isBetterRefined(const Reconstruction& refined, const Reconstruction& learnt
   const SurfaceReport& surface = refined.quality->surface;
   const bool hasMoreSlivers = surface.slivers > learnt.quality->surface.slivers &&
     double(surface.slivers) > FewSlivers * double(surface.triangles);
-  return isCloser(
-    refined, learnt, learnt.surface.vertexCount(), hasMoreSlivers ? 1. / TimesOfClearlyCloser : 1.);
+  const double times = hasMoreSlivers                  ? 1. / TimesOfDraw
+    : refined.warnings.size() < learnt.warnings.size() ? TimesOfDraw
+                                                       : 1.;
+  return isCloser(refined, learnt, learnt.surface.vertexCount(), times);
 }
 }
 
