@@ -279,7 +279,11 @@ std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& 
   {
     return std::nullopt;
   }
-  findExactly(mesh, cloud, MediansToMeasureExactly * median, pieceOf, executor, result);
+  if (count > 0)
+  {
+    const float least = MediansToMeasureExactly * medianOf(result.distances, executor);
+    findExactly(mesh, cloud, least, pieceOf, executor, result);
+  }
   const double pointsOfEach =
     double(cloud.points().size()) / double(std::max<std::size_t>(1, ofSupport));
   return MeasuredPoints{ std::move(result), sum.result(pointsOfEach, executor) };

@@ -151,34 +151,65 @@ TEST(LostParts, AStackOfPlatesInOneBox)
   EXPECT_EQ(warningsBy(makeSphere(40), noisy), std::vector<std::string>());
 }
 
+namespace
+{
+TriangleMesh fourSpheres(double gap, unsigned resolution)
+{
+  TriangleMesh spheres;
+  for (int layer = 0; layer < 4; ++layer)
+  {
+    const double radius = 1. - layer * gap;
+    TriangleMesh sphere = makeSphere(resolution);
+    // Vertices do not lie one below the other.
+    const Eigen::AngleAxisd turn(5. * radius, Eigen::Vector3d(1., 2., 3.).normalized());
+    for (Eigen::Vector3d& point : sphere.points)
+    {
+      point = turn * (radius * point);
+    }
+    append(spheres, sphere);
+  }
+  return spheres;
+}
+
+/// Four spheres within each other, so far apart, and a coarse mesh of them.
+struct CloseLayers
+{
+  CloseLayers(double gap, unsigned resolution)
+    : coarse(fourSpheres(gap, resolution))
+    , cloud(pointsOn(fourSpheres(gap, 64), 30000))
+  {
+  }
+
+  Reconstruction explained() const
+  {
+    Reconstruction result;
+    result.surface = buildMesh(coarse, cloud);
+    EXPECT_TRUE(explainPoints(
+      cloud, nullptr, 0.0005, false, result, [](double) { return true; }, Executor::sequential()));
+    return result;
+  }
+
+  TriangleMesh coarse;
+  PointCloud cloud;
+};
+}
+
 // Of coarse layers that are close, the closest vertex may be one of another layer: that tears none. It is told of the
 // closest vertices alone.
 TEST(TornParts, CloseLayersAreNotTorn)
 {
-  TriangleMesh shells, coarse;
-  for (const double radius : { 1., 0.9, 0.8, 0.7 })
-  {
-    const Eigen::Vector3d scale(radius, radius, radius);
-    append(shells, scaled(makeSphere(), scale), { 0., 0., 0. });
-    TriangleMesh shell = scaled(makeSphere(4), scale);
-    // Vertices do not lie one below the other.
-    const Eigen::AngleAxisd turn(5. * radius, Eigen::Vector3d(1., 2., 3.).normalized());
-    for (Eigen::Vector3d& point : shell.points)
-    {
-      point = turn * point;
-    }
-    append(coarse, shell, { 0., 0., 0. });
-  }
-  const PointCloud cloud(pointsOn(shells, 30000));
-  EXPECT_TRUE(explainedBy(coarse, cloud).torn.any());
-  Reconstruction result;
-  result.surface = buildMesh(coarse, cloud);
-  ASSERT_TRUE(explainPoints(
-    cloud, nullptr, 0.0005, false, result, [](double) { return true; }, Executor::sequential()));
-  EXPECT_FALSE(result.explanation->torn.any());
-  // Nor does it seem to pass points by.
+  const CloseLayers layers(0.03, 8);
+  EXPECT_TRUE(explainedBy(layers.coarse, layers.cloud).torn.any());
+  EXPECT_FALSE(layers.explained().explanation->torn.any());
+}
+
+// Nor does such a mesh seem to pass points by.
+TEST(PassedBy, NotByCloseLayers)
+{
+  const CloseLayers layers(0.1, 5);
+  const Reconstruction result = layers.explained();
   const PointDistances& told = result.explanation->asked;
-  const PointDistances exact = exactly(told, result.surface, cloud);
+  const PointDistances exact = exactly(told, result.surface, layers.cloud);
   const float least = 4.1f * medianOf(told.distances);
   for (std::size_t i = 0; i < told.distances.size(); ++i)
   {
