@@ -274,7 +274,7 @@ TEST_F(PointFiles, RefusesHostileFiles)
     { "other.ply", "no ply", "no .ply" },
     { "none.ply", "ply\nformat binary_little_endian 1.0\nelement face 0\nend_header\n",
       "no vertices" },
-    { "empty.ply", "", "no .ply" },
+    { "empty.ply", "", "nothing in it" },
     { "empty.vtp", "", "no raw" },
     { "short.vtp", vtp(good.substr(0, 100), 9).substr(0, 400), "ends before" },
     { "size.vtp", vtp(bytesOf(std::uint64_t(109)) + rawPoints<float>(9), 9), "as many points" },
