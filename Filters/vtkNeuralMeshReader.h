@@ -52,8 +52,9 @@ public:
   static bool CanReadFile(VTK_FILEPATH const char* name);
 
   /**
-   * What to do with a file that libraries of Python read, by its extension: for .las, .laz and .e57 a line
-   * with a command that makes text of it; else an empty text.
+   * What to do with a file that is not read, by its extension, in one line: for .las, .laz and .e57 a
+   * command that makes text of it, for .npy a call of Python, and that a packed file is unpacked first.
+   * Else an empty text.
    */
   static std::string GetConversion(VTK_FILEPATH const char* name);
 

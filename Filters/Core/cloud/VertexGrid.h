@@ -56,7 +56,8 @@ public:
   /// those that the grid was told of. NoVertex if the grid is empty.
   VertexIndex closest(Vector4 sample, std::span<const Vector4> positions) const;
 
-  /// The same, and faster where `near` is closer than the width of a few cells and the sample is in an empty one.
+  /// The same, and faster where `near`, one that the grid was told of, is closer than the width of a few cells and the
+  /// sample is in an empty one.
   VertexIndex closest(Vector4 sample, std::span<const Vector4> positions, VertexIndex near) const;
 
   /// The same for all samples, each of which finds in the cache what the one before it has used if

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -87,7 +89,7 @@ FileContents PointTextReader::read()
   }
   if (double(contents_.size()) < announced_)
   {
-    throw file_.error("damaged: it ends before its last point: " + textOf(announced_) +
+    throw file_.error("damaged: it ends before its last point: " + wholeTextOf(announced_) +
       " are announced, and " + std::to_string(contents_.size()) +
       " are there; if none is missing, correct the number");
   }

@@ -17,7 +17,7 @@ FileContents readFile(const std::string& path);
 /// Whether readFile() knows the extension of a path.
 bool canReadFile(const std::string& path);
 
-/// What to do with a file that other libraries read: .las, .laz and .e57; empty for other
-/// extensions. One line, with a command that makes text of it.
+/// What to do with a file that readFile() does not read, in one line: for .las, .laz and .e57 a command that makes text of
+/// it, for .npy a call of Python, and that a packed file is unpacked first. Empty for other extensions.
 std::string conversionOf(const std::string& path);
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace neuralmesh
 {
@@ -73,4 +75,13 @@ bool takeNumbers(std::string_view& line, std::size_t count, double* numbers)
 std::string textOf(double number) { return shortestText(number); }
 
 std::string textOf(float number) { return shortestText(number); }
+
+std::string wholeTextOf(double number)
+{
+  constexpr std::size_t MostDigits = std::numeric_limits<double>::max_exponent10 + 1;
+  std::array<char, MostDigits + 1> text{};
+  const auto end =
+    std::to_chars(text.begin(), text.end(), std::trunc(number), std::chars_format::fixed, 0);
+  return { text.begin(), end.ptr };
+}
 }

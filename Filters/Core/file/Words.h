@@ -24,4 +24,6 @@ bool takeNumbers(std::string_view& line, std::size_t count, double* numbers);
 /// The shortest text that reads as the number.
 std::string textOf(double number);
 std::string textOf(float number);
+/// The whole part of a number, without an exponent.
+std::string wholeTextOf(double number);
 }

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/BareFolds.h"
 
+#include "fit/FanFolds.h"
 #include "fit/SampleBundle.h"
 #include "mesh/RingMeans.h"
+#include "mesh/SelfIntersections.h"
+#include "mesh/TriangleDistances.h"
 #include "mesh/TriangleShape.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace neuralmesh
@@ -19,9 +24,9 @@ constexpr int RingsOfDensity = 6;
 /// missing.
 constexpr float MostOfUsual = 0.6f;
 constexpr float FewestMissing = 4.f;
-/// Cosine of the angle between two normals from which on the surface is folded.
+/// The surface is folded where the cosine between two normals is smaller.
 constexpr float MostCosineOfFold = 0.3f;
-/// So many samples would lie on the area that a collapse takes away.
+/// A collapse takes away the area of so many samples.
 constexpr double LeastSamplesOfArea = 1.5;
 /// Samples may get farther by so many mean squared distances, all together.
 constexpr double MostFarther = 2.;
@@ -48,7 +53,8 @@ public:
     std::vector<std::uint8_t> isLocked(mesh_.indexEnd());
     for (const VertexIndex v : bareVertices())
     {
-      const VertexIndex kept = isLocked[v] == 0 ? bestNeighbor(v) : NoVertex;
+      // A collapse near by may have ended the fold.
+      const VertexIndex kept = isLocked[v] == 0 && isFolded(v) ? bestNeighbor(v) : NoVertex;
       if (kept == NoVertex)
       {
         continue;
@@ -125,15 +131,45 @@ private:
       {
         return true;
       }
-      const Ring& around = mesh_.ring(a);
-      const VertexIndex beyond = around[around.before(around.find(b))];
-      if (!mesh_.isBoundaryEdge(a, b) &&
-        cosineBetween(normal, normalOf(a, beyond, b)) < MostCosineOfFold)
+      if (cosineBeyond(normal, a, b, v) < MostCosineOfFold)
       {
         return true;
       }
     }
     return false;
+  }
+
+  /// Between a normal and that of the triangle beyond an edge, whose triangle on this side has the corner `inner`.
+  float cosineBeyond(Vector4 normal, VertexIndex a, VertexIndex b, VertexIndex inner) const
+  {
+    if (mesh_.isBoundaryEdge(a, b))
+    {
+      return 1.f;
+    }
+    const Edge opposite = oppositeTo(mesh_, { a, b });
+    const VertexIndex beyond = opposite[0] == inner ? opposite[1] : opposite[0];
+    return cosineBetween(normal, normalOf(a, beyond, b));
+  }
+
+  /// Whether the triangles that come out turn over, once the vertex is one with the neighbour in `slot`.
+  bool foldsInto(VertexIndex v, unsigned slot) const
+  {
+    const Ring& ring = mesh_.ring(v);
+    const VertexIndex kept = ring[slot];
+    Vector4 last{};
+    for (unsigned steps = 1; steps + 1 < ring.size(); ++steps)
+    {
+      const VertexIndex a = ring[ring.after(slot, steps)], b = ring[ring.after(slot, steps + 1)];
+      const Vector4 normal = normalOf(kept, a, b);
+      const float toLast =
+        steps == 1 ? cosineBeyond(normal, kept, a, v) : cosineBetween(normal, last);
+      if (std::min(toLast, cosineBeyond(normal, a, b, v)) < CosineOfFanFold)
+      {
+        return true;
+      }
+      last = normal;
+    }
+    return cosineBeyond(last, ring[ring.before(slot)], kept, v) < CosineOfFanFold;
   }
 
   bool isAtGap(VertexIndex v) const
@@ -143,7 +179,7 @@ private:
       ring.begin(), ring.end(), [&](VertexIndex neighbor) { return counts_[neighbor] == 0.f; });
   }
 
-  /// Into which a collapse leaves the smallest area.
+  /// The neighbour for which a collapse leaves the smallest area.
   VertexIndex bestNeighbor(VertexIndex v)
   {
     const Ring& ring = mesh_.ring(v);
@@ -183,7 +219,7 @@ private:
         ratio = std::min(ratio, radiusRatio(mesh_.position(kept), a, b));
         distances_.emplace_back(mesh_.position(kept), a, b);
       }
-      if (area < leastArea && ratio >= leastRatio &&
+      if (area < leastArea && ratio >= leastRatio && !foldsInto(v, slot) &&
         bundle_.squares(distances_, mostSquares) <= mostSquares)
       {
         leastArea = area;

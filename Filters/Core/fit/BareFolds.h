@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Executor.h"
 #include "fit/ChangedVertices.h"
 #include "fit/TriangleSamples.h"
 #include "mesh/Mesh.h"

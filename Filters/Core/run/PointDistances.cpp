@@ -23,8 +23,8 @@ constexpr std::size_t DistancesPerRange = 256;
 constexpr std::size_t PointsPerBlock = 262144;
 /// Noise leaves few points farther away than so many medians, and a group among them is a loss.
 constexpr float MediansToMeasureExactly = 4.f;
-/// Of a distance: what another triangle may be farther away by rounding.
-constexpr double RoundedUp = 1.0001;
+/// Of a mean edge: what another triangle may be farther away by rounding.
+constexpr double PartRounded = 0.001;
 constexpr std::size_t MedianPoints = 2000;
 /// Of a corner in a place: less is rounding.
 constexpr float LeastWeight = 1e-5f;
@@ -158,7 +158,7 @@ void findExactly(const Mesh& mesh, const PointCloud& cloud, float least,
           continue;
         }
         const Vector4 point = cloud.points()[result.points[i]];
-        const double most = RoundedUp * double(result.distances[i]);
+        const double most = double(result.distances[i]) + PartRounded * result.meanEdge;
         const NearestTriangle::Found found = nearest.find(point.toDouble(), most * most);
         if (found.triangle != NearestTriangle::None)
         {
@@ -287,22 +287,6 @@ std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& 
   const double pointsOfEach =
     double(cloud.points().size()) / double(std::max<std::size_t>(1, ofSupport));
   return MeasuredPoints{ std::move(result), sum.result(pointsOfEach, executor) };
-}
-
-PointDistances distancesTo(
-  const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
-{
-  return measurePoints(
-    mesh, cloud, most, 0, [](double) { return true; }, executor)
-    ->distances;
-}
-
-VertexSupport supportOf(
-  const Mesh& mesh, const PointCloud& cloud, std::size_t most, const Executor& executor)
-{
-  return measurePoints(
-    mesh, cloud, most, most, [](double) { return true; }, executor)
-    ->support;
 }
 
 PointDistances exactly(

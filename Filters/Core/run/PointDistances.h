@@ -54,13 +54,6 @@ std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& 
   std::size_t most, std::size_t mostOfSupport, const Progress& progress,
   const Executor& executor = Executor::sequential());
 
-/// These distances alone, ...
-PointDistances distancesTo(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
-  const Executor& executor = Executor::sequential());
-/// ... and the support alone.
-VertexSupport supportOf(const Mesh& mesh, const PointCloud& cloud, std::size_t most,
-  const Executor& executor = Executor::sequential());
-
 /// The same points, all of them measured to all triangles: where layers are closer than edges are long, the closest
 /// vertex may be one of another piece.
 PointDistances exactly(PointDistances distances, const Mesh& mesh, const PointCloud& cloud,

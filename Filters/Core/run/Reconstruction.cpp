@@ -99,9 +99,9 @@ bool isCloser(const Reconstruction& first, const Reconstruction& second, std::ui
 }
 
 /// Whether a mesh that was refined beside its creases is better than one that has learnt all its
-/// vertices. It has to be closer, as it is less regular and coarser in bends. With fewer warnings it
-/// wins a draw; with more it loses: the coarser mesh may have lost thin or small parts. With more
-/// slivers it has to be clearly closer.
+/// vertices. With as many warnings it has to be closer, as it is less regular and coarser in bends.
+/// With fewer it wins a draw; with more it loses: the coarser mesh may have lost thin or small parts.
+/// With more slivers it has to be clearly closer.
 bool isBetterRefined(const Reconstruction& refined, const Reconstruction& learnt)
 {
   if (!refined.finish || !refined.quality || !learnt.quality ||

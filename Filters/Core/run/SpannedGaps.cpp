@@ -32,14 +32,14 @@ constexpr float PartOfNoise = 0.5f;
 constexpr float MediansInNoise = 3.f;
 constexpr float RimSpacingsInNoise = 2.f;
 constexpr std::size_t PointsAtRim = 16;
+/// From there, the gap reaches as far as triangles are this part of that away from all points.
+constexpr float PartAtRim = 0.5f;
 /// A place is in a ring of points if so many are farther from it than the closest one, but by less than half. Points at
 /// random leave one place in e^18 so empty. The wall of a bore that the mesh spans is such a ring.
 constexpr std::size_t PointsInRing = 32;
 constexpr float WidthOfRing = 1.5f;
-/// ... unless a flat ring as wide has twice as many elsewhere: then the points are sparse there.
+/// Where a flat ring as wide has twice as many elsewhere, the points are sparse, and there is none.
 constexpr float PartOfUsualRing = 0.5f;
-/// From there, the gap reaches as far as triangles are this part of that away from all points.
-constexpr float PartAtRim = 0.5f;
 /// The points at the rim of a gap have fewer neighbors, and larger spacings. Half of so many around
 /// them tell more where their spacing is not more than so many times the usual one: elsewhere points
 /// get sparser towards the gap.
@@ -91,8 +91,8 @@ private:
 /// Of a triangle.
 enum class Place : std::uint8_t
 {
-  NearPoints,
-  Bare, ///< near points, but at a vertex that rests on none
+  NearPoints, ///< or not asked
+  Bare,       ///< near points, but at a vertex that rests on none
   FarFromPoints,
   WithinRim, ///< of a gap, in noise
   InRing     ///< of points
@@ -203,9 +203,13 @@ private:
     const float usual =
       std::numbers::pi_v<float> * (Outer - 1.f) * squared / (onSurface_ * onSurface_);
     // Repeated points count as one.
-    std::vector<float> inRing;
+    std::vector<std::array<float, 3>> inRing;
     nearest_.forEachWithin(centerOf(mesh_, triangles_.all()[t]), WidthOfRing * std::sqrt(squared),
-      [&inRing](std::uint32_t, float other) { inRing.push_back(other); });
+      [&](std::uint32_t point, float)
+      {
+        const Vector4 place = cloud_.points()[point];
+        inRing.push_back({ place[0], place[1], place[2] });
+      });
     std::sort(inRing.begin(), inRing.end());
     const auto different = float(std::unique(inRing.begin(), inRing.end()) - inRing.begin());
     return different >= float(PointsInRing) && different > PartOfUsualRing * usual;
@@ -285,7 +289,7 @@ std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& suppo
   {
     return {};
   }
-  const auto onSurface = float(std::sqrt(all / double(cloud.points().size())));
+  const auto onSurface = float(std::sqrt(all / double(cloud.differentCount())));
   GapSearch search(mesh, cloud, medianOf(distances.distances, executor), onSurface, executor);
   std::vector<SpannedGap> gaps;
   for (const Patch& patch :

@@ -122,8 +122,9 @@ void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud, WarningLi
   where += otherPlaces(gaps.size(), MostPlacesNamed);
   warnings.add(WarningTopic::GapIsSpanned,
     "The mesh spans gaps of the cloud: " + where +
-      ". The points around are farther away than from each other, so the surface is a guess, or a "
-      "hole is closed there. Scan these places, use more vertices, or remove the triangles there. "
+      ". The surface there is farther from all points than they are from each other: it is a "
+      "guess, "
+      "or it closes a hole. Scan these places, use more vertices, or remove the triangles there. "
       "If gaps are to be filled, use --boundaries close.");
 }
 

@@ -105,6 +105,7 @@ TEST_F(PointText, RefusalsSayWhatToDo)
   EXPECT_EQ(contentsOf("a.csv", "\r\n1.25 2.5 3.75\r \n-4 5.5 6\r\r\n").doubles, TwoPoints);
   const std::string fewer = refusal("a.pts", "3\n1 2 3\n4 5 6\n");
   EXPECT_NE(fewer.find("3 are announced, and 2 are there"), std::string::npos) << fewer;
+  EXPECT_NE(refusal("a.pts", "1000000\n1 2 3\n").find("1000000 are announced"), std::string::npos);
 }
 
 // Promise: decimal commas are read as such where something else sets numbers apart.

@@ -97,7 +97,7 @@ TEST(CreaseRefinement, MoreVerticesDoNotRoundEdges)
   }
 }
 
-// Where bends make more of the error than creases, the mesh that has learnt all its vertices is kept: it is closer and more
+// Promise: where bends make more of the error than creases, the mesh that has learnt all its vertices is kept: it is closer and more
 // regular.
 TEST(CreaseRefinement, LeavesBendsToLearning)
 {

@@ -18,6 +18,7 @@
 #include "mesh/SelfIntersections.h"
 #include "mesh/SurfaceReport.h"
 #include "mesh/TriangleList.h"
+#include "PointMeasures.h"
 #include "run/PointDistances.h"
 #include "Shapes.h"
 #include "SphereRuns.h"
@@ -181,16 +182,16 @@ TEST(MeasuresOnThreads, Points)
   const PointCloud cloud(generateCloud(makeTorus(), options));
   const Mesh mesh = buildMesh(makeTorus(0.4, 96), cloud);
   const std::size_t some = 280000;
-  const PointDistances distances = distancesTo(mesh, cloud, some);
-  const VertexSupport support = supportOf(mesh, cloud, some);
+  const PointDistances distances = testing::distancesTo(mesh, cloud, some);
+  const VertexSupport support = testing::supportOf(mesh, cloud, some);
   for (const unsigned threads : CountsOfThreads)
   {
     SCOPED_TRACE(threads);
     const ThreadPool pool(threads);
-    const PointDistances others = distancesTo(mesh, cloud, some, pool);
+    const PointDistances others = testing::distancesTo(mesh, cloud, some, pool);
     EXPECT_EQ(others.distances, distances.distances);
     EXPECT_EQ(others.isBeyondBoundary, distances.isBeyondBoundary);
-    EXPECT_EQ(supportOf(mesh, cloud, some, pool).weights, support.weights);
+    EXPECT_EQ(testing::supportOf(mesh, cloud, some, pool).weights, support.weights);
   }
 }
 

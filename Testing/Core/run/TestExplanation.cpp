@@ -5,6 +5,7 @@
 
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
+#include "PointMeasures.h"
 #include "run/Reconstruction.h"
 #include "run/Warnings.h"
 #include "Shapes.h"

@@ -5,6 +5,7 @@
 #include "base/ThreadPool.h"
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
+#include "PointMeasures.h"
 #include "Shapes.h"
 #include "SphereRuns.h"
 

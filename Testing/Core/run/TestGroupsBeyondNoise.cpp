@@ -6,6 +6,7 @@
 #include "base/Random.h"
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
+#include "PointMeasures.h"
 #include "run/Explanation.h"
 #include "run/PointDistances.h"
 #include "Shapes.h"

@@ -8,6 +8,7 @@
 #include "cloud/MeshBuilder.h"
 #include "Clusters.h"
 #include "OpenShapes.h"
+#include "PointMeasures.h"
 #include "run/Explanation.h"
 #include "run/Reconstruction.h"
 #include "run/Run.h"
@@ -203,7 +204,7 @@ TEST(TornParts, CloseLayersAreNotTorn)
   EXPECT_FALSE(layers.explained().explanation->torn.any());
 }
 
-// Nor does such a mesh seem to pass points by.
+// Promise: nor does such a mesh seem to pass points by.
 TEST(PassedBy, NotByCloseLayers)
 {
   const CloseLayers layers(0.1, 5);

@@ -5,6 +5,7 @@
 
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
+#include "PointMeasures.h"
 #include "run/Reconstruction.h"
 #include "run/Warnings.h"
 #include "Shapes.h"
@@ -99,7 +100,7 @@ TEST(SpannedGaps, InNoise)
   EXPECT_FALSE(Pole(0.2, 1., Noise).isWarnedOf());
 }
 
-// A bore is told by the points of its wall, where a flat hole as narrow is not.
+// Promise: a bore is told by the points of its wall, where a flat hole as narrow is not.
 TEST(SpannedGaps, AcrossABore)
 {
   constexpr std::size_t Count = 5000;
