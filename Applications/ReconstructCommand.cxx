@@ -585,7 +585,7 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
   command->footer("Parameters of learning, for --set:\n" + DescribeLearningParameters() +
     "\nFor example: neuralmesh reconstruct scan.ply mesh.vtp --vertices 20000\n"
     "Ctrl-C, SIGTERM or SIGHUP end the learning and write the mesh learnt so far.\nEach warning "
-    "ends with a tag in "
+    "about a mesh ends with a tag in "
     "brackets: a heading of Documentation/Guide/Failures.md.\n"
     "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 3 done with a "
     "warning\nand --strict, 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP.");

@@ -42,7 +42,7 @@ _TOPOLOGIES = {
 _FOOTER = (
     "For example: neuralmesh reconstruct scan.ply mesh.ply --vertices 20000\n"
     "Ctrl-C, SIGTERM or SIGHUP end the learning and write the mesh learnt so far.\n"
-    "Each warning ends with a tag in brackets: "
+    "Each warning about a mesh ends with a tag in brackets: "
     "a heading of Documentation/Guide/Failures.md.\n"
     "Exit status: 0 done, 1 failed (the message is on stderr), 2 wrong use, 3 done with a warning\n"
     "and --strict, 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP."
