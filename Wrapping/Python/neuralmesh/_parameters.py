@@ -8,6 +8,7 @@ import functools
 import inspect
 import numbers
 import re
+import textwrap
 from dataclasses import dataclass
 from typing import Any, Callable, Mapping
 
@@ -181,11 +182,23 @@ def hint(name: str, known: Any) -> str:
     return f"did you mean {' or '.join(by_lower_case[other] for other in near)}?" if near else ""
 
 
-def table(parameters: Mapping[str, Parameter]) -> str:
+def with_table(documentation: str, parameters: Mapping[str, Parameter]) -> str:
+    """A docstring that has the table in the place of {table}. From Python 3.13 on, docstrings come without
+    the indentation that their lines share.
+    """
+    return re.sub(
+        r"^( *)\{table\}\n",
+        lambda found: textwrap.indent(_table(parameters), found[1]),
+        documentation,
+        flags=re.MULTILINE,
+    )
+
+
+def _table(parameters: Mapping[str, Parameter]) -> str:
     """A line for each parameter: its name, its default, and what it may be."""
     width = max(map(len, parameters))
     return "".join(
-        f"                {name:{width}}  {_plain(parameter.default):12}  {parameter}\n"
+        f"            {name:{width}}  {_plain(parameter.default):12}  {parameter}\n"
         for name, parameter in parameters.items()
     )
 

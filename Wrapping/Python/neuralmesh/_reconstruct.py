@@ -8,7 +8,7 @@ import os
 from typing import Any, Literal, Sequence, overload
 
 from . import _world
-from ._parameters import assign, parameters_of, refuse_unknown, table
+from ._parameters import assign, parameters_of, refuse_unknown, with_table
 from ._places import direction, places
 from ._types import (
     ArrayLike,
@@ -226,7 +226,7 @@ def reconstruct(
 
 
 if reconstruct.__doc__:
-    reconstruct.__doc__ = reconstruct.__doc__.replace("    {table}\n", table(PARAMETERS))
+    reconstruct.__doc__ = with_table(reconstruct.__doc__, PARAMETERS)
 
 
 def make_filter(

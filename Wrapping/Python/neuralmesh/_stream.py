@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _world
-from ._parameters import assign, parameters_of, refuse_unknown, table
+from ._parameters import assign, parameters_of, refuse_unknown, with_table
 from ._places import direction, place
 from ._types import ArrayLike, MadeMesh, Mesh, Progress, vtkPointSet
 
@@ -191,4 +191,4 @@ def stream(
 
 
 if stream.__doc__:
-    stream.__doc__ = stream.__doc__.replace("    {table}\n", table(PARAMETERS))
+    stream.__doc__ = with_table(stream.__doc__, PARAMETERS)
