@@ -15,7 +15,8 @@ struct NamedFile
 
 /**
  * Throws UsageError where two options name the same file, by whatever path, and it is written: the one
- * would destroy the other. So it does where one option names a file twice: points of an INPUT would count twice.
+ * would destroy the other. So it does where one option names a file twice: points of an INPUT would
+ * count twice.
  */
 void RequireDistinctFiles(const std::vector<NamedFile>& files);
 
