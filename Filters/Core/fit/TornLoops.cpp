@@ -14,6 +14,9 @@ namespace
 {
 /// Of the samples that the surface around has on as large an area; where there is no surface, there are none.
 constexpr double LeastPartInTear = 0.5;
+/// The ragged rim of an opening has some of them, too. The longer it is, the less they are of what its area would have.
+constexpr double LeastPartInLongTear = 0.3;
+constexpr std::size_t FewestEdgesOfLong = 30;
 /// Fewer lie together by chance.
 constexpr double FewestInTear = 8.;
 
@@ -27,10 +30,11 @@ struct SamplesAtLoop
 
 /// The area over which the points go on. That of the triangles is asked, as the sides of a loop around a slit may cancel
 /// each other.
-double areaWithSamples(const SamplesAtLoop& samples)
+double areaWithSamples(const SamplesAtLoop& samples, std::size_t edges)
 {
+  const double least = edges < FewestEdgesOfLong ? LeastPartInTear : LeastPartInLongTear;
   const bool areMany = samples.beyond >= FewestInTear && samples.around > 0.;
-  return areMany ? samples.beyond * samples.area / (LeastPartInTear * samples.around) : 0.;
+  return areMany ? samples.beyond * samples.area / (least * samples.around) : 0.;
 }
 }
 
@@ -68,7 +72,7 @@ std::size_t fillTornLoops(Mesh& mesh, std::span<const PlaceOnMesh> places)
   std::size_t filled = 0;
   for (BoundaryManager::LoopIndex index = 0; index < samples.size(); ++index)
   {
-    const double area = areaWithSamples(samples[index]);
+    const double area = areaWithSamples(samples[index], boundaries.loops()[index].size);
     filled += area > 0. && fillBoundary(mesh, boundaries, index, CosineOfOutline, area) ? 1 : 0;
   }
   return filled;

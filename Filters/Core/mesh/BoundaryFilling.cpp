@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <unordered_map>
 
 namespace neuralmesh
 {
@@ -46,6 +47,25 @@ float cosineAround(const Mesh& mesh, const std::vector<VertexIndex>& loop)
   }
   const float lengths = std::sqrt(squaredNorm(area) * squaredNorm(normals));
   return lengths > 0.f ? dot(area, normals) / lengths : 0.f;
+}
+
+/// Of the angle between the normals at the corners of what fills a loop and its own, on average over its area. The
+/// normals around a slit that follows a bend, or two of them, may point anywhere, and their sum tells nothing.
+float cosineToSides(const Mesh& mesh, const std::vector<Triangle>& filled,
+  const std::unordered_map<VertexIndex, Vector4>& normals)
+{
+  float cosines = 0.f, areas = 0.f;
+  for (const Triangle& triangle : filled)
+  {
+    const Vector4 a = mesh.position(triangle[0]);
+    const Vector4 doubled = cross(mesh.position(triangle[1]) - a, mesh.position(triangle[2]) - a);
+    const Vector4 sides =
+      normals.at(triangle[0]) + normals.at(triangle[1]) + normals.at(triangle[2]);
+    const float length = std::sqrt(squaredNorm(sides));
+    cosines += length > 0.f ? dot(doubled, sides) / length : 0.f;
+    areas += std::sqrt(squaredNorm(doubled));
+  }
+  return areas > 0.f ? cosines / areas : 0.f;
 }
 
 /// Fills a loop corner by corner; leaves it as it was if it cannot be filled wholly. Returns the triangles of what was
@@ -151,19 +171,30 @@ bool fillBoundary(Mesh& mesh, BoundaryManager& boundaries, BoundaryManager::Loop
   float leastCosine, double mostArea)
 {
   const std::vector<VertexIndex> vertices = boundaries.vertices(mesh, loop);
+  std::unordered_map<VertexIndex, Vector4> normals;
+  for (const VertexIndex v : vertices)
+  {
+    normals.emplace(v, mesh.normal(v));
+  }
   double area = 0.;
   const auto isWithinArea = [&](const Triangle& triangle)
   {
     area += areaOf(mesh, triangle);
     return area <= mostArea;
   };
-  const bool isFilled = !vertices.empty() && cosineAround(mesh, vertices) >= leastCosine &&
-    !fillLoop(mesh, vertices, std::numeric_limits<float>::max(), isWithinArea).empty();
-  if (isFilled)
+  const std::vector<Triangle> filled =
+    fillLoop(mesh, vertices, std::numeric_limits<float>::max(), isWithinArea);
+  if (filled.empty())
   {
-    boundaries.retrace(mesh, vertices);
+    return false;
   }
-  return isFilled;
+  if (cosineToSides(mesh, filled, normals) < leastCosine)
+  {
+    mesh.removeTriangles(filled);
+    return false;
+  }
+  boundaries.retrace(mesh, vertices);
+  return true;
 }
 
 std::size_t fillSmallGaps(Mesh& mesh)
