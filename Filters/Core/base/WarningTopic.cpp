@@ -32,4 +32,9 @@ std::string taggedWarning(WarningTopic topic, std::string_view text)
 {
   return std::string(text) + " [" + std::string(tagOf(topic)) + "]";
 }
+
+bool isAbout(std::string_view warning, WarningTopic topic)
+{
+  return warning.ends_with(taggedWarning(topic, ""));
+}
 }

@@ -47,6 +47,9 @@ std::string_view tagOf(WarningTopic topic);
 /// The text of a warning, which ends with its tag in brackets.
 std::string taggedWarning(WarningTopic topic, std::string_view text);
 
+/// Whether such a text is about the topic.
+bool isAbout(std::string_view warning, WarningTopic topic);
+
 /// The warnings of a mesh. No warning comes in without its tag.
 class WarningList
 {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/Reconstruction.h"
 
+#include "base/WarningTopic.h"
 #include "fit/CreaseRefinement.h"
+#include "mesh/Pieces.h"
 #include "run/Run.h"
 
 #include <algorithm>
 #include <functional>
+#include <string>
 #include <utility>
 
 namespace neuralmesh
@@ -36,27 +39,44 @@ constexpr double TimesOfDraw = 1.2;
 /// Of the triangles: so few slivers are none.
 constexpr double FewSlivers = 0.0002;
 
-/// Learns so many vertices, then simplifies or refines the mesh to the number of the parameters.
-Reconstruction learnAndFinish(std::uint64_t vertices, const RunRequest& request,
-  const Progress& progress, const GrowthWatch& watch, const CheckpointPlan& plan,
-  const std::function<void(const LearntRun&)>& made = {})
+/// Whether learning starts from a surface that the points tell.
+bool startsFromSpace(const RunRequest& request)
+{
+  return !request.first && request.parameters.start == Start::OccupiedSpace;
+}
+
+/// Learns from there, then simplifies or refines the mesh to the number of the parameters. `times` has the start.
+Reconstruction learnAndFinish(Run& run, std::uint64_t vertices, Beginning beginning,
+  const PhaseTimes& times, const RunRequest& request, Checkpoint& checkpoint,
+  const GrowthWatch& watch, const std::function<void(const LearntRun&)>& made = {})
 {
   const Parameters& parameters = request.parameters;
-  Checkpoint checkpoint(plan, request.cloud, parameters);
-  PhaseTimes times;
-  times.enter(Phase::Start);
-  Run run(request, progress);
-  const bool startsFromSpace = !request.first && parameters.start == Start::OccupiedSpace;
-  const double startOfLearning = startsFromSpace ? StartOfLearning : 0.;
+  const double startOfLearning = startsFromSpace(request) ? StartOfLearning : 0.;
   const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
-  Beginning beginning = run.begin(vertices, { 0., startOfLearning });
-  times.leave();
+  const bool isFromGrid = beginning.isFromGrid;
   LearntRun learnt = run.learn(
     vertices, std::move(beginning), { startOfLearning, endOfLearning }, checkpoint, watch);
   Reconstruction result =
     run.finish(std::move(learnt), parameters.numberOfVertices, { endOfLearning, 1. }, made);
   result.times.add(times);
+  result.isFromGrid = isFromGrid;
   return result;
+}
+
+/// The same with the start that the parameters ask for.
+Reconstruction learnAndFinish(std::uint64_t vertices, const RunRequest& request,
+  const Progress& progress, const GrowthWatch& watch, const CheckpointPlan& plan,
+  const std::function<void(const LearntRun&)>& made = {})
+{
+  Checkpoint checkpoint(plan, request.cloud, request.parameters);
+  PhaseTimes times;
+  times.enter(Phase::Start);
+  Run run(request, progress);
+  Beginning beginning =
+    run.begin(vertices, { 0., startsFromSpace(request) ? StartOfLearning : 0. });
+  times.leave();
+  return learnAndFinish(
+    run, vertices, std::move(beginning), times, request, checkpoint, watch, made);
 }
 
 /// Whether a run may learn another number of vertices than asked. A first mesh is fitted as it is,
@@ -96,6 +116,48 @@ bool isCloser(const Reconstruction& first, const Reconstruction& second, std::ui
 {
   return first.surface.vertexCount() == vertices && first.quality && second.quality &&
     first.quality->residual < times * second.quality->residual;
+}
+
+/// See holdsMore() of Run.h; with so many warnings that count.
+bool holdsMore(const Reconstruction& finer, const Reconstruction& other, std::size_t warnings,
+  std::size_t otherWarnings)
+{
+  if (finer.stopReason != StopReason::Vertices || !finer.finish || !finer.explanation ||
+    finer.surface.vertexCount() != other.surface.vertexCount() ||
+    finer.explanation->unexplainedShare() >
+      other.explanation->unexplainedShare() + LeastDifferenceOfUnexplained)
+  {
+    return false;
+  }
+  const DefectCount &left = finer.finish->left, &before = other.finish->left;
+  const bool hasNoMoreDefects = left.total() <= before.total();
+  if (warnings < otherWarnings)
+  {
+    return hasNoMoreDefects || left.intersectingTriangles <= before.intersectingTriangles;
+  }
+  return warnings == otherWarnings && hasNoMoreDefects &&
+    isCloser(finer, other, other.surface.vertexCount());
+}
+
+/// The same for a mesh with more handles, which may be right and narrow.
+bool holdsMoreWithHoles(const Reconstruction& withHoles, const Reconstruction& other)
+{
+  const auto countOf = [](const Reconstruction& result)
+  {
+    return std::size_t(std::ranges::count_if(result.warnings,
+      [](const std::string& warning) { return !isAbout(warning, WarningTopic::NarrowHandles); }));
+  };
+  return holdsMore(withHoles, other, countOf(withHoles), countOf(other));
+}
+
+/// Whether a closed mesh may have filled holes that the grid of its first surface did not show.
+bool mayHaveFilledHoles(const Reconstruction& result, const RunRequest& request)
+{
+  return result.isFromGrid && mayLearnOtherwise(request) &&
+    request.parameters.fidelity != Fidelity::Draft && result.stopReason == StopReason::Vertices &&
+    result.finish && result.explanation && !result.surface.isOpen(request.executor) &&
+    (result.explanation->torn.any() || !result.explanation->pieces.empty() ||
+      !result.gaps.empty() || !result.noiseWebs.empty());
 }
 
 /// Whether a mesh that was refined beside its creases is better than one that has learnt all its
@@ -178,21 +240,7 @@ bool mayHaveLostThinParts(const Reconstruction& result, const RunRequest& reques
 
 bool holdsMore(const Reconstruction& finer, const Reconstruction& other)
 {
-  if (finer.stopReason != StopReason::Vertices || !finer.finish || !finer.explanation ||
-    finer.surface.vertexCount() != other.surface.vertexCount() ||
-    finer.explanation->unexplainedShare() >
-      other.explanation->unexplainedShare() + LeastDifferenceOfUnexplained)
-  {
-    return false;
-  }
-  const DefectCount &left = finer.finish->left, &before = other.finish->left;
-  const bool hasNoMoreDefects = left.total() <= before.total();
-  if (finer.warnings.size() < other.warnings.size())
-  {
-    return hasNoMoreDefects || left.intersectingTriangles <= before.intersectingTriangles;
-  }
-  return finer.warnings.size() == other.warnings.size() && hasNoMoreDefects &&
-    isCloser(finer, other, other.surface.vertexCount());
+  return holdsMore(finer, other, finer.warnings.size(), other.warnings.size());
 }
 
 Reconstruction betterRun(Reconstruction result, const RunRequest& request, const Progress& progress)
@@ -250,6 +298,32 @@ Reconstruction runWithThinParts(
   return betterOf(std::move(result), std::move(other), isTaken);
 }
 
+/// `result`; or a mesh whose first surface has more handles, if `result` may have filled holes, and the other one holds
+/// more.
+Reconstruction runWithNarrowHoles(
+  Reconstruction result, const RunRequest& request, const Progress& progress)
+{
+  if (!mayHaveFilledHoles(result, request))
+  {
+    return result;
+  }
+  const std::uint64_t vertices = verticesToLearn(request);
+  PhaseTimes times;
+  times.enter(Phase::Start);
+  Run run(request, progress);
+  std::optional<Beginning> beginning = run.beginWithNarrowParts(vertices, { 0., StartOfLearning });
+  times.leave();
+  if (!beginning || genusOf(*beginning->mesh) <= genusOf(result.surface))
+  {
+    result.times.add(times);
+    return result;
+  }
+  Checkpoint checkpoint({}, request.cloud, request.parameters);
+  return betterOf(std::move(result),
+    learnAndFinish(run, vertices, std::move(*beginning), times, request, checkpoint, {}),
+    holdsMoreWithHoles);
+}
+
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
   const Progress& progress, const std::optional<Mesh>& first, const GrowthWatch& watch,
   const CheckpointPlan& plan, const Executor& executor, const OrientationHints& hints,
@@ -257,9 +331,9 @@ Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters
 {
   const RunRequest request{ cloud, parameters, first, executor, hints, explainsAll };
   const Progress atTheEnd = partOf(progress, 1., 1.);
-  return runWithThinParts(
-    betterRun(
-      learnAndFinish(verticesToLearn(request), request, progress, watch, plan), request, atTheEnd),
-    request, atTheEnd);
+  Reconstruction result = betterRun(
+    learnAndFinish(verticesToLearn(request), request, progress, watch, plan), request, atTheEnd);
+  return runWithNarrowHoles(
+    runWithThinParts(std::move(result), request, atTheEnd), request, atTheEnd);
 }
 }

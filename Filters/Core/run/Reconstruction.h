@@ -60,6 +60,7 @@ struct Reconstruction
   std::vector<std::string> warnings; ///< see Warnings.h
   std::optional<SizeChoice> size;    ///< if the program chose the number of vertices
   PhaseTimes times;                  ///< of start, learning and finish
+  bool isFromGrid = false;           ///< see Beginning
 };
 
 /// Limits the number of vertices of a fitted mesh to the number that the points support.

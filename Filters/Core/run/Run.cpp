@@ -69,6 +69,14 @@ Run::Run(const RunRequest& request, const Progress& progress)
 {
 }
 
+void Run::clean(const Parameters& parameters, double at)
+{
+  if (parameters.start == Start::OccupiedSpace && parameters.keepPieces > 0.)
+  {
+    cleaned_ = withoutClusters(request_.cloud, partOf(progress_, at, at), request_.executor);
+  }
+}
+
 Beginning Run::begin(std::uint64_t vertices, ProgressPart part)
 {
   if (request_.first)
@@ -76,12 +84,16 @@ Beginning Run::begin(std::uint64_t vertices, ProgressPart part)
     return { request_.first, {}, {} };
   }
   const Parameters parameters = parametersFor(vertices, request_);
-  if (parameters.start == Start::OccupiedSpace && parameters.keepPieces > 0.)
-  {
-    cleaned_ =
-      withoutClusters(request_.cloud, partOf(progress_, part.begin, part.begin), request_.executor);
-  }
+  clean(parameters, part.begin);
   return neuralmesh::begin(
+    cloud(), parameters, partOf(progress_, part.begin, part.end), request_.executor);
+}
+
+std::optional<Beginning> Run::beginWithNarrowParts(std::uint64_t vertices, ProgressPart part)
+{
+  const Parameters parameters = parametersFor(vertices, request_);
+  clean(parameters, part.begin);
+  return neuralmesh::beginWithNarrowParts(
     cloud(), parameters, partOf(progress_, part.begin, part.end), request_.executor);
 }
 

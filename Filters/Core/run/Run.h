@@ -63,6 +63,8 @@ public:
 
   /// Makes the first surface for a mesh of so many vertices, unless there is a first mesh.
   Beginning begin(std::uint64_t vertices, ProgressPart part);
+  /// The same with a first surface that shows narrow holes and gaps. Nothing if there is none.
+  std::optional<Beginning> beginWithNarrowParts(std::uint64_t vertices, ProgressPart part);
 
   /// Learns so many vertices, or as many as the cloud has something to learn for.
   LearntRun learn(std::uint64_t vertices, Beginning beginning, ProgressPart part,
@@ -89,6 +91,7 @@ public:
 
 private:
   const PointCloud& cloud() const { return cleaned_ ? *cleaned_ : request_.cloud; }
+  void clean(const Parameters& parameters, double at);
   /// Leaves no report of the finish if it was ended before.
   void fit(LearntRun& run, std::uint64_t asked, const Progress& progress);
   /// Makes another mesh of one that is made, by finishAgain() or finishSimplified().

@@ -110,6 +110,32 @@ double densityExponent(const Parameters& parameters, const Mesh& first)
   return first.isOpen() ? DensityExponentIfOpen : 0.;
 }
 
+std::size_t mostOfFront(const Parameters& parameters)
+{
+  return std::size_t(PartOfFront * double(parameters.numberOfVertices));
+}
+
+Beginning beginningWith(FirstSurface surface, const PointCloud& cloud, const Parameters& parameters,
+  const Executor& executor)
+{
+  Beginning result;
+  result.mesh = std::move(surface.mesh);
+  result.isFromGrid = surface.resolution > 0;
+  if (parameters.boundaries == Boundaries::Keep && surface.bridgeWidth > 0.)
+  {
+    result.gaps = GapPlan{ surface.bridgeWidth, result.isFromGrid, parameters.keepPieces };
+  }
+  const double density = densityExponent(parameters, *result.mesh);
+  // The normal-based variant makes the mesh dense at bends by itself. Feature strength finds edges
+  // best on an even mesh.
+  if (density > 0. && parameters.variant != Variant::NormalBased &&
+    !parameters.computeFeatureStrength)
+  {
+    result.weights = curvatureDensity(cloud, *result.mesh, density, executor);
+  }
+  return result;
+}
+
 /// The views of the points of a cloud by their indices in the cloud; `hints` have the indices of
 /// the input.
 PointViews viewsOf(const PointCloud& cloud, const OrientationHints& hints)
@@ -181,34 +207,25 @@ std::optional<FinishReport> finishFirst(LearntMesh& learnt, FinishPlan plan,
 Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Progress& progress,
   const Executor& executor)
 {
-  Beginning result;
   if (parameters.start == Start::Tetrahedron)
   {
-    return result;
+    return {};
   }
   const std::optional<PointCloud> once = withoutRepetitions(cloud);
   auto surface = firstSurface(once ? *once : cloud,
-    firstVertices(parameters.numberOfVertices, parameters.fidelity),
-    std::size_t(PartOfFront * double(parameters.numberOfVertices)), parameters.boundaries, progress,
-    executor, parameters.keepPieces);
-  if (!surface)
-  {
-    return result;
-  }
-  result.mesh = std::move(surface->mesh);
-  if (parameters.boundaries == Boundaries::Keep && surface->bridgeWidth > 0.)
-  {
-    result.gaps = GapPlan{ surface->bridgeWidth, surface->resolution > 0, parameters.keepPieces };
-  }
-  const double density = densityExponent(parameters, *result.mesh);
-  // The normal-based variant makes the mesh dense at bends by itself. Feature strength finds edges
-  // best on an even mesh.
-  if (density > 0. && parameters.variant != Variant::NormalBased &&
-    !parameters.computeFeatureStrength)
-  {
-    result.weights = curvatureDensity(cloud, *result.mesh, density, executor);
-  }
-  return result;
+    firstVertices(parameters.numberOfVertices, parameters.fidelity), mostOfFront(parameters),
+    parameters.boundaries, progress, executor, parameters.keepPieces);
+  return surface ? beginningWith(std::move(*surface), cloud, parameters, executor) : Beginning();
+}
+
+std::optional<Beginning> beginWithNarrowParts(const PointCloud& cloud, const Parameters& parameters,
+  const Progress& progress, const Executor& executor)
+{
+  const std::optional<PointCloud> once = withoutRepetitions(cloud);
+  auto surface = surfaceWithNarrowParts(once ? *once : cloud, mostOfFront(parameters),
+    parameters.boundaries, progress, executor, parameters.keepPieces);
+  return surface ? std::optional(beginningWith(std::move(*surface), cloud, parameters, executor))
+                 : std::nullopt;
 }
 
 std::unique_ptr<Learner> learnerFrom(Beginning beginning, const PointCloud& cloud,

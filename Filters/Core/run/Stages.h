@@ -25,12 +25,18 @@ struct Beginning
   std::optional<Mesh> mesh;    ///< nothing: a tetrahedron
   std::optional<GapPlan> gaps; ///< in the end; nothing: they stay as they are
   std::vector<float> weights;  ///< to draw samples by; empty: those of the cloud
+  bool isFromGrid = false;     ///< the mesh: holes narrower than its edges may be closed
 };
 
 /// Makes the first surface, if the parameters ask for one. If `progress` ends it, or the cloud has
 /// too few points to show a shape, learning starts from a tetrahedron.
 Beginning begin(const PointCloud& cloud, const Parameters& parameters, const Progress& progress,
   const Executor& executor = Executor::sequential());
+
+/// The same with a first surface that shows narrow holes and gaps, or nothing if there is none. The parameters must ask for
+/// a first surface.
+std::optional<Beginning> beginWithNarrowParts(const PointCloud& cloud, const Parameters& parameters,
+  const Progress& progress, const Executor& executor = Executor::sequential());
 
 /// A learner of the cloud that starts there. `cloud` and `executor` must outlive it.
 std::unique_ptr<Learner> learnerFrom(Beginning beginning, const PointCloud& cloud,

@@ -597,4 +597,18 @@ std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mo
   return skin.finest ? thinSolid(cloud, *skin.finest, mostVertices, ofFront, executor)
                      : std::nullopt;
 }
+
+std::optional<FirstSurface> surfaceWithNarrowParts(const PointCloud& cloud, std::size_t mostOfFront,
+  Boundaries boundaries, const Progress& progress, const Executor& executor, double leastPiece)
+{
+  if (cloud.differentCount() < LeastPointsForGrid)
+  {
+    return {};
+  }
+  const NearestPoints nearest(cloud.points(), executor);
+  auto front = surfaceOfFront(cloud, nearest, mostOfFront, boundaries, progress, leastPiece, true);
+  const bool explains = front && front->isCertain &&
+    evidenceFor(cloud, nearest, front->mesh, UsuallyAsked, executor).unexplained < LeastUnexplained;
+  return explains ? std::move(front) : std::nullopt;
+}
 }

@@ -42,4 +42,10 @@ struct FirstSurface
 std::optional<FirstSurface> firstSurface(const PointCloud& cloud, std::size_t mostVertices,
   std::size_t mostOfFront, Boundaries boundaries, const Progress& progress,
   const Executor& executor = Executor::sequential(), double leastPiece = LeastPiece);
+
+/// The front alone, if it is certain and explains the points. It shows holes and gaps that a grid has closed because they
+/// are narrower than its voxels, or than the edges of its surface, and that hold too few of the points to be missed.
+std::optional<FirstSurface> surfaceWithNarrowParts(const PointCloud& cloud, std::size_t mostOfFront,
+  Boundaries boundaries, const Progress& progress,
+  const Executor& executor = Executor::sequential(), double leastPiece = LeastPiece);
 }
