@@ -143,4 +143,33 @@ TEST(TornLoops, ASlitAroundABallStays)
     expectLoops(without(ball, isInSlit), points, 0, 1);
   }
 }
+
+// Most vertices lie where the slit ends, and look away from the sum of its area, as along two limbs. The rims of a long
+// slit leave fewer samples to it than a short one has.
+TEST(TornLoops, ALongSlitThatItsNormalsDoNotTell)
+{
+  TriangleMesh ball = makeSphere(48);
+  for (Eigen::Vector3d& point : ball.points)
+  {
+    const double angle = std::atan2(point.y(), point.x());
+    const double moved = angle + 0.8 * std::sin(angle), radius = point.head<2>().norm();
+    point.head<2>() = radius * Eigen::Vector2d(std::cos(moved), std::sin(moved));
+  }
+  const auto isInSlit = [](const Eigen::Vector3d& place)
+  { return std::abs(place.z()) < 0.1 && (place.x() > 0. || std::abs(place.y()) > 0.2); };
+  const TriangleMesh slit = without(ball, isInSlit);
+  const Points all = pointsAlong(ball, 40000, 0.);
+  const auto thinned = [&](double kept)
+  {
+    Points points = all;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> chance;
+    std::erase_if(points,
+      [&](const Eigen::Vector3d& point) { return isInSlit(point) && chance(random) > kept; });
+    return points;
+  };
+  expectLoops(slit, all, 1, 0);
+  expectLoops(slit, thinned(0.4), 1, 0);
+  expectLoops(slit, thinned(0.15), 0, 1);
+}
 }
