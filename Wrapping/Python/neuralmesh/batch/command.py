@@ -74,8 +74,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--version", action="version", version=__version__)
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    _add_arguments(commands.add_parser("batch", help=_SUMMARY, **_TEXTS))
-    return _run_parsed(parser.parse_args(arguments))
+    batch = commands.add_parser("batch", help=_SUMMARY, **_TEXTS)
+    _add_arguments(batch)
+    options, unknown = parser.parse_known_args(arguments)
+    if unknown:
+        # The error of parse_args() would show the usage without the options.
+        batch.error(f"unrecognized arguments: {' '.join(unknown)}")
+    return _run_parsed(options)
 
 
 def run(arguments: Sequence[str]) -> int:
