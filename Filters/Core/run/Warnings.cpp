@@ -125,7 +125,7 @@ void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud, WarningLi
       ". The surface there is farther from all points than they are from each other: it is a "
       "guess, "
       "or it closes a hole. Scan these places, use more vertices, or remove the triangles there. "
-      "If gaps are to be filled, use --boundaries close.");
+      "If gaps are to be filled, close all boundaries (--boundaries close).");
 }
 
 /// The reason why triangles intersect, and the cure.
