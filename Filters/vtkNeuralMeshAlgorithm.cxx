@@ -5,12 +5,27 @@
 #include "learn/Parameters.h"
 #include "vtkNeuralMeshParameters.h"
 
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkInformation.h"
+
 #include <algorithm>
 #include <limits>
 
 vtkNeuralMeshAlgorithm::vtkNeuralMeshAlgorithm() = default;
 
 vtkNeuralMeshAlgorithm::~vtkNeuralMeshAlgorithm() = default;
+
+vtkTypeBool vtkNeuralMeshAlgorithm::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_NOT_GENERATED()))
+  {
+    // An execution begins. VTK tells the end of the last one as progress, too, after the filter has
+    // cleared the flag: an observer may have set it anew.
+    this->AbortExecute = 0;
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
 
 void vtkNeuralMeshAlgorithm::SetPreset(int preset)
 {

@@ -80,6 +80,7 @@ vtkIdType vtkNeuralMeshStream::Learn(vtkIdType samples)
   {
     return 0;
   }
+  this->AbortExecute = 0; // as when the pipeline executes
   vtkNeuralMeshProgress progress(this);
   const std::uint64_t learnt =
     this->Stream->learn(static_cast<std::uint64_t>(std::max<vtkIdType>(0, samples)),
@@ -95,6 +96,7 @@ vtkIdType vtkNeuralMeshStream::LearnForSeconds(double seconds)
   {
     return 0;
   }
+  this->AbortExecute = 0;
   vtkNeuralMeshProgress progress(this);
   const std::uint64_t learnt = this->Stream->learnFor(
     seconds, [&progress](double fraction) { return progress.Report(fraction); });

@@ -2,8 +2,19 @@
 
 # For what is drawn where there is no screen.
 screen_packages=(xvfb xauth libgl1-mesa-dri)
+
+is_installed()
+{
+  [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
 # NEURALMESH_VTK says which VTK to install: ParaView's, or with `plain` or `clang` Debian's own, which
-# excludes the other.
+# excludes the other. Unless it says so, apt does not remove what other programs are built with.
+kept_vtk=
+if [ -z "${NEURALMESH_VTK:-}" ] && { is_installed libvtk9-dev || is_installed python3-vtk9; }; then
+  NEURALMESH_VTK=plain
+  kept_vtk="Debian's VTK is kept. NEURALMESH_VTK=paraview replaces it, for the plugin of ParaView"
+fi
 if [[ "${NEURALMESH_VTK:-paraview}" =~ ^(plain|clang)$ ]]; then
   vtk_packages=(libvtk9-dev python3-vtk9 libpython3-dev libeigen3-dev)
 else
@@ -32,9 +43,7 @@ install_packages()
 {
   local missing=() package
   for package in "$@"; do
-    if [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" != installed ]; then
-      missing+=("$package")
-    fi
+    is_installed "$package" || missing+=("$package")
   done
   [ "${#missing[@]}" -gt 0 ] || return 0
   echo "Installing: ${missing[*]}"
@@ -69,6 +78,7 @@ configure()
   # What is left out, and why.
   grep '^-- Galleries' "$folder.log" || true
   rm -f "$folder.log"
+  [ -z "$kept_vtk" ] || echo "$kept_vtk"
 }
 
 # Configures if there is need, by a preset: configure_preset NAME.

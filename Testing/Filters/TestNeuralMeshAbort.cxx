@@ -68,10 +68,28 @@ int AbortInTheCloud()
   CHECK(filter->GetOutput()->GetNumberOfPoints() == 500);
   return EXIT_SUCCESS;
 }
+
+/** VTK tells the end as progress: who aborts there, too, does not abort the next execution. */
+int AbortAtTheEnd()
+{
+  vtkNew<vtkNeuralMesh> filter;
+  filter->SetNumberOfVertices(500);
+  filter->SetInputData(FilterTesting::SphereCloud(5000));
+  filter->AddObserver(vtkCommand::EndEvent, filter.Get(), &vtkAlgorithm::AbortExecuteOn);
+  filter->Update();
+  CHECK(std::string(filter->GetStopReason()) == "vertices");
+  filter->RemoveAllObservers();
+  filter->SetNumberOfVertices(600);
+  filter->Update();
+  CHECK(std::string(filter->GetStopReason()) == "vertices");
+  CHECK(filter->GetOutput()->GetNumberOfPoints() == 600);
+  return EXIT_SUCCESS;
+}
 }
 
 int TestNeuralMeshAbort(int, char*[])
 {
+  CHECK(AbortAtTheEnd() == EXIT_SUCCESS);
   const auto cloud = FilterTesting::SphereCloud(20000);
   vtkNew<vtkNeuralMesh> filter;
   vtkNew<Aborter> aborter;

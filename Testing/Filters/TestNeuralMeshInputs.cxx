@@ -223,6 +223,8 @@ int CheckWarnings()
   CHECK(messages->AllText.find("is missing in the mesh") != std::string::npos);
   CHECK(messages->AllText.find("(6.18)") != std::string::npos);
   CHECK(messages->AllText.find("stopped growing") != std::string::npos);
+  // Before those that follow from it.
+  CHECK(messages->AllText.find("stopped growing") < messages->AllText.find("are unexplained"));
   CHECK(std::string(filter->GetStopReason()) == "stalled");
   return EXIT_SUCCESS;
 }

@@ -114,6 +114,19 @@ case_other_vtk()
     { cat "$fake/build.txt"; fail "no sentence when it is compiled"; }
 }
 
+# Promise: the library can be static, and names no other of our targets to who links it.
+case_static()
+{
+  local own=$scratch/static
+  rm -rf "$own"
+  cmake -S "$here/../.." -B "$own" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF \
+    -DNEURALMESH_BUNDLE_VIEWER=OFF -DNEURALMESH_BUILD_APPLICATIONS=OFF ${VTK_DIR:+-DVTK_DIR="$VTK_DIR"}
+  grep -q "add_library(NeuralMesh::FiltersNeuralMesh STATIC" "$own"/lib/cmake/NeuralMesh/NeuralMesh-targets.cmake ||
+    fail "no static library"
+  ! grep -E "NeuralMesh(Core|CompilerFlags)" "$own"/lib/cmake/NeuralMesh/NeuralMesh-targets.cmake ||
+    fail "a target that is not installed"
+}
+
 # Promise: `import neuralmesh` works from the prefix.
 case_python()
 {

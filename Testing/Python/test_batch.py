@@ -90,7 +90,7 @@ class Example(BatchTest):
 
 class Strict(BatchTest):
     # Promise: warnings stand in the report; a strict recipe ends with status 3 if there are any, also when
-    # the jobs were done before, and the meshes are there. Progress counts them, the summary has their tags.
+    # the jobs were done before, and the meshes are there. Progress and the summary have their tags.
     def test_warnings(self):
         write_scan(self.folder / "scans" / "few.xyz", 300)
         for strict, status in ((False, 0), (True, 3)):
@@ -98,7 +98,8 @@ class Strict(BatchTest):
             output, errors, found = self.run_batch()
             self.assertEqual((errors, found), ("", status))
             self.assertIn("jobs       1 done, 0 failed, 1 with warnings", output)
-            self.assertIn("[1/1] few: done, 1 warning\n" if not strict else "were done before", output)
+            progress = "[1/1] few: done, 1 warning: finer-than-data\n"
+            self.assertIn("were done before" if strict else progress, output)
             with open(self.results / "summary.csv", encoding="utf-8", newline="") as file:
                 (row,) = csv.DictReader(file)
             self.assertEqual(row["warnings"], "finer-than-data")
@@ -108,6 +109,14 @@ class Strict(BatchTest):
         self.write_recipe(scans=["scans/few.xyz"], matrix={"vertices": 100}, strict=True)
         output, errors, found = self.run_batch()
         self.assertEqual((errors, found), ("", 0))
+
+    # Promise: --strict makes any recipe strict.
+    def test_option(self):
+        write_scan(self.folder / "scans" / "few.xyz", 300)
+        self.write_recipe(scans=["scans/few.xyz"], matrix={"vertices": 200})
+        output, errors, found = self.run_batch("--strict")
+        self.assertEqual((errors, found), ("", 3))
+        self.assertIn("1 done, 0 failed, 1 with warnings", output)
 
 
 if __name__ == "__main__":

@@ -103,6 +103,10 @@ class Recipes(BatchTest):
         self.write_recipe(scans=["a.xyz"])
         for count in ("0", "-1", "many"):
             self.assertEqual(self.run_batch("--processes", count)[2], 2)
+        _, errors, status = self.run_batch("--proceses", "2")
+        self.assertEqual(status, 2)
+        # Which options there are.
+        self.assertIn("[--processes N]", errors)
 
     # Promise: so is one whose results would be written over a scan, a first mesh or the recipe; nothing is
     # touched, and in another folder it runs.

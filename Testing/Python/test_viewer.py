@@ -109,6 +109,12 @@ class Viewer(BatchTest):
     def is_open(self):
         return self.browser.find_element(By.ID, "viewer").is_displayed()
 
+    # Promise: scans with one mesh each stand side by side.
+    def test_side_by_side(self):
+        first, second, *_ = self.browser.find_elements(By.TAG_NAME, "section")
+        self.assertEqual(first.rect["y"], second.rect["y"])
+        self.assertGreater(second.rect["x"], first.rect["x"])
+
     # Promise: one click on a picture opens a view in which the mesh is to be seen, shaded, in the
     # middle; nothing is fetched but files beside the page, and the browser has nothing to complain of.
     def test_opens(self):

@@ -135,7 +135,9 @@ PointFile::PointFile(const std::string& path)
       const bool isPly = hasExtension(path, ".ply");
       if (!isPly && !hasExtension(path, ".vtp"))
       {
-        throw std::runtime_error("only .ply, .vtp and raw coordinates can be sampled in place");
+        throw std::runtime_error(
+          "only .ply, .vtp and raw coordinates can be sampled in place: read other "
+          "files as a whole");
       }
       std::string beginning(std::min<std::uint64_t>(source_.size(), LongestHeader), '\0');
       source_.read(0, beginning.data(), beginning.size());

@@ -174,7 +174,9 @@ PointLayout layoutOfPly(std::string_view beginning)
   const PlyHeader header = readPlyHeader(beginning);
   if (header.isText)
   {
-    throw std::runtime_error("its points are text; only binary ones can be sampled in place");
+    throw std::runtime_error(
+      "its points are text; only binary ones can be sampled in place: read the "
+      "file as a whole");
   }
   PointLayout layout;
   layout.isBigEndian = header.isBigEndian;

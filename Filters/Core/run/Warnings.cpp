@@ -125,7 +125,7 @@ void warnOfGaps(std::vector<SpannedGap> gaps, const PointCloud& cloud, WarningLi
       ". The surface there is farther from all points than they are from each other: it is a "
       "guess, "
       "or it closes a hole. Scan these places, use more vertices, or remove the triangles there. "
-      "If gaps are to be filled, use --boundaries close.");
+      "If gaps are to be filled, close all boundaries (--boundaries close).");
 }
 
 /// The reason why triangles intersect, and the cure.
@@ -283,9 +283,9 @@ void warnOfNoiseWebs(
   }
 }
 
-void warnOfVertices(const Reconstruction& result, const PointCloud& cloud, WarningList& warnings)
+void warnOfEarlyEnd(const Reconstruction& result, WarningList& warnings)
 {
-  const std::size_t vertices = result.mesh.points.size(), points = cloud.differentCount();
+  const std::size_t vertices = result.mesh.points.size();
   if (result.stopReason == StopReason::Stalled)
   {
     warnings.add(WarningTopic::GrowthStopped,
@@ -299,6 +299,11 @@ void warnOfVertices(const Reconstruction& result, const PointCloud& cloud, Warni
       "The time limit ended the run at " + std::to_string(vertices) +
         " vertices, before the mesh was finished. Allow more time, or use fewer vertices.");
   }
+}
+
+void warnOfVertices(const Reconstruction& result, const PointCloud& cloud, WarningList& warnings)
+{
+  const std::size_t vertices = result.mesh.points.size(), points = cloud.differentCount();
   const std::size_t enough = std::max(points / LeastPointsPerVertex, FewestVertices);
   if (vertices > enough && vertices <= cloud.points().size())
   {
@@ -379,6 +384,11 @@ std::vector<std::string> warningsOf(
     warnings.add(WarningTopic::NoSurface,
       "All points lie on a line, so they have no surface. Check which columns are x, y and z.");
     return warnings.take();
+  }
+  if (result.quality)
+  {
+    // First, as others may follow from it.
+    warnOfEarlyEnd(result, warnings);
   }
   if (result.explanation)
   {

@@ -14,9 +14,10 @@ from .._command import add_processes_option, run_command
 from .gallery import write_gallery
 from .meshes import DEFAULT_FORMAT
 from .recipe import NOT_IN_RECIPES, Job, Recipe, RecipeError, read_recipe
-from .report import count_warnings, is_done, require_distinct, summary_path, write_summary
+from .report import is_done, require_distinct, summary_path, warnings_of, write_summary
 from .running import run_jobs
 from .atomic_file import alone_in
+from .words import tags_of
 
 _EPILOG = f"""\
 A recipe is JSON. Only its key `scans` is required:
@@ -43,8 +44,8 @@ time_limit
          seconds after which a job is ended and has failed (default: none). In the matrix it ends
          learning, and the mesh is kept
 gallery  whether there is a gallery (default: true)
-strict   whether the command ends with status 3 if a mesh has warnings (default: false). Meshes are
-         written in any case
+strict   whether the command ends with status 3 if a mesh has warnings (default: false), as with
+         --strict. Meshes are written in any case
 view     of the pictures: the axis that points upwards, and the direction of view in degrees
 
 The folder gets a mesh and a report (.json) for each job, and summary.csv and the gallery,
@@ -55,8 +56,8 @@ no longer in the recipe stay.
 Each warning has a tag: a heading of Documentation/Guide/Failures.md. summary.csv has the tags.
 
 Exit status: 0 all jobs are done, 1 some failed, 2 wrong use or a bad recipe, 3 all are done, some
-with warnings, and the recipe is strict, 130 after Ctrl-C, 143 after SIGTERM. Finished results
-stay, and the same command does the rest."""
+with warnings, and the recipe or the command is strict, 130 after Ctrl-C, 143 after SIGTERM.
+Finished results stay, and the same command does the rest."""
 _SUMMARY = "reconstruct many scans by one recipe"
 _TEXTS: dict[str, Any] = {
     "description": "Reconstruct many scans by one recipe: each with each set of parameters, each in "
@@ -73,8 +74,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--version", action="version", version=__version__)
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    _add_arguments(commands.add_parser("batch", help=_SUMMARY, **_TEXTS))
-    return _run_parsed(parser.parse_args(arguments))
+    batch = commands.add_parser("batch", help=_SUMMARY, **_TEXTS)
+    _add_arguments(batch)
+    options, unknown = parser.parse_known_args(arguments)
+    if unknown:
+        # The error of parse_args() would show the usage without the options.
+        batch.error(f"unrecognized arguments: {' '.join(unknown)}")
+    return _run_parsed(options)
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -93,22 +99,26 @@ def _add_arguments(batch: argparse.ArgumentParser) -> None:
         help="folder of the results (default: jobs-results beside jobs.json)",
     )
     add_processes_option(batch, "jobs")
+    batch.add_argument(
+        "--strict", action="store_true", help="end with status 3 if a mesh has warnings"
+    )
 
 
 def _run_parsed(options: argparse.Namespace) -> int:
     return run_command(
-        lambda: _batch(options.recipe, options.output, options.processes), RecipeError
+        lambda: _batch(options.recipe, options.output, options.processes, options.strict),
+        RecipeError,
     )
 
 
-def _batch(recipe_path: Path, output: Path | None, processes: int) -> int:
+def _batch(recipe_path: Path, output: Path | None, processes: int, is_strict: bool) -> int:
     recipe = read_recipe(recipe_path)
     folder = (output or recipe_path.parent / f"{recipe_path.stem}-results").absolute()
     require_distinct(recipe_path, recipe, folder)
     folder.mkdir(parents=True, exist_ok=True)
     with alone_in(folder, "batch"):
         failed = _run(recipe, folder, processes)
-        warned = sum(count_warnings(folder, job) > 0 for job in recipe.jobs)
+        warned = sum(bool(warnings_of(folder, job)) for job in recipe.jobs)
         with_warnings = f", {warned} with warnings" if warned else ""
         # First, as a full disk may take no summary and no gallery.
         done = len(recipe.jobs) - failed
@@ -121,7 +131,7 @@ def _batch(recipe_path: Path, output: Path | None, processes: int) -> int:
             print(f"gallery    {folder / 'index.html'}")
     if failed:
         return 1
-    return 3 if recipe.is_strict and warned else 0
+    return 3 if (is_strict or recipe.is_strict) and warned else 0
 
 
 def _run(recipe: Recipe, folder: Path, processes: int) -> int:
@@ -148,8 +158,11 @@ def _run(recipe: Recipe, folder: Path, processes: int) -> int:
 
 
 def _done(folder: Path, job: Job) -> str:
-    count = count_warnings(folder, job)
-    return "done" + (f", {count} warning{'s' * (count > 1)}" if count else "")
+    warnings = warnings_of(folder, job)
+    if not warnings:
+        return "done"
+    count = len(warnings)
+    return f"done, {count} warning{'s' * (count > 1)}: {tags_of(warnings)}"
 
 
 def _is_one_file() -> bool:

@@ -17,7 +17,7 @@ from .._parameters import snake_case
 from .meshes import fields_of
 from .recipe import Job, Recipe, RecipeError
 from .atomic_file import write_text
-from .words import tag_of
+from .words import tags_of
 
 PHASES = ("cloud", "start", "learning", "finish")
 SECONDS = ("reading", "reconstruction", "writing")
@@ -104,9 +104,9 @@ def _is_whole(path: Path, size: int) -> bool:
     return path.is_file() and path.stat().st_size == size
 
 
-def count_warnings(folder: Path, job: Job) -> int:
-    """How many things there were to warn of, when the job was done."""
-    return len(read_report(folder, job.name).get("warnings", []))
+def warnings_of(folder: Path, job: Job) -> list[str]:
+    """What there was to warn of, when the job was done."""
+    return read_report(folder, job.name).get("warnings", [])
 
 
 def quality_of(mesh) -> dict[str, Any]:
@@ -155,7 +155,7 @@ def _row(job: Job, report: dict[str, Any], recipe: Recipe) -> dict[str, Any]:
         "result": result.get("file", ""),
         "points": result.get("points", ""),
         "triangles": result.get("triangles", ""),
-        "warnings": " ".join(dict.fromkeys(map(tag_of, report.get("warnings", [])))),
+        "warnings": tags_of(report.get("warnings", [])),
         **{f"{name}_seconds": report.get("seconds", {}).get(name, "") for name in SECONDS},
         **{f"{name}_cpu_seconds": report.get("phases", {}).get(name, "") for name in PHASES},
         **quality,

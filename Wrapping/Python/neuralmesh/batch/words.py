@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 import signal
+from typing import Iterable
 
 NO_MEMORY = "there is not enough memory; fewer --processes leave more for each job"
 
@@ -35,6 +36,11 @@ def tag_of(warning: str) -> str:
     """The tag at the end of a warning; "other" where there is none."""
     found = _TAG.search(warning)
     return found.group(1) if found else "other"
+
+
+def tags_of(warnings: Iterable[str]) -> str:
+    """The tags of warnings, each once."""
+    return " ".join(dict.fromkeys(map(tag_of, warnings)))
 
 
 def without_tag(warning: str) -> str:
