@@ -4,6 +4,7 @@
 #include "base/DisjointSets.h"
 #include "base/Median.h"
 #include "cloud/NearestPoints.h"
+#include "run/CutOffPoints.h"
 #include "run/GroupsBeyondNoise.h"
 #include "run/LocalVariation.h"
 #include "start/LayerSearch.h"
@@ -23,16 +24,6 @@ namespace
 /// A point is away from the mesh if its distance is more than so many of its spacings, and more
 /// than the noise, MediansAway.
 constexpr float SpacingsAway = 3.f;
-/// An explained point is cut off if its distance is more than so many of its spacings: at a rim, or
-/// where the mesh ends among sparse points.
-constexpr float SpacingsAtRims = 1.f;
-constexpr float SpacingsBeyondEnds = 1.6f;
-/// At a rim, a point with more than so many usual spacings may be an outlier near the surface.
-constexpr float MostSpacingAtRims = 1.75f;
-/// The distance of a point that is cut off is also more than this part of the mean edge or of the
-/// diagonal. Every bend of a mesh causes smaller ones.
-constexpr float EdgesCutOff = 0.5f;
-constexpr double DiagonalCutOff = 0.01;
 /// If the mesh misses most points, their median distance is not noise. It is then more than so many
 /// usual spacings, or a part of an edge: where a mesh cuts off bends, it is a third of that. The noise is then
 /// measured in the layers of so many points. Noise spreads points that are three medians apart as far as one across
@@ -107,7 +98,7 @@ public:
         [this](std::size_t i) { return result_.reasons[i] == Reason::Explained; }, executor_);
     }
     count();
-    findCutOff();
+    findCutOff(cloud_, { spacings_, usualSpacing_, LoneSpacings * usualSpacing_, noise_ }, result_);
     return std::move(result_);
   }
 
@@ -510,43 +501,6 @@ private:
     if (group.size() >= FewestPassedBy)
     {
       result_.passedBy.push_back(described(group));
-    }
-  }
-
-  void findCutOff()
-  {
-    const auto take = [this](CutOffPoints& points, std::size_t i)
-    {
-      ++points.count;
-      const double distance = cloud_.unit() * double(result_.asked.distances[i]);
-      if (distance > points.farthest)
-      {
-        points.farthest = distance;
-        points.place = cloud_.toInput(placeOf(i));
-      }
-    };
-    const double least =
-      std::min(EdgesCutOff * result_.asked.meanEdge, DiagonalCutOff * cloud_.diagonal());
-    for (std::size_t i = 0; i < result_.reasons.size(); ++i)
-    {
-      const float distance = result_.asked.distances[i];
-      const bool isBeyond = result_.asked.isBeyondBoundary[i] != 0;
-      const bool isExplained = result_.reasons[i] == Reason::Explained;
-      // The farthest points at a sparse end count, too: they are few, so they are a small piece.
-      if (!(isExplained || (isBeyond && result_.reasons[i] == Reason::SmallPiece)) ||
-        !(distance > noise_) || !(double(distance) > least))
-      {
-        continue;
-      }
-      if (!isBeyond && spacings_[i] <= MostSpacingAtRims * usualSpacing_ &&
-        distance > SpacingsAtRims * spacings_[i])
-      {
-        take(result_.atRims, i);
-      }
-      else if (isBeyond && isSparse(i) && distance > SpacingsBeyondEnds * spacings_[i])
-      {
-        take(result_.beyondEnds, i);
-      }
     }
   }
 

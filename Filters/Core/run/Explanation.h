@@ -50,6 +50,8 @@ struct CutOffPoints
   Eigen::Vector3d place =
     Eigen::Vector3d::Zero(); ///< the farthest one, in the coordinates of the input
   double farthest = 0.;      ///< its distance to the mesh, in units of the input
+  bool areTogether =
+    false; ///< whether some lie within two edges of each other: no chance puts them there
 };
 
 /// The points of a cloud that a mesh explains, and those that it does not. The spacing of a point

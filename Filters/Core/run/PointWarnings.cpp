@@ -81,8 +81,8 @@ std::string cutOffText(
 void warnOfCutOff(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
 {
   const std::size_t atRims = explanation.atRims.count;
-  const bool isCutOff =
-    atRims >= FewestAtRims && double(atRims) > MostAtRims * double(explanation.reasons.size());
+  const bool isCutOff = explanation.atRims.areTogether ||
+    (atRims >= FewestAtRims && double(atRims) > MostAtRims * double(explanation.reasons.size()));
   const bool hasCoarsePiece = !piecesOf(Fate::Coarse, explanation, cloud).empty();
   if (isCutOff && !hasCoarsePiece)
   {
