@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/NearestPoints.h"
 
+#include "base/EvenSort.h"
+
 namespace neuralmesh
 {
 namespace
 {
 /// Then points are spread so unevenly that the radius tells nothing.
 constexpr int TriesWithin = 4;
+/// Of those wanted; where more are found, the others are put aside.
+constexpr std::size_t MostSorted = 3;
 /// Where points coincide so many times as many are looked at, up to so many.
 constexpr std::size_t MoreForPlaces = 4;
 constexpr std::size_t MostForPlaces = 256;
@@ -129,11 +133,10 @@ void NearestOf<Points>::visit(Search& search, std::size_t level, std::size_t gro
       visit(search, level - 1, box);
       continue;
     }
-    const std::size_t last = std::min(Fan * (box + 1), points_.size());
-    for (std::size_t p = Fan * box; p < last; ++p)
-    {
-      search.take({ squaredNorm(points_[p] - search.point), std::uint32_t(p) });
-    }
+    forEachIn(box, search.point,
+      [&search](std::uint32_t p, float squared) {
+        search.take({ squared, p });
+      });
   }
 }
 
@@ -221,8 +224,9 @@ std::size_t NearestOf<Points>::findWithin(
 {
   const std::size_t wanted = std::min(nearest.size(), points_.size());
   buffer.clear();
-  for (int tries = 0; tries < TriesWithin && buffer.size() < wanted; ++tries, radius *= 1.5f)
+  for (int tries = 0; tries < TriesWithin && buffer.size() < wanted; ++tries)
   {
+    radius *= tries > 0 ? 1.5f : 1.f;
     buffer.clear();
     forEachWithin(point, radius,
       [&buffer](std::uint32_t index, float squared) {
@@ -233,10 +237,20 @@ std::size_t NearestOf<Points>::findWithin(
   {
     return find(point, nearest);
   }
-  const auto end = buffer.begin() + std::ptrdiff_t(wanted);
-  std::nth_element(buffer.begin(), end - 1, buffer.end());
-  std::sort(buffer.begin(), end);
-  std::copy(buffer.begin(), end, nearest.begin());
+  if (buffer.size() > MostSorted * wanted)
+  {
+    std::nth_element(buffer.begin(), buffer.begin() + std::ptrdiff_t(wanted - 1), buffer.end());
+    buffer.resize(wanted);
+  }
+  // On a surface there are twice as many within twice the square.
+  const std::size_t count = buffer.size();
+  buffer.resize(2 * count);
+  const std::span<const NearPoint> found(buffer.data(), count);
+  const std::span<NearPoint> sorted(buffer.data() + count, count);
+  const float scale = 1.f / (radius * radius);
+  sortEven<NearPoint>(
+    found, sorted, [=](const NearPoint& one) { return scale * one.squaredDistance; });
+  std::copy_n(sorted.begin(), wanted, nearest.begin());
   return wanted;
 }
 

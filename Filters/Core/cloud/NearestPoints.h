@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/FourVectors.h"
 #include "base/Vector4.h"
 #include "base/ZeroedArray.h"
 #include "cloud/PickedPoints.h"
@@ -117,6 +118,34 @@ private:
     return std::min(Fan, all - Fan * group);
   }
 
+  /// Calls `use(index, squaredDistance)` for the points of a box.
+  template <typename Use>
+  void forEachIn(std::size_t box, Vector4 point, const Use& use) const
+  {
+    const std::size_t first = Fan * box, last = std::min(first + Fan, points_.size());
+    if (last - first < Fan)
+    {
+      for (std::size_t p = first; p < last; ++p)
+      {
+        use(std::uint32_t(p), squaredNorm(points_[p] - point));
+      }
+      return;
+    }
+    const FourVectors origin(point);
+    std::array<float, Fan> squares;
+    for (std::size_t half = 0; half < Fan; half += 4)
+    {
+      const std::size_t p = first + half;
+      const FourVectors four(points_[p], points_[p + 1], points_[p + 2], points_[p + 3]);
+      const FourVectors::Lanes lanes = squaredNorm(four - origin);
+      std::memcpy(squares.data() + half, &lanes, sizeof(lanes));
+    }
+    for (std::size_t i = 0; i < Fan; ++i)
+    {
+      use(std::uint32_t(first + i), squares[i]);
+    }
+  }
+
   template <typename Use>
   void visitWithin(
     Vector4 point, float squaredRadius, std::size_t level, std::size_t group, Use& use) const
@@ -135,15 +164,14 @@ private:
         visitWithin(point, squaredRadius, level - 1, box, use);
         continue;
       }
-      const std::size_t last = std::min(Fan * (box + 1), points_.size());
-      for (std::size_t p = Fan * box; p < last; ++p)
-      {
-        const float squared = squaredNorm(points_[p] - point);
-        if (squared <= squaredRadius)
+      forEachIn(box, point,
+        [&](std::uint32_t p, float squared)
         {
-          use(std::uint32_t(p), squared);
-        }
-      }
+          if (squared <= squaredRadius)
+          {
+            use(p, squared);
+          }
+        });
     }
   }
 

@@ -9,8 +9,8 @@
 #include "mesh/EdgeFlips.h"
 #include "mesh/Pieces.h"
 #include "mesh/Simplification.h"
+#include "start/BestFront.h"
 #include "start/Evidence.h"
-#include "start/FrontSurface.h"
 #include "start/OccupiedSolid.h"
 #include "start/OneSheet.h"
 #include "start/SkinLayers.h"
@@ -66,28 +66,6 @@ constexpr double MostMedianOfSheet = 0.1;
 constexpr double MostMedianOfSolid = 0.2;
 /// A sheet with more boundaries was torn.
 constexpr std::size_t MostLoopsOfSheet = 2;
-/// Of a front.
-constexpr std::size_t LeastSamples = 6000;
-constexpr std::size_t MostSamples = 14000;
-constexpr std::uint64_t SeedOfFront = 1;
-/// So many more are tried where two of them show one surface with other handles.
-constexpr std::uint64_t FrontsAtOdds = 2;
-/// Of the area of the best one before.
-constexpr double LeastAreaOfOther = 0.999;
-/// See FrontSurface::disorder(): less is a surface without doubt. Where there is no other that is, more
-/// will do.
-constexpr double MostDisorder = 5.;
-constexpr double MostDisorderAtAll = 40.;
-/// Share of the samples of a front: of a sheet that has two sides.
-constexpr double LeastInTwoLayers = 0.05;
-/// Of the area that a front has if it takes those for one sheet, for each of their share: with both sides
-/// it has so much more. It may have shown a part of them anyway.
-constexpr double LeastOfSecondLayer = 0.25;
-/// Of the area of another front, one of the same surface has so much.
-constexpr double AreaOfSame = 0.99;
-/// Of its samples: more lie in no layer where there are outliers in all of space.
-constexpr double MostScatter = 0.03;
-
 constexpr int FitRounds = 2;
 constexpr double FitSmoothness = 1.;
 constexpr std::size_t FitSamples = 10; ///< per vertex
@@ -442,94 +420,20 @@ std::optional<FirstSurface> thinSolid(const PointCloud& cloud, FirstSurface skin
                                                                : std::nullopt;
 }
 
-/// Whether a front shows the two sides of what another one takes for one sheet: then it has more area, and
-/// hardly more boundaries. Where views lie beside each other, each layer ends somewhere.
-bool showsBothLayers(const FrontSurface& apart, const FrontSurface& joined)
-{
-  const double least = 1. + LeastOfSecondLayer * joined.inOneOfTwo;
-  return joined.inOneOfTwo >= LeastInTwoLayers && apart.disorder() < MostDisorder &&
-    areaOf(apart.mesh) >= least * areaOf(joined.mesh) &&
-    BoundaryManager(apart.mesh).loopCount() <=
-    BoundaryManager(joined.mesh).loopCount() + MostLoopsOfSheet;
-}
-
-/// Whether a front with layers apart closes what the other one left open, and is no less in order for that.
-bool closesMore(const FrontSurface& apart, const FrontSurface& joined)
-{
-  return apart.disorder() <= joined.disorder() &&
-    areaOf(apart.mesh) >= AreaOfSame * areaOf(joined.mesh) &&
-    BoundaryManager(apart.mesh).loopCount() < BoundaryManager(joined.mesh).loopCount();
-}
-
-/// Whether two fronts show the same surface.
-bool areSame(const FrontSurface& one, const FrontSurface& other)
-{
-  const double area = areaOf(one.mesh), otherArea = areaOf(other.mesh);
-  return one.disorder() < MostDisorder && other.disorder() < MostDisorder &&
-    std::min(area, otherArea) >= AreaOfSame * std::max(area, otherArea);
-}
-
-/// Whether a front shows the same surface with fewer handles and loops: those of the other one go from one layer to
-/// the next.
-bool isSimpler(const FrontSurface& front, const FrontSurface& other)
-{
-  const std::size_t loops = BoundaryManager(front.mesh).loopCount();
-  const std::size_t otherLoops = BoundaryManager(other.mesh).loopCount();
-  const long genus = genusOf(front.mesh), otherGenus = genusOf(other.mesh);
-  return areSame(front, other) && loops <= otherLoops && genus <= otherGenus &&
-    (loops < otherLoops || genus < otherGenus);
-}
-
-/// The front of the candidates that agrees best with itself, if any does. Where there is a closed solid
-/// already, only one that is certain counts.
+/// The best front as a first surface, if there is one.
 std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const NearestPoints& nearest,
   std::size_t mostVertices, Boundaries boundaries, const Progress& progress, double leastPiece,
   bool mustBeCertain)
 {
-  PointLayers pointLayers(nearest, std::clamp(mostVertices, LeastSamples, MostSamples));
-  const auto frontOf = [&](Layers layers, std::uint64_t seed, double begin, double end)
-  {
-    return frontSurface(cloud, pointLayers, layers, seed, partOf(progress, begin, end), leastPiece,
-      mustBeCertain ? MostScatter : 1.);
-  };
-  std::optional<FrontSurface> best = frontOf(Layers::Joined, SeedOfFront, 0., 0.5);
-  const bool isWithoutDoubt =
-    best && best->disorder() < MostDisorder && best->inOneOfTwo < LeastInTwoLayers;
-  auto apart = isWithoutDoubt ? std::nullopt : frontOf(Layers::Apart, SeedOfFront, 0.5, 0.75);
-  const bool areAtOdds = best && apart && (isSimpler(*apart, *best) || isSimpler(*best, *apart));
-  const auto isBetter = [&](const FrontSurface& front)
-  {
-    return (best->disorder() >= MostDisorder && front.disorder() < best->disorder()) ||
-      showsBothLayers(front, *best) || closesMore(front, *best) || isSimpler(front, *best);
-  };
-  if (apart && (!best || isBetter(*apart)))
-  {
-    best = std::move(apart);
-  }
-  // Which of them is right in thin places is chance: others are asked.
-  for (std::uint64_t i = 1; areAtOdds && i <= FrontsAtOdds; ++i)
-  {
-    const double at = 0.75 + 0.25 * double(i - 1) / double(FrontsAtOdds);
-    auto other = frontOf(Layers::Apart, SeedOfFront + i, at, at + 0.25 / double(FrontsAtOdds));
-    // Without a limb, or one side of a blade, it would be simpler, too.
-    if (other && isSimpler(*other, *best) && genusOf(other->mesh) < genusOf(best->mesh) &&
-      areaOf(other->mesh) >= LeastAreaOfOther * areaOf(best->mesh))
-    {
-      best = std::move(other);
-    }
-  }
-  if (!progress(1.))
-  {
-    return {};
-  }
-  if (!best || best->disorder() > MostDisorderAtAll)
+  auto best = bestFront(cloud, nearest, mostVertices, progress, leastPiece, mustBeCertain);
+  if (!best || !progress(1.))
   {
     return {};
   }
   FirstSurface result;
   result.mesh = std::move(best->mesh);
   result.isOpen = true;
-  result.isCertain = best->disorder() < MostDisorder && best->scatter < MostScatter;
+  result.isCertain = isCertain(*best);
   result.bridgeWidth = 2. * result.mesh.meanEdge();
   simplify(result.mesh, mostVertices);
   if (boundaries == Boundaries::Close)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/LocalLayer.h"
 
+#include "base/EvenSort.h"
 #include "start/PrincipalAxes.h"
 
 #include <Eigen/Cholesky>
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 
 namespace neuralmesh
@@ -31,8 +31,6 @@ constexpr double ThickLayersApart = 5.;
 /// To find the plane of two layers.
 constexpr int RoundsOfGroups = 3;
 constexpr std::size_t LeastPointsOfPlane = 6;
-/// Of heights in no order.
-constexpr std::size_t LargeStep = 7;
 /// Keeps sums of weights above 0.
 constexpr double LeastWeight = 1e-12;
 /// Of the curvatures, against the other equations, where the points do not tell them.
@@ -116,21 +114,23 @@ public:
       x_[i] = scale * double(offset[0]);
       y_[i] = scale * double(offset[1]);
       z_[i] = scale * double(offset[2]);
-      nearness_[i] = bell(1.6 * std::sqrt(double(nearest[i].squaredDistance)) * scale);
+      squaredDistances_[i] = nearest[i].squaredDistance;
     }
-    forgetOrder();
   }
 
   LocalLayer layer(Vector4 place)
   {
+    findNearness();
     findPlane(nearness_);
     findHeights(Eigen::Vector3d::Zero());
     if (keepOwnLayer())
     {
+      findNearness();
       findPlane(nearness_);
       findHeights(Eigen::Vector3d::Zero());
       if (keepOwnLayer())
       {
+        findNearness();
         findHeights(Eigen::Vector3d::Zero());
       }
     }
@@ -173,16 +173,33 @@ public:
     findPlane(alike);
     findHeights(Eigen::Vector3d::Zero());
     auto found = groups();
+    Sides before{};
     for (int i = 0; i < RoundsOfGroups && found && !found->areApart(ThickLayersApart); ++i)
     {
-      findPlaneOf(*found);
+      const Sides sides = sidesOf(*found);
+      if (i > 0 && sides == before)
+      {
+        // The plane would be the same, and so would all that follows.
+        return false;
+      }
+      findPlaneOf(*found, sides);
       findHeights(Eigen::Vector3d::Zero());
       found = groups();
+      before = sides;
     }
     return found && found->areApart(ThickLayersApart) && keepOwn(*found);
   }
 
 private:
+  void findNearness()
+  {
+    const double scale = radius_ > 0. ? 1. / radius_ : 0.;
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      nearness_[i] = bell(1.6 * std::sqrt(double(squaredDistances_[i])) * scale);
+    }
+  }
+
   void findPlane(const ValuesOfLayer& weights)
   {
     double sum = 0., x = 0., y = 0., z = 0.;
@@ -222,44 +239,17 @@ private:
     sortHeights(heights_);
   }
 
-  /// Planes change little from one to the next, and so does the order of the heights: to put each where it
-  /// belongs, from the last order on, takes hardly more than a look at each. The first time large steps come
-  /// first (D. L. Shell, 1959).
   void sortHeights(const ValuesOfLayer& heights)
   {
-    for (std::size_t i = 0; i < count_; ++i)
+    double low = heights[0], high = heights[0];
+    for (std::size_t i = 1; i < count_; ++i)
     {
-      sorted_[i] = heights[order_[i]];
+      low = std::min(low, heights[i]);
+      high = std::max(high, heights[i]);
     }
-    if (!isOrdered_)
-    {
-      sortBySteps(LargeStep);
-      isOrdered_ = true;
-    }
-    sortBySteps(1);
-  }
-
-  void sortBySteps(std::size_t step)
-  {
-    for (std::size_t i = step; i < count_; ++i)
-    {
-      const double height = sorted_[i];
-      const std::uint8_t point = order_[i];
-      std::size_t at = i;
-      for (; at >= step && height < sorted_[at - step]; at -= step)
-      {
-        sorted_[at] = sorted_[at - step];
-        order_[at] = order_[at - step];
-      }
-      sorted_[at] = height;
-      order_[at] = point;
-    }
-  }
-
-  void forgetOrder()
-  {
-    std::iota(order_.begin(), order_.begin() + std::ptrdiff_t(count_), std::uint8_t(0));
-    isOrdered_ = false;
+    const double scale = 1. / (high - low);
+    sortEven<double>(std::span(heights).first(count_), sorted_,
+      [=](double height) { return scale * (height - low); });
   }
 
   /// Two groups of heights, with the least variance within them.
@@ -326,12 +316,11 @@ private:
         x_[kept] = x_[i];
         y_[kept] = y_[i];
         z_[kept] = z_[i];
-        nearness_[kept] = nearness_[i];
+        squaredDistances_[kept] = squaredDistances_[i];
         ++kept;
       }
     }
     count_ = kept;
-    forgetOrder();
     return true;
   }
 
@@ -343,21 +332,34 @@ private:
     return found && found->areApart(LayersApart) && keepOwn(*found);
   }
 
-  void findPlaneOf(const Groups& groups)
+  /// Of each point: whether it is in the group of the first one.
+  using Sides = std::array<std::uint8_t, MostPointsOfLayer>;
+
+  Sides sidesOf(const Groups& groups) const
   {
-    std::array<Eigen::Vector3d, 2> means{ Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero() };
-    const auto groupOf = [&](std::size_t i)
-    { return heights_[i] < groups.threshold ? std::size_t(0) : std::size_t(1); };
+    Sides sides{};
+    const bool isFirstBelow = heights_[0] < groups.threshold;
     for (std::size_t i = 0; i < count_; ++i)
     {
-      means[groupOf(i)] += Eigen::Vector3d(x_[i], y_[i], z_[i]);
+      sides[i] = (heights_[i] < groups.threshold) == isFirstBelow ? 1 : 0;
     }
-    means[0] /= double(groups.below);
-    means[1] /= double(count_ - groups.below);
+    return sides;
+  }
+
+  void findPlaneOf(const Groups& groups, const Sides& sides)
+  {
+    std::array<Eigen::Vector3d, 2> means{ Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero() };
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      means[sides[i]] += Eigen::Vector3d(x_[i], y_[i], z_[i]);
+    }
+    const std::size_t first = heights_[0] < groups.threshold ? groups.below : count_ - groups.below;
+    means[0] /= double(count_ - first);
+    means[1] /= double(first);
     SecondMoments moments;
     for (std::size_t i = 0; i < count_; ++i)
     {
-      const Eigen::Vector3d& mean = means[groupOf(i)];
+      const Eigen::Vector3d& mean = means[sides[i]];
       moments.add(1., x_[i] - mean[0], y_[i] - mean[1], z_[i] - mean[2]);
     }
     axes_ = principalAxes(moments.matrix());
@@ -431,12 +433,11 @@ private:
   std::size_t count_;
   double radius_;
   ValuesOfLayer x_, y_, z_;
+  std::array<float, MostPointsOfLayer> squaredDistances_; ///< with the radius as it is
   ValuesOfLayer nearness_;
   ValuesOfLayer weights_;
   ValuesOfLayer heights_;
   ValuesOfLayer sorted_; ///< the heights, or what a quadric leaves of them
-  std::array<std::uint8_t, MostPointsOfLayer> order_; ///< of the points, by their height at last
-  bool isOrdered_ = false;
   Eigen::Vector3d center_;
   Eigen::Matrix3d axes_; ///< in columns, the normal first
   Eigen::Vector3d normal_;

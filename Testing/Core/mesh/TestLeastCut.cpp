@@ -14,12 +14,12 @@ namespace neuralmesh::testing
 {
 namespace
 {
-constexpr unsigned Side = 40;
+constexpr unsigned QuadsAlong = 40;
 
 /// A sheet that is narrow where `waist` is, 0 to 1 along x.
 TriangleMesh hourglass(double waist)
 {
-  TriangleMesh mesh = makeGrid(Side);
+  TriangleMesh mesh = makeGrid(QuadsAlong);
   std::erase_if(mesh.triangles,
     [&](const auto& triangle)
     {
@@ -77,14 +77,14 @@ TEST(LeastCut, IsWhereASheetIsNarrow)
 // What is known stays, though the cut would be shorter without it, and where one side alone is known all is of it.
 TEST(LeastCut, KeepsWhatIsKnown)
 {
-  const TriangleMesh mesh = makeGrid(Side);
+  const TriangleMesh mesh = makeGrid(QuadsAlong);
   std::vector<std::int8_t> known(mesh.triangles.size(), 1);
-  known[Side * Side] = -1;
+  known[QuadsAlong * QuadsAlong] = -1;
   EXPECT_EQ(divided(mesh, known), known);
   for (const std::int8_t side : { std::int8_t(1), std::int8_t(-1) })
   {
     std::vector<std::int8_t> one(mesh.triangles.size(), 0);
-    one[Side] = side;
+    one[QuadsAlong] = side;
     EXPECT_EQ(divided(mesh, one), std::vector<std::int8_t>(mesh.triangles.size(), side));
   }
 }
