@@ -7,6 +7,7 @@
 #include "run/Run.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <string>
 #include <utility>
@@ -153,11 +154,17 @@ bool holdsMoreWithHoles(const Reconstruction& withHoles, const Reconstruction& o
 /// Whether a closed mesh may have filled holes that the grid of its first surface did not show.
 bool mayHaveFilledHoles(const Reconstruction& result, const RunRequest& request)
 {
+  using enum WarningTopic;
   return result.isFromGrid && mayLearnOtherwise(request) &&
     request.parameters.fidelity != Fidelity::Draft && result.stopReason == StopReason::Vertices &&
-    result.finish && result.explanation && !result.surface.isOpen(request.executor) &&
-    (result.explanation->torn.any() || !result.explanation->pieces.empty() ||
-      !result.gaps.empty() || !result.noiseWebs.empty());
+    result.finish && !result.surface.isOpen(request.executor) &&
+    std::ranges::any_of(result.warnings,
+      [](const std::string& warning)
+      {
+        return std::ranges::any_of(
+          std::array{ MeshIsCoarse, PartIsMissing, GapIsSpanned, FinerThanNoise },
+          [&](WarningTopic topic) { return isAbout(warning, topic); });
+      });
 }
 
 /// Whether a mesh that was refined beside its creases is better than one that has learnt all its
