@@ -29,6 +29,9 @@ struct FacingBoundaries
 /// area; it says nothing where the way to it leads back over the surface of either. At most a thousand boundary vertices are asked, evenly picked. No vertex may be erased.
 FacingBoundaries findFacingBoundaries(const Mesh& mesh);
 
+/// Whether the way from a boundary vertex to a place leads away from the surface, not back over it.
+bool leadsOff(const Mesh& mesh, VertexIndex boundaryVertex, Vector4 place);
+
 /// A boundary vertex, and the one across.
 struct FacingPair
 {

@@ -56,6 +56,34 @@ TEST(PieceAgreement, ATreeDoesNotTurnTheGround)
   }
 }
 
+// The rim of a body that stands on a table faces the table's outline the wrong way round: the way between them leads over
+// the table. Upright, so that no ground tells.
+TEST(PieceAgreement, TheRimOfABodyDoesNotTurnItsTable)
+{
+  TriangleMesh scene = placed(makeGrid(40), upright(), { -2., 0., -2. }, 4.);
+  const std::size_t ofTable = scene.points.size();
+  append(scene, placed(openSphere(90.), upright(), { 0., -0.05, 0. }, 0.4));
+  for (const bool isTurned : { false, true })
+  {
+    TriangleMesh table = scene;
+    for (auto& triangle : table.triangles)
+    {
+      if (isTurned && triangle[0] < ofTable)
+      {
+        std::swap(triangle[1], triangle[2]);
+      }
+    }
+    Scene seen(table);
+    EXPECT_EQ(seen.orient().unknownPieces, 1u);
+    const auto looksRight = [](const Eigen::Vector3d& centroid)
+    {
+      const bool isOfTable = centroid.y() > -1e-6;
+      return isOfTable ? Eigen::Vector3d(0., -1., 0.) : Eigen::Vector3d(centroid);
+    };
+    EXPECT_EQ(seen.facing(looksRight), 1.);
+  }
+}
+
 // Upright, where no ground tells: a closed body before an opening of a wall does not turn it, though it looks the
 // same way there, nor does a dent near by whose volume is a guess.
 TEST(PieceAgreement, ASmallerPieceDoesNotTurnAWall)
