@@ -42,6 +42,13 @@ constexpr double LastStep = 1. / 32.;
 /// The part of the boundary that ends in shadows, times the part of the surface that is seen from one side.
 constexpr double LeastExplained = 0.1;
 constexpr double LeastRatio = 2.;
+/// The same against the volume.
+constexpr double LeastExplainedWithin = 0.2;
+constexpr double LeastRatioWithin = 5.;
+constexpr double ShortestBoundaryWithin = 0.25;
+/// What a first look from within must explain, from so many places along each axis of the box.
+constexpr double LeastAtFirstLook = 0.08;
+constexpr int PlacesWithinPerAxis = 3;
 
 /// At a boundary.
 struct RimProbe
@@ -58,6 +65,21 @@ struct SurfaceProbe
   std::size_t piece;
 };
 
+/// What shadows tell.
+struct Shadows
+{
+  std::vector<int>
+    directions; ///< of each piece: 1 towards the scanner, -1 away from it, 0 if that is unknown
+  double explained = 0.;
+  double opposite = 0.;  ///< what a place explains that sees the other sides
+  bool isWithin = false; ///< whether the scanner was in the bounding box
+
+  bool tell(double leastExplained, double leastRatio) const
+  {
+    return explained >= leastExplained && explained >= leastRatio * opposite;
+  }
+};
+
 /// What is seen from a place.
 struct View
 {
@@ -69,9 +91,12 @@ struct View
 class ShadowSearch
 {
 public:
-  ShadowSearch(const Mesh& mesh, std::span<const Piece> pieces, const PointCloud& cloud,
-    const Executor& executor)
-    : surface_(trianglesOf(mesh, cloud, executor))
+  /// Only pieces that are asked cast shadows, or have gaps.
+  template <typename IsAsked>
+  ShadowSearch(const Mesh& mesh, std::span<const Piece> pieces, const IsAsked& isAsked,
+    const PointCloud& cloud, const Executor& executor)
+    : isAsked_(mesh.indexEnd(), false)
+    , surface_(askedTriangles(mesh, pieces, isAsked, cloud, executor))
     , visibility_(surface_)
     , executor_(executor)
     , pieceCount_(pieces.size())
@@ -84,28 +109,53 @@ public:
     addSurfaceProbes(mesh, pieces);
   }
 
-  /// For each piece 1 if it looks to the side from which it was scanned, -1 if it looks away, 0 if that is unknown.
-  std::vector<int> directions() const
+  /// Whether places spread in the bounding box explain anything: most scans are done with so.
+  bool mayBeFromWithin() const
+  {
+    std::vector<Eigen::Vector3d> places;
+    addGrid(PlacesWithinPerAxis, 0.25 * bounds_.diagonal(), places);
+    const std::vector<View> views = lookFrom(places, RimProbesOfFirstLook);
+    return std::any_of(views.begin(), views.end(),
+      [this](const View& view) { return explainedBy(view) >= LeastAtFirstLook; });
+  }
+
+  Shadows shadows() const
   {
     const std::vector<View> views = firstLook();
     const auto plain = [this](const View& view) { return explainedBy(view); };
     const View best = bestOf(views, plain);
-    const std::vector<int> directions = directionsIn(best);
-    const auto opposite = [&](const View& view) { return -agreement(view, directions); };
-    const View other = bestOf(views, opposite);
-    const double explained = agreement(best, directions);
-    const bool tells = explained >= LeastExplained && explained >= LeastRatio * opposite(other);
-    return tells ? directions : std::vector<int>(pieceCount_, 0);
+    Shadows result{ directionsIn(best), 0., 0., bounds_.contains(best.viewpoint) };
+    const auto opposite = [&](const View& view) { return -agreement(view, result.directions); };
+    result.explained = agreement(best, result.directions);
+    result.opposite = opposite(bestOf(views, opposite));
+    return result;
   }
 
 private:
+  template <typename IsAsked>
+  TriangleMesh askedTriangles(const Mesh& mesh, std::span<const Piece> pieces,
+    const IsAsked& isAsked, const PointCloud& cloud, const Executor& executor)
+  {
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+    {
+      for (const VertexIndex v : pieces[i].vertices)
+      {
+        isAsked_[v] = isAsked(i);
+      }
+    }
+    TriangleMesh result = trianglesOf(mesh, cloud, executor);
+    std::erase_if(
+      result.triangles, [this](const auto& triangle) { return !isAsked_[triangle[0]]; });
+    return result;
+  }
+
   void addRimProbes(const Mesh& mesh)
   {
     std::vector<VertexIndex> rim;
     double length = 0.;
     for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
     {
-      if (mesh.isBoundary(v))
+      if (isAsked_[v] && mesh.isBoundary(v))
       {
         rim.push_back(v);
         length += (surface_.points[mesh.ring(v)[0]] - surface_.points[v]).norm();
@@ -138,6 +188,10 @@ private:
     {
       for (const VertexIndex v : pieces[i].vertices)
       {
+        if (!isAsked_[v])
+        {
+          break;
+        }
         mesh.forEachTriangleFrom(v,
           [&](VertexIndex a, VertexIndex b, VertexIndex c)
           {
@@ -191,7 +245,6 @@ private:
   /// From the origin, if it is not far off, and from a grid.
   std::vector<View> firstLook() const
   {
-    const Eigen::Vector3d center = bounds_.center();
     const double diagonal = bounds_.diagonal().norm();
     const Eigen::Vector3d reach =
       0.5 * bounds_.diagonal() + Eigen::Vector3d::Constant(ReachOfViewpoints * diagonal);
@@ -200,19 +253,26 @@ private:
     {
       places.push_back(Eigen::Vector3d::Zero());
     }
-    const auto along = [](int i) { return 2. * double(i) / double(ViewpointsPerAxis - 1) - 1.; };
-    for (int i = 0; i < ViewpointsPerAxis; ++i)
+    addGrid(ViewpointsPerAxis, reach, places);
+    return lookFrom(places, RimProbesOfFirstLook);
+  }
+
+  /// Places around the center, as far as `reach` to each side.
+  void addGrid(
+    int perAxis, const Eigen::Vector3d& reach, std::vector<Eigen::Vector3d>& places) const
+  {
+    const auto along = [perAxis](int i) { return 2. * double(i) / double(perAxis - 1) - 1.; };
+    for (int i = 0; i < perAxis; ++i)
     {
-      for (int j = 0; j < ViewpointsPerAxis; ++j)
+      for (int j = 0; j < perAxis; ++j)
       {
-        for (int k = 0; k < ViewpointsPerAxis; ++k)
+        for (int k = 0; k < perAxis; ++k)
         {
           const Eigen::Vector3d direction(along(i), along(j), along(k));
-          places.emplace_back(center + reach.cwiseProduct(direction));
+          places.emplace_back(bounds_.center() + reach.cwiseProduct(direction));
         }
       }
     }
-    return lookFrom(places, RimProbesOfFirstLook);
   }
 
   /// The best view, by `worthOf`, that steps lead to.
@@ -310,6 +370,7 @@ private:
   /// A prime number that divides no count of probes.
   static constexpr std::size_t Spread = 1009;
 
+  std::vector<bool> isAsked_; ///< of the vertices
   TriangleMesh surface_;
   Visibility visibility_;
   const Executor& executor_;
@@ -320,14 +381,10 @@ private:
   std::vector<SurfaceProbe> surfaceProbes_;
 };
 
-bool canShadowsTell(const Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> known)
+/// The length of all boundaries, in circumferences of a disc of the area of the mesh.
+double boundaryOf(const Mesh& mesh, double area)
 {
-  double area = 0., uncertain = 0., boundary = 0.;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-  {
-    area += pieces[i].area;
-    uncertain += known[i].isKnown() ? 0. : pieces[i].area;
-  }
+  double boundary = 0.;
   for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
   {
     if (mesh.isBoundary(v))
@@ -335,8 +392,26 @@ bool canShadowsTell(const Mesh& mesh, std::span<const Piece> pieces, std::span<c
       boundary += std::sqrt(double(squaredNorm(mesh.position(mesh.ring(v)[0]) - mesh.position(v))));
     }
   }
-  return area > 0. && uncertain >= LeastUncertainArea * area &&
-    boundary >= ShortestBoundary * 2. * std::sqrt(std::numbers::pi * area);
+  return area > 0. ? boundary / (2. * std::sqrt(std::numbers::pi * area)) : 0.;
+}
+
+/// The part of the area of the pieces that are chosen.
+template <typename IsChosen>
+double shareOf(std::span<const Piece> pieces, const IsChosen& isChosen)
+{
+  double area = 0., chosen = 0.;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    area += pieces[i].area;
+    chosen += isChosen(i) ? pieces[i].area : 0.;
+  }
+  return area > 0. ? chosen / area : 0.;
+}
+
+double areaOf(std::span<const Piece> pieces)
+{
+  return std::accumulate(pieces.begin(), pieces.end(), 0.,
+    [](double sum, const Piece& piece) { return sum + piece.area; });
 }
 }
 
@@ -344,16 +419,53 @@ std::vector<Side> sidesByShadows(const Mesh& mesh, std::span<const Piece> pieces
   std::span<const Side> known, const PointCloud& cloud, const Executor& executor)
 {
   std::vector<Side> sides(pieces.size());
-  if (!canShadowsTell(mesh, pieces, known))
+  const auto isUncertain = [&](std::size_t i) { return !known[i].isKnown(); };
+  if (shareOf(pieces, isUncertain) < LeastUncertainArea ||
+    boundaryOf(mesh, areaOf(pieces)) < ShortestBoundary)
   {
     return sides;
   }
-  const std::vector<int> directions = ShadowSearch(mesh, pieces, cloud, executor).directions();
+  const auto isAny = [](std::size_t) { return true; };
+  const Shadows shadows = ShadowSearch(mesh, pieces, isAny, cloud, executor).shadows();
+  const bool doTell = shadows.tell(LeastExplained, LeastRatio);
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    if (!known[i].isKnown() && directions[i] != 0)
+    if (doTell && isUncertain(i) && shadows.directions[i] != 0)
     {
-      sides[i] = { SideEvidence::Shadows, directions[i] < 0, true };
+      sides[i] = { SideEvidence::Shadows, shadows.directions[i] < 0, true };
+    }
+  }
+  return sides;
+}
+
+std::vector<Side> sidesFromWithin(const Mesh& mesh, std::span<const Piece> pieces,
+  std::span<const Side> byVolume, const PointCloud& cloud, const Executor& executor)
+{
+  std::vector<Side> sides(pieces.size());
+  const auto isByVolume = [&](std::size_t i) { return byVolume[i].isKnown(); };
+  if (shareOf(pieces, isByVolume) <= LeastUncertainArea ||
+    boundaryOf(mesh, areaOf(pieces)) < ShortestBoundaryWithin)
+  {
+    return sides;
+  }
+  // Others may be a base that was torn off, and lies before its opening.
+  const ShadowSearch search(mesh, pieces, isByVolume, cloud, executor);
+  if (!search.mayBeFromWithin())
+  {
+    return sides;
+  }
+  const Shadows shadows = search.shadows();
+  const auto looksAway = [&](std::size_t i)
+  { return isByVolume(i) && shadows.directions[i] == (byVolume[i].isTurned ? 1 : -1); };
+  if (shadows.isWithin && shadows.tell(LeastExplainedWithin, LeastRatioWithin) &&
+    shareOf(pieces, looksAway) > LeastUncertainArea)
+  {
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+    {
+      if (looksAway(i))
+      {
+        sides[i] = { SideEvidence::Shadows, !byVolume[i].isTurned, true };
+      }
     }
   }
   return sides;

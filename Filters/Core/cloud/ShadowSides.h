@@ -23,4 +23,11 @@ namespace neuralmesh
 std::vector<Side> sidesByShadows(const Mesh& mesh, std::span<const Piece> pieces,
   std::span<const Side> known, const PointCloud& cloud,
   const Executor& executor = Executor::sequential());
+
+/// The sides of pieces that look outwards by their volume, though shadows show clearly that they were scanned from
+/// within, as a room with things in it: five times as much must be explained by a place within the bounding box as by any
+/// that sees the outer sides. Nothing is told unless that is most of the area.
+std::vector<Side> sidesFromWithin(const Mesh& mesh, std::span<const Piece> pieces,
+  std::span<const Side> byVolume, const PointCloud& cloud,
+  const Executor& executor = Executor::sequential());
 }

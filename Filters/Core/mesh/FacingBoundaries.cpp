@@ -167,9 +167,14 @@ std::vector<FacingPair> facingPairs(const Mesh& mesh)
 
 FacingBoundaries findFacingBoundaries(const Mesh& mesh)
 {
+  return findFacingBoundaries(mesh, facingPairs(mesh));
+}
+
+FacingBoundaries findFacingBoundaries(const Mesh& mesh, std::span<const FacingPair> pairs)
+{
   FacingBoundaries result;
   float closest = std::numeric_limits<float>::infinity();
-  for (const FacingPair& pair : facingPairs(mesh))
+  for (const FacingPair& pair : pairs)
   {
     (pair.contradict ? result.contradicting : result.agreeing) += pair.length;
     const float squared = squaredNorm(mesh.position(pair.other) - mesh.position(pair.vertex));

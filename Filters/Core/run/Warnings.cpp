@@ -33,6 +33,9 @@ constexpr double MostBare = 0.04;
 constexpr double LeastGap = 0.0002;
 /// Of the triangles.
 constexpr double MostSlivers = 0.002;
+/// Of 2 r / R on average, in a mesh with so many triangles: less has what is crumpled, 0.8 what is not.
+constexpr double LeastMeanQuality = 0.76;
+constexpr std::size_t FewestTriangles = 500;
 constexpr double WholeArea = 0.999;
 /// Of the vertices.
 constexpr double MostDisagreeing = 0.02;
@@ -225,6 +228,14 @@ void warnOfSlivers(const SurfaceReport& surface, WarningList& warnings)
         "another number of vertices or another seed. Where points are much denser than elsewhere, "
         "thin them out.");
   }
+  if (surface.triangles >= FewestTriangles && surface.meanQuality < LeastMeanQuality)
+  {
+    warnings.add(WarningTopic::Slivers,
+      "The mesh is crumpled: the quality of its triangles is only " +
+        std::to_string(surface.meanQuality).substr(0, 4) +
+        " on average. It follows noise, or points in lines, instead of a surface. Use fewer "
+        "vertices, or a scan with less noise.");
+  }
 }
 
 /// Where the points know from where they were seen, that tells more than the shape: see warnOfSides().
@@ -341,6 +352,21 @@ void warnOfSides(
         placeText(cloud.toInput(sides.contrary.place), cloud) +
         ". If a part is connected by the wrong side, use more vertices or a cloud for each body. "
         "If viewpoints or normals are wrong there, correct them.");
+  }
+  if (sides.nestedShare > 0.)
+  {
+    warnings.add(WarningTopic::InsideOut,
+      percent(sides.nestedShare) + " of the surface lies within another piece, as around " +
+        placeText(cloud.toInput(sides.nested), cloud) +
+        ", and both look outwards: the outer one of a room and the inner one of a hollow body "
+        "should look inwards. Viewpoints (--viewpoint) or normals turn each piece.");
+  }
+  if (sides.isFromWithin)
+  {
+    warnings.add(WarningTopic::SideIsUnknown,
+      "Gaps show that the surface was scanned from within, like a room: it looks inwards. If it "
+      "was scanned from outside, give viewpoints (--viewpoint, where the scanner stood), or points "
+      "with normals.");
   }
   if (sides.hasToldNothing(SideEvidence::Viewpoints))
   {

@@ -86,6 +86,44 @@ TEST(ShadowSides, OtherGapsTellNothing)
   }
 }
 
+// A hull that encloses a volume looks inwards if its gaps are shadows of what stands within, as seen from there. Gaps
+// before which nothing stands do not turn it.
+TEST(ShadowSides, ARoomLooksInwards)
+{
+  const auto isInCone = [](const Eigen::Vector3d& at)
+  {
+    const Eigen::Array3d sizes = at.normalized().array().abs();
+    const double nearAxis = sizes.maxCoeff(), nearDiagonal = sizes.sum() / std::sqrt(3.);
+    return std::max(nearAxis, nearDiagonal) > std::cos(0.25);
+  };
+  const TriangleMesh hull =
+    partOf(makeSphere(40), [&](const Eigen::Vector3d& centroid) { return !isInCone(centroid); });
+  for (const bool isRoom : { true, false })
+  {
+    TriangleMesh shape = hull;
+    for (int i = 0; isRoom && i < 27; ++i)
+    {
+      const Eigen::Vector3d place(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      if (isInCone(place))
+      {
+        append(shape,
+          placed(makeSphere(8), Eigen::Matrix3d::Identity(), 0.5 * place.normalized(), 0.13));
+      }
+    }
+    Scene scene(shape);
+    const OrientationReport report = scene.orient();
+    EXPECT_EQ(report.isFromWithin, isRoom);
+    EXPECT_EQ(report.main(), isRoom ? SideEvidence::Shadows : SideEvidence::Volume);
+    const double ofHull = double(hull.triangles.size()) / double(shape.triangles.size());
+    const auto looksRight = [&](const Eigen::Vector3d& at)
+    { return at.norm() < 0.75 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(isRoom ? -at : at); };
+    EXPECT_EQ(scene.facing(looksRight), ofHull);
+    // What is given counts more.
+    const OrientationHints hints = seenFrom({ { 9., 2., 1. }, { -9., 1., 2. } });
+    EXPECT_FALSE(scene.orient(hints).isFromWithin);
+  }
+}
+
 // What is known of a piece is not asked of shadows; the number of threads changes nothing.
 TEST(ShadowSides, OnlyOfUnknownPieces)
 {

@@ -84,6 +84,34 @@ TEST(PieceAgreement, TheRimOfABodyDoesNotTurnItsTable)
   }
 }
 
+// A piece that follows the nearest of its neighbours is in doubt if more of its boundary faces one that says the contrary;
+// of a large mesh, too, of which that is little. Where neighbours agree, nothing is in doubt.
+TEST(PieceAgreement, NeighborsThatContradictEachOtherAreReported)
+{
+  for (const double side : { -1., 1. })
+  {
+    const auto plate = [](double x, double y, double width) {
+      return placed(makeGrid(10), upright(), { x, 0., y }, width);
+    };
+    TriangleMesh scene = plate(0., 0., 1.);
+    const std::size_t ofPiece = scene.points.size();
+    append(scene, plate(-0.55, 0.2, 0.5));
+    const std::size_t ofNearest = scene.points.size();
+    append(scene, plate(1.1, 0., 1.));
+    const std::size_t ofOther = scene.points.size();
+    append(scene, plate(20., 20., 5.));
+    Scene seen(scene);
+    const OrientationReport report = seen.orient(withNormals(
+      [&](std::uint32_t point)
+      {
+        const bool isOther = point >= ofNearest && point < ofOther;
+        return Eigen::Vector3d(0., point < ofPiece ? 0. : isOther ? side : 1., 0.);
+      }));
+    EXPECT_GT(report.share(SideEvidence::Neighbors), 0.03);
+    EXPECT_EQ(report.contradiction.has_value(), side < 0.);
+  }
+}
+
 // Upright, where no ground tells: a closed body before an opening of a wall does not turn it, though it looks the
 // same way there, nor does a dent near by whose volume is a guess.
 TEST(PieceAgreement, ASmallerPieceDoesNotTurnAWall)
