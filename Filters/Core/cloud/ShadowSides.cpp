@@ -49,6 +49,8 @@ constexpr double ShortestBoundaryWithin = 0.25;
 /// What a first look from within must explain, from so many places along each axis of the box.
 constexpr double LeastAtFirstLook = 0.08;
 constexpr int PlacesWithinPerAxis = 3;
+/// Of the area: smaller pieces are no rooms.
+constexpr double LeastHull = 0.2;
 
 /// At a boundary.
 struct RimProbe
@@ -101,9 +103,12 @@ public:
     , executor_(executor)
     , pieceCount_(pieces.size())
   {
-    for (const Eigen::Vector3d& point : surface_.points)
+    for (std::size_t v = 0; v < surface_.points.size(); ++v)
     {
-      bounds_.extend(point);
+      if (isAsked_[v])
+      {
+        bounds_.extend(surface_.points[v]);
+      }
     }
     addRimProbes(mesh);
     addSurfaceProbes(mesh, pieces);
@@ -381,15 +386,19 @@ private:
   std::vector<SurfaceProbe> surfaceProbes_;
 };
 
-/// The length of all boundaries, in circumferences of a disc of the area of the mesh.
-double boundaryOf(const Mesh& mesh, double area)
+/// The length of the boundaries of the pieces that are chosen, in circumferences of a disc of their area.
+template <typename IsChosen>
+double boundaryOf(const Mesh& mesh, std::span<const Piece> pieces, const IsChosen& isChosen)
 {
-  double boundary = 0.;
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  double boundary = 0., area = 0.;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    if (mesh.isBoundary(v))
+    area += isChosen(i) ? pieces[i].area : 0.;
+    for (const VertexIndex v : pieces[i].vertices)
     {
-      boundary += std::sqrt(double(squaredNorm(mesh.position(mesh.ring(v)[0]) - mesh.position(v))));
+      boundary += isChosen(i) && mesh.isBoundary(v)
+        ? std::sqrt(double(squaredNorm(mesh.position(mesh.ring(v)[0]) - mesh.position(v))))
+        : 0.;
     }
   }
   return area > 0. ? boundary / (2. * std::sqrt(std::numbers::pi * area)) : 0.;
@@ -408,10 +417,17 @@ double shareOf(std::span<const Piece> pieces, const IsChosen& isChosen)
   return area > 0. ? chosen / area : 0.;
 }
 
-double areaOf(std::span<const Piece> pieces)
+std::vector<Eigen::AlignedBox3d> boxesOf(const Mesh& mesh, std::span<const Piece> pieces)
 {
-  return std::accumulate(pieces.begin(), pieces.end(), 0.,
-    [](double sum, const Piece& piece) { return sum + piece.area; });
+  std::vector<Eigen::AlignedBox3d> boxes(pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    for (const VertexIndex v : pieces[i].vertices)
+    {
+      boxes[i].extend(mesh.position(v).toDouble());
+    }
+  }
+  return boxes;
 }
 }
 
@@ -420,12 +436,12 @@ std::vector<Side> sidesByShadows(const Mesh& mesh, std::span<const Piece> pieces
 {
   std::vector<Side> sides(pieces.size());
   const auto isUncertain = [&](std::size_t i) { return !known[i].isKnown(); };
+  const auto isAny = [](std::size_t) { return true; };
   if (shareOf(pieces, isUncertain) < LeastUncertainArea ||
-    boundaryOf(mesh, areaOf(pieces)) < ShortestBoundary)
+    boundaryOf(mesh, pieces, isAny) < ShortestBoundary)
   {
     return sides;
   }
-  const auto isAny = [](std::size_t) { return true; };
   const Shadows shadows = ShadowSearch(mesh, pieces, isAny, cloud, executor).shadows();
   const bool doTell = shadows.tell(LeastExplained, LeastRatio);
   for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -442,29 +458,38 @@ std::vector<Side> sidesFromWithin(const Mesh& mesh, std::span<const Piece> piece
   std::span<const Side> byVolume, const PointCloud& cloud, const Executor& executor)
 {
   std::vector<Side> sides(pieces.size());
-  const auto isByVolume = [&](std::size_t i) { return byVolume[i].isKnown(); };
-  if (shareOf(pieces, isByVolume) <= LeastUncertainArea ||
-    boundaryOf(mesh, areaOf(pieces)) < ShortestBoundaryWithin)
+  const std::vector<Eigen::AlignedBox3d> boxes = boxesOf(mesh, pieces);
+  for (std::size_t hull = 0; hull < pieces.size(); ++hull)
   {
-    return sides;
-  }
-  // Others may be a base that was torn off, and lies before its opening.
-  const ShadowSearch search(mesh, pieces, isByVolume, cloud, executor);
-  if (!search.mayBeFromWithin())
-  {
-    return sides;
-  }
-  const Shadows shadows = search.shadows();
-  const auto looksAway = [&](std::size_t i)
-  { return isByVolume(i) && shadows.directions[i] == (byVolume[i].isTurned ? 1 : -1); };
-  if (shadows.isWithin && shadows.tell(LeastExplainedWithin, LeastRatioWithin) &&
-    shareOf(pieces, looksAway) > LeastUncertainArea)
-  {
-    for (std::size_t i = 0; i < pieces.size(); ++i)
+    const auto isHull = [hull](std::size_t i) { return i == hull; };
+    if (pieces[hull].isClosed || !byVolume[hull].isKnown() || sides[hull].isKnown() ||
+      shareOf(pieces, isHull) < LeastHull)
     {
-      if (looksAway(i))
+      continue;
+    }
+    // Pieces whose volume tells nothing may be a base that was torn off, and lies before its opening.
+    const auto isAsked = [&](std::size_t i)
+    { return byVolume[i].isKnown() && boxes[hull].contains(boxes[i]); };
+    if (boundaryOf(mesh, pieces, isAsked) < ShortestBoundaryWithin)
+    {
+      continue;
+    }
+    const ShadowSearch search(mesh, pieces, isAsked, cloud, executor);
+    if (!search.mayBeFromWithin())
+    {
+      continue;
+    }
+    const Shadows shadows = search.shadows();
+    const auto looksAway = [&](std::size_t i)
+    { return isAsked(i) && shadows.directions[i] == (byVolume[i].isTurned ? 1 : -1); };
+    if (shadows.isWithin && shadows.tell(LeastExplainedWithin, LeastRatioWithin) && looksAway(hull))
+    {
+      for (std::size_t i = 0; i < pieces.size(); ++i)
       {
-        sides[i] = { SideEvidence::Shadows, !byVolume[i].isTurned, true };
+        if (looksAway(i))
+        {
+          sides[i] = { SideEvidence::Shadows, !byVolume[i].isTurned, true };
+        }
       }
     }
   }

@@ -24,9 +24,9 @@ std::vector<Side> sidesByShadows(const Mesh& mesh, std::span<const Piece> pieces
   std::span<const Side> known, const PointCloud& cloud,
   const Executor& executor = Executor::sequential());
 
-/// The sides of pieces that look outwards by their volume, though shadows show clearly that they were scanned from
-/// within, as a room with things in it: five times as much must be explained by a place within the bounding box as by any
-/// that sees the outer sides. Nothing is told unless that is most of the area.
+/// The sides of large pieces that look outwards by their volume, though shadows show clearly that each was scanned from
+/// within, as a room with things in it: a place within its bounding box must explain five times as much as any that sees
+/// the outer sides. What looks away from there is turned, too, if it lies in that box.
 std::vector<Side> sidesFromWithin(const Mesh& mesh, std::span<const Piece> pieces,
   std::span<const Side> byVolume, const PointCloud& cloud,
   const Executor& executor = Executor::sequential());

@@ -124,6 +124,35 @@ TEST(ShadowSides, ARoomLooksInwards)
   }
 }
 
+// Of several rooms each is seen by itself.
+TEST(ShadowSides, EachRoomLooksInwards)
+{
+  const auto isHole = [](const Eigen::Vector3d& at)
+  { return at.normalized().cwiseAbs().maxCoeff() > std::cos(0.3); };
+  TriangleMesh room =
+    partOf(makeSphere(30), [&](const Eigen::Vector3d& centroid) { return !isHole(centroid); });
+  const std::size_t ofHull = room.triangles.size();
+  for (int i = 0; i < 6; ++i)
+  {
+    append(room,
+      placed(makeSphere(8), Eigen::Matrix3d::Identity(),
+        (i % 2 == 0 ? 0.5 : -0.5) * Eigen::Vector3d::Unit(i / 2), 0.16));
+  }
+  TriangleMesh shape = room;
+  const Eigen::Vector3d other(2.5, 0., 0.);
+  append(shape, placed(room, Eigen::Matrix3d::Identity(), other));
+  Scene scene(shape);
+  EXPECT_TRUE(scene.orient().isFromWithin);
+  const auto ofRoom = [&](const Eigen::Vector3d& at)
+  { return at.x() < 1.25 ? at : Eigen::Vector3d(at - other); };
+  const auto inwards = [&](const Eigen::Vector3d& at)
+  {
+    const Eigen::Vector3d place = ofRoom(at);
+    return place.norm() < 0.75 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(-place);
+  };
+  EXPECT_EQ(scene.facing(inwards), double(ofHull) / double(room.triangles.size()));
+}
+
 // What is known of a piece is not asked of shadows; the number of threads changes nothing.
 TEST(ShadowSides, OnlyOfUnknownPieces)
 {
