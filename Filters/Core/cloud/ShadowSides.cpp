@@ -46,6 +46,8 @@ constexpr double LeastRatio = 2.;
 constexpr double LeastExplainedWithin = 0.2;
 constexpr double LeastRatioWithin = 5.;
 constexpr double ShortestBoundaryWithin = 0.25;
+/// Of the angle between the way to a boundary and the normal there: along a corridor, a rough wall hides itself.
+constexpr double LeastCosineWithin = 0.25;
 /// What a first look from within must explain, from so many places along each axis of the box.
 constexpr double LeastAtFirstLook = 0.08;
 constexpr int PlacesWithinPerAxis = 3;
@@ -57,6 +59,7 @@ struct RimProbe
 {
   Eigen::Vector3d within;
   Eigen::Vector3d beyond;
+  Eigen::Vector3d normal;
 };
 
 /// On the surface; each stands for the same area.
@@ -93,14 +96,15 @@ struct View
 class ShadowSearch
 {
 public:
-  /// Only pieces that are asked cast shadows, or have gaps.
+  /// Only pieces that are asked cast shadows, or have gaps. Gaps that are seen with a smaller cosine count as none.
   template <typename IsAsked>
   ShadowSearch(const Mesh& mesh, std::span<const Piece> pieces, const IsAsked& isAsked,
-    const PointCloud& cloud, const Executor& executor)
+    double leastCosine, const PointCloud& cloud, const Executor& executor)
     : isAsked_(mesh.indexEnd(), false)
     , surface_(askedTriangles(mesh, pieces, isAsked, cloud, executor))
     , visibility_(surface_)
     , executor_(executor)
+    , leastCosine_(leastCosine)
     , pieceCount_(pieces.size())
   {
     for (std::size_t v = 0; v < surface_.points.size(); ++v)
@@ -174,10 +178,11 @@ private:
       const VertexIndex v = rim[(i * Spread % count) * rim.size() / count];
       const Eigen::Vector3d &a = surface_.points[v], &b = surface_.points[mesh.ring(v)[0]],
                             &c = surface_.points[mesh.ring(v)[1]];
-      const Eigen::Vector3d outwards = (b - a).cross((b - a).cross(c - a)).normalized();
+      const Eigen::Vector3d normal = (b - a).cross(c - a);
+      const Eigen::Vector3d outwards = (b - a).cross(normal).normalized();
       const Eigen::Vector3d middle = 0.5 * (a + b);
-      rimProbes_.push_back(
-        { middle - Within * edge_ * outwards, middle + Beyond * edge_ * outwards });
+      rimProbes_.push_back({ middle - Within * edge_ * outwards, middle + Beyond * edge_ * outwards,
+        normal.normalized() });
     }
   }
 
@@ -225,7 +230,12 @@ private:
     const std::size_t count = std::min(rimProbes, rimProbes_.size());
     for (std::size_t i = 0; i < count; ++i)
     {
-      const auto& [within, beyond] = rimProbes_[i];
+      const auto& [within, beyond, normal] = rimProbes_[i];
+      const Eigen::Vector3d way = viewpoint - within;
+      if (std::abs(normal.dot(way)) < leastCosine_ * way.norm())
+      {
+        continue;
+      }
       const bool isWithin = isHidden(within, viewpoint), isBeyond = isHidden(beyond, viewpoint);
       // As many that are hidden the other way round are chance.
       view.shadow += double(int(isBeyond) - int(isWithin)) / double(count);
@@ -379,6 +389,7 @@ private:
   TriangleMesh surface_;
   Visibility visibility_;
   const Executor& executor_;
+  double leastCosine_;
   std::size_t pieceCount_;
   Eigen::AlignedBox3d bounds_;
   double edge_ = 0.; ///< the mean one of boundaries
@@ -442,7 +453,7 @@ std::vector<Side> sidesByShadows(const Mesh& mesh, std::span<const Piece> pieces
   {
     return sides;
   }
-  const Shadows shadows = ShadowSearch(mesh, pieces, isAny, cloud, executor).shadows();
+  const Shadows shadows = ShadowSearch(mesh, pieces, isAny, 0., cloud, executor).shadows();
   const bool doTell = shadows.tell(LeastExplained, LeastRatio);
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
@@ -454,10 +465,11 @@ std::vector<Side> sidesByShadows(const Mesh& mesh, std::span<const Piece> pieces
   return sides;
 }
 
-std::vector<Side> sidesFromWithin(const Mesh& mesh, std::span<const Piece> pieces,
+FromWithin sidesFromWithin(const Mesh& mesh, std::span<const Piece> pieces,
   std::span<const Side> byVolume, const PointCloud& cloud, const Executor& executor)
 {
-  std::vector<Side> sides(pieces.size());
+  FromWithin result{ std::vector<Side>(pieces.size()), false };
+  std::vector<Side>& sides = result.sides;
   const std::vector<Eigen::AlignedBox3d> boxes = boxesOf(mesh, pieces);
   for (std::size_t hull = 0; hull < pieces.size(); ++hull)
   {
@@ -474,15 +486,26 @@ std::vector<Side> sidesFromWithin(const Mesh& mesh, std::span<const Piece> piece
     {
       continue;
     }
-    const ShadowSearch search(mesh, pieces, isAsked, cloud, executor);
-    if (!search.mayBeFromWithin())
+    Shadows shadows;
+    const auto looksAway = [&](std::size_t i)
+    { return isAsked(i) && shadows.directions[i] == (byVolume[i].isTurned ? 1 : -1); };
+    const auto areFromWithin = [&](double leastCosine)
+    {
+      const ShadowSearch search(mesh, pieces, isAsked, leastCosine, cloud, executor);
+      if (!search.mayBeFromWithin())
+      {
+        return false;
+      }
+      shadows = search.shadows();
+      return shadows.isWithin && shadows.tell(LeastExplainedWithin, LeastRatioWithin) &&
+        looksAway(hull);
+    };
+    if (!areFromWithin(0.))
     {
       continue;
     }
-    const Shadows shadows = search.shadows();
-    const auto looksAway = [&](std::size_t i)
-    { return isAsked(i) && shadows.directions[i] == (byVolume[i].isTurned ? 1 : -1); };
-    if (shadows.isWithin && shadows.tell(LeastExplainedWithin, LeastRatioWithin) && looksAway(hull))
+    result.isInDoubt = true;
+    if (areFromWithin(LeastCosineWithin))
     {
       for (std::size_t i = 0; i < pieces.size(); ++i)
       {
@@ -493,6 +516,6 @@ std::vector<Side> sidesFromWithin(const Mesh& mesh, std::span<const Piece> piece
       }
     }
   }
-  return sides;
+  return result;
 }
 }

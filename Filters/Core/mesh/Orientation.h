@@ -55,7 +55,7 @@ struct OrientationReport
   /// Pieces within others, see NestedPieces.h: the part of the area, and a place.
   double nestedShare = 0.;
   Vector4 nested{};
-  /// Whether shadows have the surface look inwards, against the volume: see sidesFromWithin().
+  /// Whether shadows tell that the surface looks inwards, against the volume: see sidesFromWithin().
   bool isFromWithin = false;
   /// Where parts of a piece look away from what has told its side: the views of the points, or the normals.
   ContrarySides contrary;

@@ -241,11 +241,10 @@ OrientationReport orientMesh(
   bool isFromWithin = false;
   if (!isHinted)
   {
-    std::vector<Side> within = sidesFromWithin(mesh, pieces, sides, cloud, executor);
-    isFromWithin =
-      std::any_of(within.begin(), within.end(), [](const Side& side) { return side.isKnown(); });
-    addSides(sides, within);
-    sides = std::move(within);
+    FromWithin within = sidesFromWithin(mesh, pieces, sides, cloud, executor);
+    isFromWithin = within.isInDoubt;
+    addSides(sides, within.sides);
+    sides = std::move(within.sides);
   }
   addSides(sidesByOpenings(mesh, pieces, sides), sides);
   if (!isHinted)

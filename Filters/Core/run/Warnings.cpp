@@ -364,9 +364,9 @@ void warnOfSides(
   if (sides.isFromWithin)
   {
     warnings.add(WarningTopic::SideIsUnknown,
-      "Gaps show that the surface was scanned from within, like a room: it looks inwards. If it "
-      "was scanned from outside, give viewpoints (--viewpoint, where the scanner stood), or points "
-      "with normals.");
+      "Gaps look like shadows of a scan from within, as of a room, though the surface encloses a "
+      "volume. Where they are clear it looks inwards. Check its side. If that is wrong, give "
+      "viewpoints (--viewpoint, where the scanner stood), or points with normals.");
   }
   if (sides.hasToldNothing(SideEvidence::Viewpoints))
   {

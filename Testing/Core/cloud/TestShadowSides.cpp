@@ -124,6 +124,25 @@ TEST(ShadowSides, ARoomLooksInwards)
   }
 }
 
+// Shadows along walls, as in a corridor, only bring the side in doubt: rough walls have such ones, too.
+TEST(ShadowSides, ACorridorIsInDoubt)
+{
+  const auto isHole = [](const Eigen::Vector3d& at)
+  { return at.normalized().cwiseAbs().sum() > std::sqrt(3.) * std::cos(0.25); };
+  const Eigen::Matrix3d along = Eigen::Vector3d(12., 1., 1.).asDiagonal();
+  TriangleMesh shape = placed(
+    partOf(makeSphere(40), [&](const Eigen::Vector3d& centroid) { return !isHole(centroid); }),
+    along, Eigen::Vector3d::Zero());
+  for (int i = 0; i < 8; ++i)
+  {
+    const Eigen::Vector3d place(i % 2 == 0 ? 1. : -1., i / 2 % 2 == 0 ? 1. : -1., i < 4 ? 1. : -1.);
+    append(shape, placed(makeSphere(8), 0.13 * along, 0.5 * (along * place.normalized())));
+  }
+  const OrientationReport report = Scene(shape).orient();
+  EXPECT_TRUE(report.isFromWithin);
+  EXPECT_EQ(report.main(), SideEvidence::Volume);
+}
+
 // Of several rooms each is seen by itself.
 TEST(ShadowSides, EachRoomLooksInwards)
 {
