@@ -33,9 +33,6 @@ constexpr double MostBare = 0.04;
 constexpr double LeastGap = 0.0002;
 /// Of the triangles.
 constexpr double MostSlivers = 0.002;
-/// Of 2 r / R on average, in a mesh with so many triangles: less has what is crumpled, 0.8 what is not.
-constexpr double LeastMeanQuality = 0.76;
-constexpr std::size_t FewestTriangles = 500;
 constexpr double WholeArea = 0.999;
 /// Of the vertices.
 constexpr double MostDisagreeing = 0.02;
@@ -227,14 +224,6 @@ void warnOfSlivers(const SurfaceReport& surface, WarningList& warnings)
         ") are slivers, nearly lines, and the repair failed. Their normals are unreliable. Use "
         "another number of vertices or another seed. Where points are much denser than elsewhere, "
         "thin them out.");
-  }
-  if (surface.triangles >= FewestTriangles && surface.meanQuality < LeastMeanQuality)
-  {
-    warnings.add(WarningTopic::Slivers,
-      "The mesh is crumpled: the quality of its triangles is only " +
-        std::to_string(surface.meanQuality).substr(0, 4) +
-        " on average. It follows noise, or points in lines, instead of a surface. Use fewer "
-        "vertices, or a scan with less noise.");
   }
 }
 
