@@ -4,6 +4,7 @@
 #include "base/UnitVector.h"
 #include "cloud/VertexGrid.h"
 #include "mesh/BoxTree.h"
+#include "mesh/FacingBoundaries.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,8 @@ constexpr float WidthsOfGap = 2.f;
 /// Of the mean of what the vertices at a gap say, from -2 to 2.
 constexpr double LeastAgreement = 0.5;
 constexpr float EdgesPerCellOfPieces = 2.f;
+/// Where pieces are closer, they may overlap: the way from one to the other tells nothing.
+constexpr float EdgesOfOverlap = 3.f;
 
 class Agreement
 {
@@ -51,7 +54,9 @@ public:
         box.extend(mesh.position(v));
       }
     }
-    grid_.reset(box.low, box.high, EdgesPerCellOfPieces * float(mesh.meanEdge()), mesh.indexEnd());
+    const float meanEdge = float(mesh.meanEdge());
+    squaredOverlap_ = EdgesOfOverlap * EdgesOfOverlap * meanEdge * meanEdge;
+    grid_.reset(box.low, box.high, EdgesPerCellOfPieces * meanEdge, mesh.indexEnd());
     for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
     {
       grid_.insert(v, mesh.position(v));
@@ -198,7 +203,8 @@ private:
       if (contact.squaredDistance <= WidthsOfGap * WidthsOfGap * width)
       {
         // The underside of what stands over an opening of a table looks to it.
-        agreement += isLarger || mesh_.isBoundary(contact.other) ? agreementAt(contact) : 0.;
+        const bool tells = (isLarger || mesh_.isBoundary(contact.other)) && !leadsBack(contact);
+        agreement += tells ? agreementAt(contact) : 0.;
         ++count;
       }
     }
@@ -206,6 +212,15 @@ private:
         std::abs(agreement) >= LeastAgreement * count
       ? std::optional(Gap{ piece, other, width, agreement > 0. })
       : std::nullopt;
+  }
+
+  /// Whether the way between the two leads over one of the pieces, as from the outline of a table to what stands on it.
+  bool leadsBack(const Contact& contact) const
+  {
+    const auto [v, other, squaredDistance] = contact;
+    return squaredDistance > squaredOverlap_ &&
+      (!leadsOff(mesh_, v, mesh_.position(other)) ||
+        (mesh_.isBoundary(other) && !leadsOff(mesh_, other, mesh_.position(v))));
   }
 
   double agreementAt(const Contact& contact) const
@@ -273,7 +288,8 @@ private:
   std::span<Side> sides_;
   std::span<const double> ground_;      ///< of the pieces as they are, or empty
   std::vector<bool> isTurnedIfLargest_; ///< of its group, if nothing decides for that
-  VertexGrid grid_;                     ///< of all vertices
+  float squaredOverlap_ = 0.f;
+  VertexGrid grid_; ///< of all vertices
   std::vector<std::size_t> pieceOf_;
   std::vector<std::size_t> groupOf_;
   std::vector<std::vector<std::size_t>> groups_; ///< of pieces

@@ -42,12 +42,24 @@ constexpr double LastStep = 1. / 32.;
 /// The part of the boundary that ends in shadows, times the part of the surface that is seen from one side.
 constexpr double LeastExplained = 0.1;
 constexpr double LeastRatio = 2.;
+/// The same against the volume.
+constexpr double LeastExplainedWithin = 0.2;
+constexpr double LeastRatioWithin = 5.;
+constexpr double ShortestBoundaryWithin = 0.25;
+/// Of the angle between the way to a boundary and the normal there: along a corridor, a rough wall hides itself.
+constexpr double LeastCosineWithin = 0.25;
+/// What a first look from within must explain, from so many places along each axis of the box.
+constexpr double LeastAtFirstLook = 0.08;
+constexpr int PlacesWithinPerAxis = 3;
+/// Of the area: smaller pieces are no rooms.
+constexpr double LeastHull = 0.2;
 
 /// At a boundary.
 struct RimProbe
 {
   Eigen::Vector3d within;
   Eigen::Vector3d beyond;
+  Eigen::Vector3d normal;
 };
 
 /// On the surface; each stands for the same area.
@@ -56,6 +68,21 @@ struct SurfaceProbe
   Eigen::Vector3d place;
   Eigen::Vector3d normal;
   std::size_t piece;
+};
+
+/// What shadows tell.
+struct Shadows
+{
+  std::vector<int>
+    directions; ///< of each piece: 1 towards the scanner, -1 away from it, 0 if that is unknown
+  double explained = 0.;
+  double opposite = 0.;  ///< what a place explains that sees the other sides
+  bool isWithin = false; ///< whether the scanner was in the bounding box
+
+  bool tell(double leastExplained, double leastRatio) const
+  {
+    return explained >= leastExplained && explained >= leastRatio * opposite;
+  }
 };
 
 /// What is seen from a place.
@@ -69,43 +96,75 @@ struct View
 class ShadowSearch
 {
 public:
-  ShadowSearch(const Mesh& mesh, std::span<const Piece> pieces, const PointCloud& cloud,
-    const Executor& executor)
-    : surface_(trianglesOf(mesh, cloud, executor))
+  /// Only pieces that are asked cast shadows, or have gaps. Gaps that are seen with a smaller cosine count as none.
+  template <typename IsAsked>
+  ShadowSearch(const Mesh& mesh, std::span<const Piece> pieces, const IsAsked& isAsked,
+    double leastCosine, const PointCloud& cloud, const Executor& executor)
+    : isAsked_(mesh.indexEnd(), false)
+    , surface_(askedTriangles(mesh, pieces, isAsked, cloud, executor))
     , visibility_(surface_)
     , executor_(executor)
+    , leastCosine_(leastCosine)
     , pieceCount_(pieces.size())
   {
-    for (const Eigen::Vector3d& point : surface_.points)
+    for (std::size_t v = 0; v < surface_.points.size(); ++v)
     {
-      bounds_.extend(point);
+      if (isAsked_[v])
+      {
+        bounds_.extend(surface_.points[v]);
+      }
     }
     addRimProbes(mesh);
     addSurfaceProbes(mesh, pieces);
   }
 
-  /// For each piece 1 if it looks to the side from which it was scanned, -1 if it looks away, 0 if that is unknown.
-  std::vector<int> directions() const
+  /// Whether places spread in the bounding box explain anything: most scans are done with so.
+  bool mayBeFromWithin() const
+  {
+    std::vector<Eigen::Vector3d> places;
+    addGrid(PlacesWithinPerAxis, 0.25 * bounds_.diagonal(), places);
+    const std::vector<View> views = lookFrom(places, RimProbesOfFirstLook);
+    return std::any_of(views.begin(), views.end(),
+      [this](const View& view) { return explainedBy(view) >= LeastAtFirstLook; });
+  }
+
+  Shadows shadows() const
   {
     const std::vector<View> views = firstLook();
     const auto plain = [this](const View& view) { return explainedBy(view); };
     const View best = bestOf(views, plain);
-    const std::vector<int> directions = directionsIn(best);
-    const auto opposite = [&](const View& view) { return -agreement(view, directions); };
-    const View other = bestOf(views, opposite);
-    const double explained = agreement(best, directions);
-    const bool tells = explained >= LeastExplained && explained >= LeastRatio * opposite(other);
-    return tells ? directions : std::vector<int>(pieceCount_, 0);
+    Shadows result{ directionsIn(best), 0., 0., bounds_.contains(best.viewpoint) };
+    const auto opposite = [&](const View& view) { return -agreement(view, result.directions); };
+    result.explained = agreement(best, result.directions);
+    result.opposite = opposite(bestOf(views, opposite));
+    return result;
   }
 
 private:
+  template <typename IsAsked>
+  TriangleMesh askedTriangles(const Mesh& mesh, std::span<const Piece> pieces,
+    const IsAsked& isAsked, const PointCloud& cloud, const Executor& executor)
+  {
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+    {
+      for (const VertexIndex v : pieces[i].vertices)
+      {
+        isAsked_[v] = isAsked(i);
+      }
+    }
+    TriangleMesh result = trianglesOf(mesh, cloud, executor);
+    std::erase_if(
+      result.triangles, [this](const auto& triangle) { return !isAsked_[triangle[0]]; });
+    return result;
+  }
+
   void addRimProbes(const Mesh& mesh)
   {
     std::vector<VertexIndex> rim;
     double length = 0.;
     for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
     {
-      if (mesh.isBoundary(v))
+      if (isAsked_[v] && mesh.isBoundary(v))
       {
         rim.push_back(v);
         length += (surface_.points[mesh.ring(v)[0]] - surface_.points[v]).norm();
@@ -119,10 +178,11 @@ private:
       const VertexIndex v = rim[(i * Spread % count) * rim.size() / count];
       const Eigen::Vector3d &a = surface_.points[v], &b = surface_.points[mesh.ring(v)[0]],
                             &c = surface_.points[mesh.ring(v)[1]];
-      const Eigen::Vector3d outwards = (b - a).cross((b - a).cross(c - a)).normalized();
+      const Eigen::Vector3d normal = (b - a).cross(c - a);
+      const Eigen::Vector3d outwards = (b - a).cross(normal).normalized();
       const Eigen::Vector3d middle = 0.5 * (a + b);
-      rimProbes_.push_back(
-        { middle - Within * edge_ * outwards, middle + Beyond * edge_ * outwards });
+      rimProbes_.push_back({ middle - Within * edge_ * outwards, middle + Beyond * edge_ * outwards,
+        normal.normalized() });
     }
   }
 
@@ -138,6 +198,10 @@ private:
     {
       for (const VertexIndex v : pieces[i].vertices)
       {
+        if (!isAsked_[v])
+        {
+          break;
+        }
         mesh.forEachTriangleFrom(v,
           [&](VertexIndex a, VertexIndex b, VertexIndex c)
           {
@@ -166,7 +230,12 @@ private:
     const std::size_t count = std::min(rimProbes, rimProbes_.size());
     for (std::size_t i = 0; i < count; ++i)
     {
-      const auto& [within, beyond] = rimProbes_[i];
+      const auto& [within, beyond, normal] = rimProbes_[i];
+      const Eigen::Vector3d way = viewpoint - within;
+      if (std::abs(normal.dot(way)) < leastCosine_ * way.norm())
+      {
+        continue;
+      }
       const bool isWithin = isHidden(within, viewpoint), isBeyond = isHidden(beyond, viewpoint);
       // As many that are hidden the other way round are chance.
       view.shadow += double(int(isBeyond) - int(isWithin)) / double(count);
@@ -191,7 +260,6 @@ private:
   /// From the origin, if it is not far off, and from a grid.
   std::vector<View> firstLook() const
   {
-    const Eigen::Vector3d center = bounds_.center();
     const double diagonal = bounds_.diagonal().norm();
     const Eigen::Vector3d reach =
       0.5 * bounds_.diagonal() + Eigen::Vector3d::Constant(ReachOfViewpoints * diagonal);
@@ -200,19 +268,26 @@ private:
     {
       places.push_back(Eigen::Vector3d::Zero());
     }
-    const auto along = [](int i) { return 2. * double(i) / double(ViewpointsPerAxis - 1) - 1.; };
-    for (int i = 0; i < ViewpointsPerAxis; ++i)
+    addGrid(ViewpointsPerAxis, reach, places);
+    return lookFrom(places, RimProbesOfFirstLook);
+  }
+
+  /// Places around the center, as far as `reach` to each side.
+  void addGrid(
+    int perAxis, const Eigen::Vector3d& reach, std::vector<Eigen::Vector3d>& places) const
+  {
+    const auto along = [perAxis](int i) { return 2. * double(i) / double(perAxis - 1) - 1.; };
+    for (int i = 0; i < perAxis; ++i)
     {
-      for (int j = 0; j < ViewpointsPerAxis; ++j)
+      for (int j = 0; j < perAxis; ++j)
       {
-        for (int k = 0; k < ViewpointsPerAxis; ++k)
+        for (int k = 0; k < perAxis; ++k)
         {
           const Eigen::Vector3d direction(along(i), along(j), along(k));
-          places.emplace_back(center + reach.cwiseProduct(direction));
+          places.emplace_back(bounds_.center() + reach.cwiseProduct(direction));
         }
       }
     }
-    return lookFrom(places, RimProbesOfFirstLook);
   }
 
   /// The best view, by `worthOf`, that steps lead to.
@@ -310,9 +385,11 @@ private:
   /// A prime number that divides no count of probes.
   static constexpr std::size_t Spread = 1009;
 
+  std::vector<bool> isAsked_; ///< of the vertices
   TriangleMesh surface_;
   Visibility visibility_;
   const Executor& executor_;
+  double leastCosine_;
   std::size_t pieceCount_;
   Eigen::AlignedBox3d bounds_;
   double edge_ = 0.; ///< the mean one of boundaries
@@ -320,23 +397,48 @@ private:
   std::vector<SurfaceProbe> surfaceProbes_;
 };
 
-bool canShadowsTell(const Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> known)
+/// The length of the boundaries of the pieces that are chosen, in circumferences of a disc of their area.
+template <typename IsChosen>
+double boundaryOf(const Mesh& mesh, std::span<const Piece> pieces, const IsChosen& isChosen)
 {
-  double area = 0., uncertain = 0., boundary = 0.;
+  double boundary = 0., area = 0.;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    area += isChosen(i) ? pieces[i].area : 0.;
+    for (const VertexIndex v : pieces[i].vertices)
+    {
+      boundary += isChosen(i) && mesh.isBoundary(v)
+        ? std::sqrt(double(squaredNorm(mesh.position(mesh.ring(v)[0]) - mesh.position(v))))
+        : 0.;
+    }
+  }
+  return area > 0. ? boundary / (2. * std::sqrt(std::numbers::pi * area)) : 0.;
+}
+
+/// The part of the area of the pieces that are chosen.
+template <typename IsChosen>
+double shareOf(std::span<const Piece> pieces, const IsChosen& isChosen)
+{
+  double area = 0., chosen = 0.;
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
     area += pieces[i].area;
-    uncertain += known[i].isKnown() ? 0. : pieces[i].area;
+    chosen += isChosen(i) ? pieces[i].area : 0.;
   }
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  return area > 0. ? chosen / area : 0.;
+}
+
+std::vector<Eigen::AlignedBox3d> boxesOf(const Mesh& mesh, std::span<const Piece> pieces)
+{
+  std::vector<Eigen::AlignedBox3d> boxes(pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    if (mesh.isBoundary(v))
+    for (const VertexIndex v : pieces[i].vertices)
     {
-      boundary += std::sqrt(double(squaredNorm(mesh.position(mesh.ring(v)[0]) - mesh.position(v))));
+      boxes[i].extend(mesh.position(v).toDouble());
     }
   }
-  return area > 0. && uncertain >= LeastUncertainArea * area &&
-    boundary >= ShortestBoundary * 2. * std::sqrt(std::numbers::pi * area);
+  return boxes;
 }
 }
 
@@ -344,18 +446,76 @@ std::vector<Side> sidesByShadows(const Mesh& mesh, std::span<const Piece> pieces
   std::span<const Side> known, const PointCloud& cloud, const Executor& executor)
 {
   std::vector<Side> sides(pieces.size());
-  if (!canShadowsTell(mesh, pieces, known))
+  const auto isUncertain = [&](std::size_t i) { return !known[i].isKnown(); };
+  const auto isAny = [](std::size_t) { return true; };
+  if (shareOf(pieces, isUncertain) < LeastUncertainArea ||
+    boundaryOf(mesh, pieces, isAny) < ShortestBoundary)
   {
     return sides;
   }
-  const std::vector<int> directions = ShadowSearch(mesh, pieces, cloud, executor).directions();
+  const Shadows shadows = ShadowSearch(mesh, pieces, isAny, 0., cloud, executor).shadows();
+  const bool doTell = shadows.tell(LeastExplained, LeastRatio);
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    if (!known[i].isKnown() && directions[i] != 0)
+    if (doTell && isUncertain(i) && shadows.directions[i] != 0)
     {
-      sides[i] = { SideEvidence::Shadows, directions[i] < 0, true };
+      sides[i] = { SideEvidence::Shadows, shadows.directions[i] < 0, true };
     }
   }
   return sides;
+}
+
+FromWithin sidesFromWithin(const Mesh& mesh, std::span<const Piece> pieces,
+  std::span<const Side> byVolume, const PointCloud& cloud, const Executor& executor)
+{
+  FromWithin result{ std::vector<Side>(pieces.size()), false };
+  std::vector<Side>& sides = result.sides;
+  const std::vector<Eigen::AlignedBox3d> boxes = boxesOf(mesh, pieces);
+  for (std::size_t hull = 0; hull < pieces.size(); ++hull)
+  {
+    const auto isHull = [hull](std::size_t i) { return i == hull; };
+    if (pieces[hull].isClosed || !byVolume[hull].isKnown() || sides[hull].isKnown() ||
+      shareOf(pieces, isHull) < LeastHull)
+    {
+      continue;
+    }
+    // Pieces whose volume tells nothing may be a base that was torn off, and lies before its opening.
+    const auto isAsked = [&](std::size_t i)
+    { return byVolume[i].isKnown() && boxes[hull].contains(boxes[i]); };
+    if (boundaryOf(mesh, pieces, isAsked) < ShortestBoundaryWithin)
+    {
+      continue;
+    }
+    Shadows shadows;
+    const auto looksAway = [&](std::size_t i)
+    { return isAsked(i) && shadows.directions[i] == (byVolume[i].isTurned ? 1 : -1); };
+    const auto areFromWithin = [&](double leastCosine)
+    {
+      const ShadowSearch search(mesh, pieces, isAsked, leastCosine, cloud, executor);
+      if (!search.mayBeFromWithin())
+      {
+        return false;
+      }
+      shadows = search.shadows();
+      return shadows.isWithin && shadows.tell(LeastExplainedWithin, LeastRatioWithin) &&
+        looksAway(hull);
+    };
+    if (!areFromWithin(0.))
+    {
+      continue;
+    }
+    result.isInDoubt = true;
+    if (areFromWithin(LeastCosineWithin))
+    {
+      for (std::size_t i = 0; i < pieces.size(); ++i)
+      {
+        if (looksAway(i))
+        {
+          sides[i] = { SideEvidence::Shadows, !byVolume[i].isTurned, true };
+        }
+      }
+    }
+  }
+  return result;
 }
 }

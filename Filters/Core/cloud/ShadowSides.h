@@ -23,4 +23,19 @@ namespace neuralmesh
 std::vector<Side> sidesByShadows(const Mesh& mesh, std::span<const Piece> pieces,
   std::span<const Side> known, const PointCloud& cloud,
   const Executor& executor = Executor::sequential());
+
+/// What shadows tell against the volume.
+struct FromWithin
+{
+  std::vector<Side> sides;
+  bool isInDoubt = false; ///< whether they tell it of any piece
+};
+
+/// The sides of large pieces that look outwards by their volume, though shadows tell that each was scanned from within,
+/// as a room with things in it: a place within its bounding box must explain five times as much as any that sees the
+/// outer sides. If gaps that are seen along the surface are needed for that, the side is only in doubt. What looks away
+/// from there is turned, too, if it lies in that box.
+FromWithin sidesFromWithin(const Mesh& mesh, std::span<const Piece> pieces,
+  std::span<const Side> byVolume, const PointCloud& cloud,
+  const Executor& executor = Executor::sequential());
 }

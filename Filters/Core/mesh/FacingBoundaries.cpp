@@ -124,20 +124,8 @@ private:
 
   bool isOpenBetween(VertexIndex one, VertexIndex other) const
   {
-    const Vector4 way = unit(mesh_.position(other) - mesh_.position(one));
-    return dot(way, outwardsAt(one)) >= LeastOutwards &&
-      -dot(way, outwardsAt(other)) >= LeastOutwards;
-  }
-
-  /// Where the surface ends: away from the neighbours.
-  Vector4 outwardsAt(VertexIndex v) const
-  {
-    Vector4 sum;
-    for (const VertexIndex neighbor : mesh_.ring(v))
-    {
-      sum += mesh_.position(v) - mesh_.position(neighbor);
-    }
-    return unit(sum);
+    return leadsOff(mesh_, one, mesh_.position(other)) &&
+      leadsOff(mesh_, other, mesh_.position(one));
   }
 
   Vector4 alongAt(VertexIndex v) const
@@ -160,6 +148,18 @@ private:
 };
 }
 
+bool leadsOff(const Mesh& mesh, VertexIndex boundaryVertex, Vector4 place)
+{
+  const Vector4 position = mesh.position(boundaryVertex);
+  // The surface ends where no neighbours are.
+  Vector4 outwards;
+  for (const VertexIndex neighbor : mesh.ring(boundaryVertex))
+  {
+    outwards += position - mesh.position(neighbor);
+  }
+  return dot(unit(place - position), unit(outwards)) >= LeastOutwards;
+}
+
 std::vector<FacingPair> facingPairs(const Mesh& mesh)
 {
   return mesh.isOpen() ? Facing(mesh).pairs() : std::vector<FacingPair>();
@@ -167,9 +167,14 @@ std::vector<FacingPair> facingPairs(const Mesh& mesh)
 
 FacingBoundaries findFacingBoundaries(const Mesh& mesh)
 {
+  return findFacingBoundaries(mesh, facingPairs(mesh));
+}
+
+FacingBoundaries findFacingBoundaries(const Mesh& mesh, std::span<const FacingPair> pairs)
+{
   FacingBoundaries result;
   float closest = std::numeric_limits<float>::infinity();
-  for (const FacingPair& pair : facingPairs(mesh))
+  for (const FacingPair& pair : pairs)
   {
     (pair.contradict ? result.contradicting : result.agreeing) += pair.length;
     const float squared = squaredNorm(mesh.position(pair.other) - mesh.position(pair.vertex));

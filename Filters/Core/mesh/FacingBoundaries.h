@@ -3,6 +3,7 @@
 
 #include "mesh/Mesh.h"
 
+#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -25,9 +26,8 @@ struct FacingBoundaries
   }
 };
 
-/// The boundary across is the nearest one that is no part of the same stretch, and closer than half the root of the
-/// area; it says nothing where the way to it leads back over the surface of either. At most a thousand boundary vertices are asked, evenly picked. No vertex may be erased.
-FacingBoundaries findFacingBoundaries(const Mesh& mesh);
+/// Whether the way from a boundary vertex to a place leads away from the surface, not back over it.
+bool leadsOff(const Mesh& mesh, VertexIndex boundaryVertex, Vector4 place);
 
 /// A boundary vertex, and the one across.
 struct FacingPair
@@ -38,6 +38,12 @@ struct FacingPair
   bool contradict; ///< whether they do, or agree
 };
 
-/// All pairs of which the above is the sum; those that say nothing are left out.
+/// Those that say something. The boundary across is the nearest one that is no part of the same stretch, and closer than
+/// half the root of the area; it says nothing where the way to it leads back over the surface of either. At most a
+/// thousand boundary vertices are asked, evenly picked. No vertex may be erased.
 std::vector<FacingPair> facingPairs(const Mesh& mesh);
+
+/// The sums of all pairs.
+FacingBoundaries findFacingBoundaries(const Mesh& mesh);
+FacingBoundaries findFacingBoundaries(const Mesh& mesh, std::span<const FacingPair> pairs);
 }

@@ -52,6 +52,11 @@ struct OrientationReport
   std::array<bool, SideEvidences> toldNothing{};
   /// Where parts look to opposite sides though they face each other, if they do: see FacingBoundaries.h.
   std::optional<Vector4> contradiction;
+  /// Pieces within others, see NestedPieces.h: the part of the area, and a place.
+  double nestedShare = 0.;
+  Vector4 nested{};
+  /// Whether shadows tell that the surface looks inwards, against the volume: see sidesFromWithin().
+  bool isFromWithin = false;
   /// Where parts of a piece look away from what has told its side: the views of the points, or the normals.
   ContrarySides contrary;
   /// Whether the views of the points told the sides of almost all of the area: `contrary` is all there is, then.

@@ -7,12 +7,15 @@
 #include "mesh/FacingBoundaries.h"
 #include "mesh/OpeningSides.h"
 #include "mesh/Relief.h"
+#include "run/NestedPieces.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace neuralmesh
@@ -25,6 +28,8 @@ constexpr double LeastVolume = 0.1;
 constexpr double CosineOfGround = 0.9;
 /// Of the area of a piece, projected onto the ground: with less it is upright, and has no upper side.
 constexpr double LeastUpwards = 0.05;
+/// Of the area: pieces that follow neighbours, but contradict most of what is around them.
+constexpr double MostInDoubt = 0.01;
 /// Less may be small pieces to which no view came.
 constexpr double LeastShareSeen = 0.95;
 
@@ -163,6 +168,51 @@ std::vector<float> votesOf(const Mesh& mesh, std::span<const Piece> pieces,
   return votes;
 }
 
+/// Where pieces whose neighbours told their side contradict others that they face, along much of their boundaries, if
+/// they are more than a little of the area: they follow one neighbour, and others say the contrary.
+std::optional<Vector4> placeInDoubt(const Mesh& mesh, std::span<const Piece> pieces,
+  const std::vector<Side>& sides, const std::vector<FacingPair>& pairs)
+{
+  std::vector<std::uint32_t> pieceOf(mesh.indexEnd());
+  double area = 0.;
+  for (std::uint32_t i = 0; i < pieces.size(); ++i)
+  {
+    area += pieces[i].area;
+    for (const VertexIndex v : pieces[i].vertices)
+    {
+      pieceOf[v] = i;
+    }
+  }
+  std::vector<FacingBoundaries> around(pieces.size());
+  for (const FacingPair& pair : pairs)
+  {
+    const std::uint32_t one = pieceOf[pair.vertex], other = pieceOf[pair.other];
+    for (const std::uint32_t piece : { one, other })
+    {
+      FacingBoundaries& ofPiece = around[piece];
+      if (one != other)
+      {
+        (pair.contradict ? ofPiece.contradicting : ofPiece.agreeing) += pair.length;
+        ofPiece.place = pair.contradict ? mesh.position(pair.vertex) : ofPiece.place;
+      }
+    }
+  }
+  double inDoubt = 0., largest = 0.;
+  Vector4 place;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    const FacingBoundaries& facing = around[i];
+    if (sides[i].evidence == SideEvidence::Neighbors && facing.doContradict(pieces[i].area) &&
+      facing.contradicting > facing.agreeing)
+    {
+      inDoubt += pieces[i].area;
+      place = pieces[i].area > largest ? facing.place : place;
+      largest = std::max(largest, pieces[i].area);
+    }
+  }
+  return inDoubt > MostInDoubt * area ? std::optional(place) : std::nullopt;
+}
+
 /// Fills in what is not known yet. Returns whether `more` has told nothing.
 bool addSides(const std::vector<Side>& more, std::vector<Side>& sides)
 {
@@ -188,6 +238,14 @@ OrientationReport orientMesh(
   std::transform(pieces.begin(), pieces.end(), byVolume.begin(), sideByVolume);
   const std::vector<Side> ofBodies = sidesOfBodies(pieces, byVolume);
   addSides(certainOf(ofBodies), sides);
+  bool isFromWithin = false;
+  if (!isHinted)
+  {
+    FromWithin within = sidesFromWithin(mesh, pieces, sides, cloud, executor);
+    isFromWithin = within.isInDoubt;
+    addSides(sides, within.sides);
+    sides = std::move(within.sides);
+  }
   addSides(sidesByOpenings(mesh, pieces, sides), sides);
   if (!isHinted)
   {
@@ -208,11 +266,15 @@ OrientationReport orientMesh(
     makePiecesAgree(mesh, pieces, sides, ground);
   }
   OrientationReport report = turn(mesh, pieces, sides);
-  const FacingBoundaries facing = findFacingBoundaries(mesh);
-  if (facing.doContradict(areaOf(mesh, executor)))
-  {
-    report.contradiction = facing.place;
-  }
+  const std::vector<FacingPair> pairs = facingPairs(mesh);
+  const FacingBoundaries facing = findFacingBoundaries(mesh, pairs);
+  report.contradiction = facing.doContradict(areaOf(mesh, executor))
+    ? std::optional(facing.place)
+    : placeInDoubt(mesh, pieces, sides, pairs);
+  const NestedPieces nested = findNestedPieces(mesh, pieces, sides);
+  report.nestedShare = nested.share;
+  report.nested = nested.place;
+  report.isFromWithin = isFromWithin;
   if (!byViewpoints.votes.empty() || !byNormals.votes.empty())
   {
     report.contrary =

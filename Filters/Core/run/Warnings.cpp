@@ -347,6 +347,21 @@ void warnOfSides(
         ". If a part is connected by the wrong side, use more vertices or a cloud for each body. "
         "If viewpoints or normals are wrong there, correct them.");
   }
+  if (sides.nestedShare > 0.)
+  {
+    warnings.add(WarningTopic::InsideOut,
+      percent(sides.nestedShare) + " of the surface lies within another piece, as around " +
+        placeText(cloud.toInput(sides.nested), cloud) +
+        ", and both look outwards: the outer one of a room and the inner one of a hollow body "
+        "should look inwards. Viewpoints (--viewpoint) or normals turn each piece.");
+  }
+  if (sides.isFromWithin)
+  {
+    warnings.add(WarningTopic::SideIsUnknown,
+      "Gaps look like shadows of a scan from within, as of a room, though the surface encloses a "
+      "volume. Where they are clear it looks inwards. Check its side. If that is wrong, give "
+      "viewpoints (--viewpoint, where the scanner stood), or points with normals.");
+  }
   if (sides.hasToldNothing(SideEvidence::Viewpoints))
   {
     warnings.add(WarningTopic::SideIsUnknown,

@@ -56,6 +56,62 @@ TEST(PieceAgreement, ATreeDoesNotTurnTheGround)
   }
 }
 
+// The rim of a body that stands on a table faces the table's outline the wrong way round: the way between them leads over
+// the table. Upright, so that no ground tells.
+TEST(PieceAgreement, TheRimOfABodyDoesNotTurnItsTable)
+{
+  TriangleMesh scene = placed(makeGrid(40), upright(), { -2., 0., -2. }, 4.);
+  const std::size_t ofTable = scene.points.size();
+  append(scene, placed(openSphere(90.), upright(), { 0., -0.05, 0. }, 0.4));
+  for (const bool isTurned : { false, true })
+  {
+    TriangleMesh table = scene;
+    for (auto& triangle : table.triangles)
+    {
+      if (isTurned && triangle[0] < ofTable)
+      {
+        std::swap(triangle[1], triangle[2]);
+      }
+    }
+    Scene seen(table);
+    EXPECT_EQ(seen.orient().unknownPieces, 1u);
+    const auto looksRight = [](const Eigen::Vector3d& centroid)
+    {
+      const bool isOfTable = centroid.y() > -1e-6;
+      return isOfTable ? Eigen::Vector3d(0., -1., 0.) : Eigen::Vector3d(centroid);
+    };
+    EXPECT_EQ(seen.facing(looksRight), 1.);
+  }
+}
+
+// A piece that follows the nearest of its neighbours is in doubt if more of its boundary faces one that says the contrary;
+// of a large mesh, too, of which that is little. Where neighbours agree, nothing is in doubt.
+TEST(PieceAgreement, NeighborsThatContradictEachOtherAreReported)
+{
+  for (const double side : { -1., 1. })
+  {
+    const auto plate = [](double x, double y, double width) {
+      return placed(makeGrid(10), upright(), { x, 0., y }, width);
+    };
+    TriangleMesh scene = plate(0., 0., 1.);
+    const std::size_t ofPiece = scene.points.size();
+    append(scene, plate(-0.55, 0.2, 0.5));
+    const std::size_t ofNearest = scene.points.size();
+    append(scene, plate(1.1, 0., 1.));
+    const std::size_t ofOther = scene.points.size();
+    append(scene, plate(20., 20., 5.));
+    Scene seen(scene);
+    const OrientationReport report = seen.orient(withNormals(
+      [&](std::uint32_t point)
+      {
+        const bool isOther = point >= ofNearest && point < ofOther;
+        return Eigen::Vector3d(0., point < ofPiece ? 0. : isOther ? side : 1., 0.);
+      }));
+    EXPECT_GT(report.share(SideEvidence::Neighbors), 0.03);
+    EXPECT_EQ(report.contradiction.has_value(), side < 0.);
+  }
+}
+
 // Upright, where no ground tells: a closed body before an opening of a wall does not turn it, though it looks the
 // same way there, nor does a dent near by whose volume is a guess.
 TEST(PieceAgreement, ASmallerPieceDoesNotTurnAWall)
