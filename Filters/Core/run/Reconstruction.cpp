@@ -33,6 +33,8 @@ constexpr std::uint64_t LearntForThinParts = 20000;
 constexpr std::uint64_t TimesForThinParts = 2;
 constexpr std::uint64_t MostLearntForThinParts = 100000;
 constexpr std::uint64_t PointsToHoldThinParts = 5;
+/// The two runs of a larger mesh would take too much memory.
+constexpr std::uint64_t MostLearntForHoles = 200000;
 /// A part of all points: a coarse mesh leaves some unexplained beside its bends.
 constexpr double LeastDifferenceOfUnexplained = 0.005;
 /// Residuals within this factor are a draw: a few points at creases make most of a residual.
@@ -156,6 +158,7 @@ bool mayHaveFilledHoles(const Reconstruction& result, const RunRequest& request)
 {
   using enum WarningTopic;
   return result.isFromGrid && mayLearnOtherwise(request) &&
+    request.parameters.numberOfVertices <= MostLearntForHoles &&
     request.parameters.fidelity != Fidelity::Draft && result.stopReason == StopReason::Vertices &&
     result.finish && !result.surface.isOpen(request.executor) &&
     std::ranges::any_of(result.warnings,
