@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -144,16 +145,21 @@ TEST(TornLoops, ASlitAroundABallStays)
   }
 }
 
-// Most vertices lie where the slit ends, and look away from the sum of its area, as along two limbs. The rims of a long
+// Large triangles lie where the slit ends, and look away from the sum of its area, as along two limbs. The rims of a long
 // slit leave fewer samples to it than a short one has.
 TEST(TornLoops, ALongSlitThatItsNormalsDoNotTell)
 {
   TriangleMesh ball = makeSphere(48);
   for (Eigen::Vector3d& point : ball.points)
   {
-    const double angle = std::atan2(point.y(), point.x());
-    const double moved = angle + 0.8 * std::sin(angle), radius = point.head<2>().norm();
-    point.head<2>() = radius * Eigen::Vector2d(std::cos(moved), std::sin(moved));
+    const double height = std::abs(point.z()), radius = point.head<2>().norm();
+    if (height > 0.1 && radius > 0.)
+    {
+      const double power = 1.5 + 0.5 * point.x() / radius;
+      const double moved = 0.1 + 0.9 * std::pow((height - 0.1) / 0.9, power);
+      point.z() = std::copysign(moved, point.z());
+      point.head<2>() *= std::sqrt(std::max(1. - moved * moved, 0.)) / radius;
+    }
   }
   const auto isInSlit = [](const Eigen::Vector3d& place)
   { return std::abs(place.z()) < 0.1 && (place.x() > 0. || std::abs(place.y()) > 0.2); };
