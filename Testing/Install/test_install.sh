@@ -114,7 +114,7 @@ case_other_vtk()
     { cat "$fake/build.txt"; fail "no sentence when it is compiled"; }
 }
 
-# Promise: the library can be static, and names no other of our targets to who links it.
+# Promise: a static library can be configured, and names no other of our targets to who links it.
 case_static()
 {
   local own=$scratch/static

@@ -96,15 +96,14 @@ struct View
 class ShadowSearch
 {
 public:
-  /// Only pieces that are asked cast shadows, or have gaps. Gaps that are seen with a smaller cosine count as none.
+  /// Only pieces that are asked cast shadows, or have gaps.
   template <typename IsAsked>
   ShadowSearch(const Mesh& mesh, std::span<const Piece> pieces, const IsAsked& isAsked,
-    double leastCosine, const PointCloud& cloud, const Executor& executor)
+    const PointCloud& cloud, const Executor& executor)
     : isAsked_(mesh.indexEnd(), false)
     , surface_(askedTriangles(mesh, pieces, isAsked, cloud, executor))
     , visibility_(surface_)
     , executor_(executor)
-    , leastCosine_(leastCosine)
     , pieceCount_(pieces.size())
   {
     for (std::size_t v = 0; v < surface_.points.size(); ++v)
@@ -117,6 +116,9 @@ public:
     addRimProbes(mesh);
     addSurfaceProbes(mesh, pieces);
   }
+
+  /// From now on, gaps that are seen with a smaller cosine count as none.
+  void leaveOutGrazing(double leastCosine) { leastCosine_ = leastCosine; }
 
   /// Whether places spread in the bounding box explain anything: most scans are done with so.
   bool mayBeFromWithin() const
@@ -389,7 +391,7 @@ private:
   TriangleMesh surface_;
   Visibility visibility_;
   const Executor& executor_;
-  double leastCosine_;
+  double leastCosine_ = 0.;
   std::size_t pieceCount_;
   Eigen::AlignedBox3d bounds_;
   double edge_ = 0.; ///< the mean one of boundaries
@@ -453,7 +455,7 @@ std::vector<Side> sidesByShadows(const Mesh& mesh, std::span<const Piece> pieces
   {
     return sides;
   }
-  const Shadows shadows = ShadowSearch(mesh, pieces, isAny, 0., cloud, executor).shadows();
+  const Shadows shadows = ShadowSearch(mesh, pieces, isAny, cloud, executor).shadows();
   const bool doTell = shadows.tell(LeastExplained, LeastRatio);
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
@@ -486,12 +488,12 @@ FromWithin sidesFromWithin(const Mesh& mesh, std::span<const Piece> pieces,
     {
       continue;
     }
+    ShadowSearch search(mesh, pieces, isAsked, cloud, executor);
     Shadows shadows;
     const auto looksAway = [&](std::size_t i)
     { return isAsked(i) && shadows.directions[i] == (byVolume[i].isTurned ? 1 : -1); };
-    const auto areFromWithin = [&](double leastCosine)
+    const auto areFromWithin = [&]
     {
-      const ShadowSearch search(mesh, pieces, isAsked, leastCosine, cloud, executor);
       if (!search.mayBeFromWithin())
       {
         return false;
@@ -500,12 +502,13 @@ FromWithin sidesFromWithin(const Mesh& mesh, std::span<const Piece> pieces,
       return shadows.isWithin && shadows.tell(LeastExplainedWithin, LeastRatioWithin) &&
         looksAway(hull);
     };
-    if (!areFromWithin(0.))
+    if (!areFromWithin())
     {
       continue;
     }
     result.isInDoubt = true;
-    if (areFromWithin(LeastCosineWithin))
+    search.leaveOutGrazing(LeastCosineWithin);
+    if (areFromWithin())
     {
       for (std::size_t i = 0; i < pieces.size(); ++i)
       {

@@ -171,10 +171,14 @@ bool fillBoundary(Mesh& mesh, BoundaryManager& boundaries, BoundaryManager::Loop
   float leastCosine, double mostArea)
 {
   const std::vector<VertexIndex> vertices = boundaries.vertices(mesh, loop);
+  const bool areNormalsAsked = leastCosine > -1.f;
   std::unordered_map<VertexIndex, Vector4> normals;
-  for (const VertexIndex v : vertices)
+  if (areNormalsAsked)
   {
-    normals.emplace(v, mesh.normal(v));
+    for (const VertexIndex v : vertices)
+    {
+      normals.emplace(v, mesh.normal(v));
+    }
   }
   double area = 0.;
   const auto isWithinArea = [&](const Triangle& triangle)
@@ -188,7 +192,7 @@ bool fillBoundary(Mesh& mesh, BoundaryManager& boundaries, BoundaryManager::Loop
   {
     return false;
   }
-  if (cosineToSides(mesh, filled, normals) < leastCosine)
+  if (areNormalsAsked && cosineToSides(mesh, filled, normals) < leastCosine)
   {
     mesh.removeTriangles(filled);
     return false;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -26,12 +27,12 @@ constexpr double DiagonalCutOff = 0.01;
 constexpr std::size_t FewestTogether = 5;
 constexpr double EdgesTogether = 2.;
 
-/// Whether at least `fewest` of these places lie within `reach` of one of them, which counts, too.
-bool lieTogether(std::vector<Vector4> places, std::size_t fewest, float reach)
+/// One of these places within `reach` of which at least `fewest` lie, itself among them.
+std::optional<Vector4> togetherAt(std::vector<Vector4> places, std::size_t fewest, float reach)
 {
   std::ranges::sort(places, {}, [](const Vector4& place) { return place[0]; });
   auto first = places.begin();
-  return std::ranges::any_of(places,
+  const auto found = std::ranges::find_if(places,
     [&](const Vector4& center)
     {
       while ((*first)[0] < center[0] - reach)
@@ -46,10 +47,12 @@ bool lieTogether(std::vector<Vector4> places, std::size_t fewest, float reach)
       }
       return count >= fewest;
     });
+  return found != places.end() ? std::optional(*found) : std::nullopt;
 }
 }
 
-void findCutOff(const PointCloud& cloud, const AskedSpacings& spacings, Explanation& explanation)
+void findCutOff(const PointCloud& cloud, const AskedSpacings& spacings, std::size_t usuallyAsked,
+  Explanation& explanation)
 {
   const PointDistances& asked = explanation.asked;
   const auto placeOf = [&](std::size_t i) { return cloud.points()[asked.points[i]]; };
@@ -64,8 +67,11 @@ void findCutOff(const PointCloud& cloud, const AskedSpacings& spacings, Explanat
     }
   };
   const double least = std::min(EdgesCutOff * asked.meanEdge, DiagonalCutOff * cloud.diagonal());
+  const std::size_t all = explanation.reasons.size();
+  const std::size_t usual = usuallyAsked > 0 ? std::min(all, usuallyAsked) : all;
+  const auto isUsual = [&](std::size_t i) { return i * usual / all != (i + 1) * usual / all; };
   std::vector<Vector4> atRims;
-  for (std::size_t i = 0; i < explanation.reasons.size(); ++i)
+  for (std::size_t i = 0; i < all; ++i)
   {
     const float distance = asked.distances[i], spacing = spacings.each[i];
     const bool isBeyond = asked.isBeyondBoundary[i] != 0;
@@ -80,14 +86,20 @@ void findCutOff(const PointCloud& cloud, const AskedSpacings& spacings, Explanat
       distance > SpacingsAtRims * spacing)
     {
       take(explanation.atRims, i);
-      atRims.push_back(placeOf(i));
+      if (isUsual(i))
+      {
+        atRims.push_back(placeOf(i));
+      }
     }
     else if (isBeyond && spacing > spacings.sparse && distance > SpacingsBeyondEnds * spacing)
     {
       take(explanation.beyondEnds, i);
     }
   }
-  explanation.atRims.areTogether =
-    lieTogether(std::move(atRims), FewestTogether, float(EdgesTogether * asked.meanEdge));
+  if (const auto together =
+        togetherAt(std::move(atRims), FewestTogether, float(EdgesTogether * asked.meanEdge)))
+  {
+    explanation.atRims.together = cloud.toInput(*together);
+  }
 }
 }

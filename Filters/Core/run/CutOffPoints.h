@@ -4,6 +4,7 @@
 #include "cloud/PointCloud.h"
 #include "run/Explanation.h"
 
+#include <cstddef>
 #include <span>
 
 namespace neuralmesh
@@ -18,5 +19,7 @@ struct AskedSpacings
 };
 
 /// Finds the points that a mesh cuts off at narrow rims, and those beyond its ends, and adds them to the explanation.
-void findCutOff(const PointCloud& cloud, const AskedSpacings& spacings, Explanation& explanation);
+/// Which of them lie together is asked of `usuallyAsked` points, evenly picked; 0: of all.
+void findCutOff(const PointCloud& cloud, const AskedSpacings& spacings, std::size_t usuallyAsked,
+  Explanation& explanation);
 }

@@ -98,7 +98,8 @@ public:
         [this](std::size_t i) { return result_.reasons[i] == Reason::Explained; }, executor_);
     }
     count();
-    findCutOff(cloud_, { spacings_, usualSpacing_, LoneSpacings * usualSpacing_, noise_ }, result_);
+    findCutOff(cloud_, { spacings_, usualSpacing_, LoneSpacings * usualSpacing_, noise_ },
+      rules_.usuallyAsked, result_);
     return std::move(result_);
   }
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -50,8 +51,8 @@ struct CutOffPoints
   Eigen::Vector3d place =
     Eigen::Vector3d::Zero(); ///< the farthest one, in the coordinates of the input
   double farthest = 0.;      ///< its distance to the mesh, in units of the input
-  bool areTogether =
-    false; ///< whether some lie within two edges of each other: no chance puts them there
+  /// One that has others within two edges, more than chance puts there, in the coordinates of the input
+  std::optional<Eigen::Vector3d> together;
 };
 
 /// The points of a cloud that a mesh explains, and those that it does not. The spacing of a point
@@ -97,6 +98,8 @@ struct ExplanationRules
   double leastPiece = 0.0005;
   /// For each point, 1 if it is in a cluster of outliers; empty if there are none.
   std::vector<std::uint8_t> isLeftOut;
+  /// As many points are asked where not all are to be explained; 0: as many as are.
+  std::size_t usuallyAsked = 0;
 };
 
 /// Takes about as long as the distances.

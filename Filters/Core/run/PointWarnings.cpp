@@ -81,14 +81,17 @@ std::string cutOffText(
 void warnOfCutOff(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
 {
   const std::size_t atRims = explanation.atRims.count;
-  const bool isCutOff = explanation.atRims.areTogether ||
-    (atRims >= FewestAtRims && double(atRims) > MostAtRims * double(explanation.reasons.size()));
+  const bool areMany =
+    atRims >= FewestAtRims && double(atRims) > MostAtRims * double(explanation.reasons.size());
+  const bool isCutOff = areMany || explanation.atRims.together;
   const bool hasCoarsePiece = !piecesOf(Fate::Coarse, explanation, cloud).empty();
   if (isCutOff && !hasCoarsePiece)
   {
     warnings.add(WarningTopic::MeshIsCoarse,
       "The mesh is coarser than its cloud: it cuts off " +
-        cutOffText(explanation.atRims, explanation, cloud) +
+        (areMany ? cutOffText(explanation.atRims, explanation, cloud)
+                 : "points that lie together, as around " +
+              placeText(*explanation.atRims.together, cloud) + ". ") +
         "The surface is narrower there than edges are long. Use more vertices.");
   }
   if (!explanation.passedBy.empty() && !isCutOff && !hasCoarsePiece)

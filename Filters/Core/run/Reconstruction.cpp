@@ -56,13 +56,11 @@ Reconstruction learnAndFinish(Run& run, std::uint64_t vertices, Beginning beginn
   const Parameters& parameters = request.parameters;
   const double startOfLearning = startsFromSpace(request) ? StartOfLearning : 0.;
   const double endOfLearning = parameters.fitRounds > 0 ? EndOfLearning : 1.;
-  const bool isFromGrid = beginning.isFromGrid;
   LearntRun learnt = run.learn(
     vertices, std::move(beginning), { startOfLearning, endOfLearning }, checkpoint, watch);
   Reconstruction result =
     run.finish(std::move(learnt), parameters.numberOfVertices, { endOfLearning, 1. }, made);
   result.times.add(times);
-  result.isFromGrid = isFromGrid;
   return result;
 }
 
@@ -142,9 +140,13 @@ bool holdsMore(const Reconstruction& finer, const Reconstruction& other, std::si
     isCloser(finer, other, other.surface.vertexCount());
 }
 
-/// The same for a mesh with more handles, which may be right and narrow.
+/// The same for a closed mesh with more handles, which may be right and narrow.
 bool holdsMoreWithHoles(const Reconstruction& withHoles, const Reconstruction& other)
 {
+  if (withHoles.surface.isOpen() || genusOf(withHoles.surface) <= genusOf(other.surface))
+  {
+    return false;
+  }
   const auto countOf = [](const Reconstruction& result)
   {
     return std::size_t(std::ranges::count_if(result.warnings,
@@ -308,8 +310,6 @@ Reconstruction runWithThinParts(
   return betterOf(std::move(result), std::move(other), isTaken);
 }
 
-/// `result`; or a mesh whose first surface has more handles, if `result` may have filled holes, and the other one holds
-/// more.
 Reconstruction runWithNarrowHoles(
   Reconstruction result, const RunRequest& request, const Progress& progress)
 {
@@ -326,6 +326,10 @@ Reconstruction runWithNarrowHoles(
   if (!beginning || genusOf(*beginning->mesh) <= genusOf(result.surface))
   {
     result.times.add(times);
+    if (!progress(1.))
+    {
+      result.stopReason = StopReason::Cancelled;
+    }
     return result;
   }
   Checkpoint checkpoint({}, request.cloud, request.parameters);

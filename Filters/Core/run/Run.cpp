@@ -103,6 +103,7 @@ LearntRun Run::learn(std::uint64_t vertices, Beginning beginning, ProgressPart p
   const Parameters parameters = parametersFor(vertices, request_);
   const std::optional<GapPlan> gaps = beginning.gaps;
   Reconstruction result;
+  result.isFromGrid = beginning.isFromGrid;
   result.times.enter(Phase::Learning);
   std::unique_ptr<Learner> learner =
     learnerFrom(std::move(beginning), cloud(), parameters, interruptible_);

@@ -131,4 +131,8 @@ bool holdsMore(const Reconstruction& finer, const Reconstruction& other);
 /// that of the second.
 Reconstruction runWithThinParts(Reconstruction result, const RunRequest& request,
   const Progress& progress, LearntRun* made = nullptr);
+/// `result`; or a mesh whose first surface has more handles, if `result` may have filled holes, and the other one holds
+/// more.
+Reconstruction runWithNarrowHoles(
+  Reconstruction result, const RunRequest& request, const Progress& progress);
 }

@@ -267,7 +267,7 @@ private:
     return request_.parameters.fitRounds > 0 && !request_.parameters.computeFeatureStrength;
   }
 
-  /// The result of a run of this size, with the check for thin parts that every run has.
+  /// The result of a run of this size, with the checks for thin parts and narrow holes that every run has.
   Reconstruction resultOf(Made made)
   {
     const ProgressPart part = next(PartOfResult);
@@ -280,9 +280,10 @@ private:
     const Parameters parameters = parametersWith(vertices);
     const RunRequest request = requestWith(request_, parameters);
     const Progress atTheEnd = partOf(progress_, part.end, part.end);
-    return runWithThinParts(
-      betterRun(run_.describe(std::move(made.run), vertices, part), request, atTheEnd), request,
-      atTheEnd);
+    Reconstruction result =
+      betterRun(run_.describe(std::move(made.run), vertices, part), request, atTheEnd);
+    return runWithNarrowHoles(
+      runWithThinParts(std::move(result), request, atTheEnd), request, atTheEnd);
   }
 
   /// A power law of the error by the number of vertices, through one trial.

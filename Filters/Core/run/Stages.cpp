@@ -431,9 +431,10 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
   }
   const std::size_t vertices = result.surface.vertexCount();
   const auto mostOf = [&](std::size_t some) { return explainsAll ? cloud.points().size() : some; };
-  std::optional<MeasuredPoints> measured = measurePoints(result.surface, cloud,
-    mostOf(std::max(FewestExplained, PointsPerVertexExplained * vertices)),
-    mostOf(PointsPerVertexOfSupport * vertices), partOf(progress, 0., 0.9), executor);
+  rules.usuallyAsked = std::max(FewestExplained, PointsPerVertexExplained * vertices);
+  std::optional<MeasuredPoints> measured =
+    measurePoints(result.surface, cloud, mostOf(rules.usuallyAsked),
+      mostOf(PointsPerVertexOfSupport * vertices), partOf(progress, 0., 0.9), executor);
   if (!measured || !progress(0.9))
   {
     return false;

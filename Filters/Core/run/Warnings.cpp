@@ -352,7 +352,7 @@ void warnOfSides(
     warnings.add(WarningTopic::InsideOut,
       percent(sides.nestedShare) + " of the surface lies within another piece, as around " +
         placeText(cloud.toInput(sides.nested), cloud) +
-        ", and both look outwards: the outer one of a room and the inner one of a hollow body "
+        ", and both look outwards. If the outer one is a room, or the inner one a cavity, it "
         "should look inwards. Viewpoints (--viewpoint) or normals turn each piece.");
   }
   if (sides.isFromWithin)

@@ -13,7 +13,7 @@ namespace neuralmesh
 /// ends with its tag; Documentation/Guide/Failures.md has a section for each tag. The list is empty for a
 /// mesh that fits its cloud. After a cancelled run it has only what is known of the sides. Limits:
 /// - points are unexplained: more than 3 % of them;
-/// - coarse: the mesh cuts off more than 0.035 % of the points at narrow rims, or five within two edges of each other;
+/// - coarse: the mesh cuts off more than 0.035 % of the points at narrow rims, or five within two edges of one of them;
 /// - open where points are: the mesh ends before six of the asked points where points are sparse;
 /// - no surface: more than half of the points have others around them in all directions;
 /// - surface without points: more than 4 % of the area, or a piece, unless gaps were to be closed;

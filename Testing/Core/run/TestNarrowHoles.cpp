@@ -77,9 +77,9 @@ bool areTogether(const std::vector<Eigen::Vector3d>& places)
     explanation.asked.isBeyondBoundary.push_back(0);
   }
   const std::vector<float> spacings(places.size(), 0.01f / unit);
-  findCutOff(cloud, { spacings, 0.01f / unit, 0.03f / unit, 0.02f / unit }, explanation);
+  findCutOff(cloud, { spacings, 0.01f / unit, 0.03f / unit, 0.02f / unit }, 0, explanation);
   EXPECT_EQ(explanation.atRims.count, places.size());
-  return explanation.atRims.areTogether;
+  return explanation.atRims.together.has_value();
 }
 }
 
@@ -99,6 +99,23 @@ TEST(NarrowHoles, BoresOfANoisyPlateAreOpen)
   // A draft is to be fast: it keeps the grid.
   parameters.fidelity = Fidelity::Draft;
   EXPECT_TRUE(reconstruct(PointCloud(boredPlate(40000, 0.002)), parameters, goOn).isFromGrid);
+}
+
+// Also an abort of the second start, which leaves the first mesh as it is.
+TEST(NarrowHoles, AbortsAreTold)
+{
+  const PointCloud cloud(boredPlate(40000, 0.002));
+  Parameters parameters;
+  parameters.numberOfVertices = 3000;
+  int calls = 0;
+  reconstruct(cloud, parameters, [&](double) { return ++calls > 0; });
+  for (const double part : { 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 })
+  {
+    SCOPED_TRACE(part);
+    int left = int(part * calls);
+    const Reconstruction run = reconstruct(cloud, parameters, [&](double) { return left-- > 0; });
+    EXPECT_EQ(run.stopReason, StopReason::Cancelled);
+  }
 }
 
 TEST(NarrowHoles, PointsThatAreCutOffTogetherAreTold)
