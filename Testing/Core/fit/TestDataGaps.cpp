@@ -357,25 +357,25 @@ void removeBesideTube(
 TEST(DataGaps, TubesBetweenBodiesAreCut)
 {
   constexpr double HalfWidth = 0.1, HalfHeight = 0.15, Beside = 0.03;
-  enum class Tube
+  enum class TubeKind
   {
     Bare,
     HasPointsBeside,
     HasPoints
   };
   for (const auto& [kind, distance] :
-    { std::pair{ Tube::Bare, 0.16 }, std::pair{ Tube::Bare, 0.12 },
-      std::pair{ Tube::HasPointsBeside, 0.16 }, std::pair{ Tube::HasPoints, 0.16 } })
+    { std::pair{ TubeKind::Bare, 0.16 }, std::pair{ TubeKind::Bare, 0.12 },
+      std::pair{ TubeKind::HasPointsBeside, 0.16 }, std::pair{ TubeKind::HasPoints, 0.16 } })
   {
     const auto [bodies, tube, joined] = joinedCubes(distance, HalfWidth, HalfHeight);
-    const bool isCut = kind != Tube::HasPoints;
+    const bool isCut = kind != TubeKind::HasPoints;
     std::vector<Eigen::Vector3d> points =
       generateCloud(isCut ? bodies : joined, CloudOptions{ .count = 60000 });
     if (isCut)
     {
       removeBesideTube(points, distance, HalfWidth, HalfHeight);
     }
-    for (int i = -2; i <= 2 && kind == Tube::HasPointsBeside; ++i)
+    for (int i = -2; i <= 2 && kind == TubeKind::HasPointsBeside; ++i)
     {
       points.emplace_back(0.5 * (1. + distance), HalfWidth + Beside, 0.05 * i);
     }
