@@ -48,6 +48,8 @@ constexpr double LeastRatioWithin = 5.;
 constexpr double ShortestBoundaryWithin = 0.25;
 /// Of the angle between the way to a boundary and the normal there: along a corridor, a rough wall hides itself.
 constexpr double LeastCosineWithin = 0.25;
+/// The same for a doubt: at the rim of a mask it hides itself, too.
+constexpr double LeastCosineInDoubt = 0.2;
 /// What a first look from within must explain, from so many places along each axis of the box.
 constexpr double LeastAtFirstLook = 0.08;
 constexpr int PlacesWithinPerAxis = 3;
@@ -494,21 +496,22 @@ FromWithin sidesFromWithin(const Mesh& mesh, std::span<const Piece> pieces,
     { return isAsked(i) && shadows.directions[i] == (byVolume[i].isTurned ? 1 : -1); };
     const auto areFromWithin = [&]
     {
-      if (!search.mayBeFromWithin())
-      {
-        return false;
-      }
       shadows = search.shadows();
       return shadows.isWithin && shadows.tell(LeastExplainedWithin, LeastRatioWithin) &&
         looksAway(hull);
     };
-    if (!areFromWithin())
+    if (!search.mayBeFromWithin() || !areFromWithin())
+    {
+      continue;
+    }
+    search.leaveOutGrazing(LeastCosineInDoubt);
+    if (!search.mayBeFromWithin())
     {
       continue;
     }
     result.isInDoubt = true;
     search.leaveOutGrazing(LeastCosineWithin);
-    if (areFromWithin())
+    if (search.mayBeFromWithin() && areFromWithin())
     {
       for (std::size_t i = 0; i < pieces.size(); ++i)
       {
