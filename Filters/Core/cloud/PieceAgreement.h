@@ -19,8 +19,8 @@ inline constexpr double LeastGround = 0.2;
 /// its width. Pieces agree if their normals there point the same way, and their boundaries run against
 /// each other, as those of two triangles do along their edge. A gap that is wider than half the root of
 /// the area of the larger piece says nothing, nor does one where normals and boundaries contradict each
-/// other, as between sheets one over the other, nor what is no boundary of a smaller piece, nor a gap wider than three edges
-/// across which the way leads back over either piece.
+/// other, as between sheets one over the other, nor what is no boundary of a smaller piece, nor a gap
+/// wider than three edges across which the way leads back over either piece.
 ///
 /// `ground` is of each piece the level area that looks up less that which looks down, or empty. A group that is known
 /// does not decide for a larger one whose ground would look down then: a tree does not turn the terrain. Nor does one

@@ -19,7 +19,7 @@ constexpr double LeastArea = 0.01;
 /// Of an inner piece so many triangles are asked, and all but a few must lie within.
 constexpr std::size_t TrianglesAsked = 16;
 constexpr std::size_t FewestWithin = 14;
-/// Where a closed piece encloses a place once.
+/// Of a place that a piece encloses, were it closed.
 constexpr double LeastWinding = 0.5;
 
 struct Body

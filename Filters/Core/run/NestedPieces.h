@@ -9,8 +9,8 @@
 
 namespace neuralmesh
 {
-/// Pieces within others, where the volume has both look outwards: one of them looks the wrong way. The outer one is a
-/// room, or the inner one a cavity.
+/// Pieces within others, where the volume has both look outwards. One of them looks the wrong way if the outer one is a
+/// room, or the inner one a cavity; a body within another is right.
 struct NestedPieces
 {
   double share = 0.; ///< the inner ones, of the area
