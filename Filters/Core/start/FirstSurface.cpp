@@ -9,6 +9,7 @@
 #include "mesh/EdgeFlips.h"
 #include "mesh/Pieces.h"
 #include "mesh/Simplification.h"
+#include "mesh/Subdivision.h"
 #include "start/BestFront.h"
 #include "start/Evidence.h"
 #include "start/OccupiedSolid.h"
@@ -66,6 +67,8 @@ constexpr double MostMedianOfSheet = 0.1;
 constexpr double MostMedianOfSolid = 0.2;
 /// A sheet with more boundaries was torn.
 constexpr std::size_t MostLoopsOfSheet = 2;
+/// A sheet that has more of its vertices at its boundary is a ribbon of a few voxels.
+constexpr double MostAtBoundary = 0.5;
 constexpr int FitRounds = 2;
 constexpr double FitSmoothness = 1.;
 constexpr std::size_t FitSamples = 10; ///< per vertex
@@ -317,30 +320,74 @@ private:
   SurfaceFit fit_;
 };
 
+/// A first surface, and what the points say of it.
+struct Candidate
+{
+  FirstSurface surface;
+  Evidence evidence = {};
+  bool explains = false;        ///< the points, so that no other needs to be tried
+  bool isBetweenLayers = false; ///< of points, or jumps from one to the other
+  bool isOneSheet = false;      ///< near all points, though noise may be as wide as its triangles
+  bool isRibbon = false;        ///< a sheet that is hardly wider than voxels
+};
+
+double partAtBoundary(const Mesh& mesh)
+{
+  std::size_t count = 0;
+  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  {
+    count += mesh.isBoundary(v) ? 1 : 0;
+  }
+  return double(count) / double(mesh.indexEnd());
+}
+
+/// In learning, triangles that go from one side of a ribbon to the other fold: it gets vertices within. Returns false
+/// if it was ended before.
+bool refineRibbon(const PointCloud& cloud, Mesh& mesh, std::size_t mostVertices,
+  const Progress& progress, const Executor& executor)
+{
+  while (partAtBoundary(mesh) > MostAtBoundary && 4 * mesh.vertexCount() <= mostVertices)
+  {
+    if (!FirstFit(cloud, mesh, executor).run(progress))
+    {
+      return false;
+    }
+    mesh = subdivide(mesh, executor).mesh;
+  }
+  return true;
+}
+
 /// One sheet of a skin, if there is one and the points lie on it.
-std::optional<FirstSurface> openSurface(const PointCloud& cloud, const FirstSurface& skin,
+std::optional<Candidate> openSurface(const PointCloud& cloud, const FirstSurface& skin,
   std::size_t mostVertices, Boundaries boundaries, double leastPiece, const Progress& progress,
   const Executor& executor)
 {
-  FirstSurface result = skin;
-  result.isOpen = true;
-  if (!keepOneSheet(result.mesh, skin.skinThickness))
+  Candidate result{ skin };
+  FirstSurface& surface = result.surface;
+  surface.isOpen = true;
+  if (!keepOneSheet(surface.mesh, skin.skinThickness))
   {
     return {};
   }
-  simplify(result.mesh, mostVertices);
-  FirstFit fit(cloud, result.mesh, executor);
+  result.isRibbon = partAtBoundary(surface.mesh) > MostAtBoundary;
+  simplify(surface.mesh, mostVertices);
+  if (result.isRibbon &&
+    !refineRibbon(cloud, surface.mesh, mostVertices, partOf(progress, 0., 0.), executor))
+  {
+    return {};
+  }
+  FirstFit fit(cloud, surface.mesh, executor);
   if (!fit.run(progress) || fit.isBetweenLayers())
   {
     return {};
   }
   if (boundaries == Boundaries::Keep)
   {
-    fit.openGaps(result.bridgeWidth, leastPiece);
+    fit.openGaps(surface.bridgeWidth, leastPiece);
   }
   else
   {
-    closeBoundaries(result.mesh);
+    closeBoundaries(surface.mesh);
   }
   return result;
 }
@@ -350,16 +397,6 @@ bool hasRightSize(const FirstSurface& surface, std::size_t mostVertices)
   const std::size_t count = surface.mesh.vertexCount();
   return count > 3 && count <= mostVertices;
 }
-
-/// A first surface, and what the points say of it.
-struct Candidate
-{
-  FirstSurface surface;
-  Evidence evidence = {};
-  bool explains = false;        ///< the points, so that no other needs to be tried
-  bool isBetweenLayers = false; ///< of points, or jumps from one to the other
-  bool isOneSheet = false;      ///< near all points, though noise may be as wide as its triangles
-};
 
 /// The closed solid, fitted, and opened where there is no data if that is to be. Nothing if it has too
 /// many vertices, or the run was ended.
@@ -396,17 +433,18 @@ std::optional<Candidate> sheetCandidate(const PointCloud& cloud, const NearestPo
   const FirstSurface& skin, std::size_t mostVertices, Boundaries boundaries, double leastPiece,
   const Progress& progress, const Executor& executor)
 {
-  auto sheet = openSurface(cloud, skin, mostVertices, boundaries, leastPiece, progress, executor);
-  if (!sheet || !hasRightSize(*sheet, mostVertices))
+  auto result = openSurface(cloud, skin, mostVertices, boundaries, leastPiece, progress, executor);
+  if (!result || !hasRightSize(result->surface, mostVertices))
   {
     return {};
   }
-  Candidate result{ std::move(*sheet) };
-  const Mesh& mesh = result.surface.mesh;
-  result.evidence = evidenceFor(cloud, nearest, mesh, UsuallyAsked, executor);
-  result.isOneSheet = result.evidence.unexplained < LeastUnexplainedBySheet &&
+  const Mesh& mesh = result->surface.mesh;
+  result->evidence = evidenceFor(cloud, nearest, mesh, UsuallyAsked, executor);
+  result->isOneSheet = result->evidence.unexplained < LeastUnexplainedBySheet &&
     pieceCount(mesh) == 1 && BoundaryManager(mesh).loopCount() <= MostLoopsOfSheet;
-  result.explains = result.isOneSheet && result.evidence.medianInEdges < MostMedianOfSheet;
+  // The outline of a ribbon is known better from a front.
+  result->explains =
+    result->isOneSheet && !result->isRibbon && result->evidence.medianInEdges < MostMedianOfSheet;
   return result;
 }
 
