@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace neuralmesh::testing
 {
@@ -312,6 +313,38 @@ TEST(FirstSurface, OpenScansGiveOneSheet)
       const double area = reportSurface(shape).area;
       EXPECT_NEAR(reportSurface(trianglesOf(first->mesh, cloud)).area, area, 0.05 * area);
     }
+  }
+}
+
+// A ribbon that is a few voxels wide has vertices within, not only along its sides: a front gives them, or where noise
+// leaves none, the sheet of the grid is refined.
+TEST(FirstSurface, RibbonsHaveVerticesWithin)
+{
+  for (const auto& [width, noise, least] :
+    { std::tuple(0.03, 0.0003, 0.8), std::tuple(0.025, 0.001, 0.5) })
+  {
+    SCOPED_TRACE("noise " + std::to_string(noise));
+    TriangleMesh ribbon = makeGrid(128);
+    for (Eigen::Vector3d& point : ribbon.points)
+    {
+      const double across = width * (point.y() - 0.5), turn = 6. * point.x();
+      point.y() = across * std::cos(turn);
+      point.z() = 0.15 * std::sin(5. * point.x()) + across * std::sin(turn);
+    }
+    CloudOptions options;
+    options.count = 100000;
+    options.noise = noise;
+    const auto first = firstSurface(cloudOf(ribbon, options), 10000, 10000, Boundaries::Keep, goOn);
+    ASSERT_TRUE(first.has_value());
+    const ManifoldReport report = reportOf(first->mesh);
+    EXPECT_EQ(report.components, 1u);
+    EXPECT_EQ(report.boundaryLoops, 1u);
+    std::size_t within = 0;
+    for (VertexIndex v = 0; v < first->mesh.indexEnd(); ++v)
+    {
+      within += first->mesh.isBoundary(v) ? 0 : 1;
+    }
+    EXPECT_GT(double(within), least * double(first->mesh.vertexCount()));
   }
 }
 
