@@ -65,8 +65,8 @@ TEST_F(PointText, NamesTellTheNormals)
 TEST_F(PointText, CoordinatesComeFirst)
 {
   const std::string points = "1.25 2.5 3.75 9 9\n-4 5.5 6 9 9\n";
-  for (const char* begin : { "", "2\n", "# z y x of the wall, in metres\n", "// z y x\n",
-         "Wall\nunits: mm\n" })
+  for (const char* begin :
+    { "", "2\n", "# z y x of the wall, in metres\n", "// z y x\n", "Wall\nunits: mm\n" })
   {
     const FileContents contents = contentsOf("a.txt", begin + points);
     EXPECT_EQ(contents.doubles, TwoPoints) << begin;
