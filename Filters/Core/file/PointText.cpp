@@ -191,7 +191,7 @@ void PointTextReader::takeNormal()
   contents_.normals.emplace_back(normal.cast<float>());
 }
 
-/// Names of columns, or how many points there are; throws what is wrong with a line that is neither.
+/// Names of columns, a title, or the number of points; throws what is wrong with any other line.
 void PointTextReader::takeOther()
 {
   double number = 0.;
@@ -206,13 +206,14 @@ void PointTextReader::takeOther()
   {
     hasNumber = hasNumber || row_.number(i, number);
   }
-  if (contents_.size() > 0 || hasNumber || row_.size() < 3)
+  if (contents_.size() > 0 || hasNumber)
   {
     throw file_.errorInLine("this is not a point: " + oneLine(file_.line()));
   }
   const auto columns = columnsOfNames(file_.line());
   columns_ = columns ? *columns : columns_;
-  hasNames_ = true;
+  // A shorter line is a title or a unit.
+  hasNames_ = hasNames_ || row_.size() >= 3;
 }
 }
 

@@ -31,6 +31,7 @@ TEST_F(PointText, NamesTellTheColumns)
     "Name;Z [m];Y [m];X (m)\nThe wall, left;3.75;2.5;1.25\n;6;5.5;-4\n",
     "name,z,y,x\n\"wall, left\",3.75,2.5,1.25\n\"a \"\"b\"\"\",6,5.5,-4\n",
     "a scan of a wall\nz y x\nm m m\n3.75 2.5 1.25\n6 5.5 -4\n",
+    "Wall\nunits: mm\nStation 7\n2\nz y x\n3.75 2.5 1.25\n6 5.5 -4\n",
     "empty,z,y,x,empty\n,3.75,2.5,1.25,\n,6,5.5,-4,\n",
     "z;y;x\n3.75 2.5 1.25\n6 5.5 -4\n",
     "2\nz y x\n3.75 2.5 1.25 // a comment\n6 5.5 -4\n",
@@ -64,7 +65,8 @@ TEST_F(PointText, NamesTellTheNormals)
 TEST_F(PointText, CoordinatesComeFirst)
 {
   const std::string points = "1.25 2.5 3.75 9 9\n-4 5.5 6 9 9\n";
-  for (const char* begin : { "", "2\n", "# z y x of the wall, in metres\n", "// z y x\n" })
+  for (const char* begin :
+    { "", "2\n", "# z y x of the wall, in metres\n", "// z y x\n", "Wall\nunits: mm\n" })
   {
     const FileContents contents = contentsOf("a.txt", begin + points);
     EXPECT_EQ(contents.doubles, TwoPoints) << begin;
