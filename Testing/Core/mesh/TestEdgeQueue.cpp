@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <set>
 
-using namespace neuralmesh;
-
-/// Costs are few, so that most are equal; what is pushed later may be cheaper than all that were taken.
+namespace neuralmesh::testing
+{
+// Costs are few, so that most are equal; what is pushed later may be cheaper than all that were taken.
 TEST(EdgeQueue, GivesTheCheapestFirst)
 {
   constexpr int Edges = 20000;
-  constexpr std::uint64_t Costs = 50, Vertices = 1000;
+  constexpr std::uint32_t Costs = 50, Vertices = 1000;
   Random random(1);
   EdgeQueue<float> queue;
   std::multiset<WaitingEdge<float>> all;
@@ -42,4 +42,5 @@ TEST(EdgeQueue, GivesTheCheapestFirst)
     }
   }
   EXPECT_TRUE(queue.empty());
+}
 }
