@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/OppositeLayer.h"
 
+#include "mesh/EachVertex.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,33 +28,53 @@ float meanEdgeAt(const Mesh& mesh, VertexIndex v)
   }
   return sum / float(mesh.valence(v));
 }
+
+/// The surface at a vertex.
+class Layer
+{
+public:
+  Layer(const Mesh& mesh, VertexIndex v)
+    : place_(mesh.position(v))
+  {
+    const Vector4 normal = mesh.normal(v);
+    const float squared = squaredNorm(normal);
+    if (squared > 0.f)
+    {
+      normal_ = 1.f / std::sqrt(squared) * normal;
+      edge_ = meanEdgeAt(mesh, v);
+    }
+  }
+
+  /// Whether it has a side.
+  bool isKnown() const { return edge_ >= 0.f; }
+  /// So many edges before the vertex.
+  Vector4 off(float edges) const { return place_ + edges * edge_ * normal_; }
+  float reach() const { return MostEdges * edge_; }
+  bool reaches(Vector4 place) const { return squaredNorm(place - place_) <= reach() * reach(); }
+  /// Whether what has this normal is turned the other way.
+  bool isAgainst(Vector4 normal) const
+  {
+    return dot(normal_, normal) < MostCosine * std::sqrt(squaredNorm(normal));
+  }
+
+private:
+  Vector4 place_, normal_;
+  float edge_ = -1.f;
+};
 }
 
 VertexIndex oppositeVertex(const Mesh& mesh, const ClosestVertex& closestTo, VertexIndex v)
 {
-  const Vector4 normal = mesh.normal(v);
-  const float squared = squaredNorm(normal);
-  if (!(squared > 0.f))
+  const Layer layer(mesh, v);
+  if (!layer.isKnown())
   {
     return NoVertex;
   }
-  const Vector4 unit = 1.f / std::sqrt(squared) * normal;
-  const float edge = meanEdgeAt(mesh, v);
-  const float reach = MostEdges * edge;
-  const auto isOpposite = [&](VertexIndex found)
-  {
-    if (found == v || found == NoVertex ||
-      squaredNorm(mesh.position(found) - mesh.position(v)) > reach * reach)
-    {
-      return false;
-    }
-    const Vector4 other = mesh.normal(found);
-    return dot(unit, other) < MostCosine * std::sqrt(squaredNorm(other));
-  };
   for (const float edges : ProbeEdges)
   {
-    const VertexIndex found = closestTo(mesh.position(v) + edges * edge * unit);
-    if (isOpposite(found))
+    const VertexIndex found = closestTo(layer.off(edges));
+    if (found != v && found != NoVertex && layer.reaches(mesh.position(found)) &&
+      layer.isAgainst(mesh.normal(found)))
     {
       return found;
     }
@@ -76,6 +98,29 @@ std::vector<VertexIndex> oppositeVertices(const Mesh& mesh, const ClosestVertex&
       }
     });
   return result;
+}
+
+std::vector<VertexIndex> oppositeVertices(
+  const Mesh& mesh, const VertexGrid& grid, const Executor& executor)
+{
+  std::vector<Vector4> normals(mesh.indexEnd());
+  forEachVertex(
+    mesh, executor, VerticesPerRange, [&](VertexIndex v) { normals[v] = mesh.normal(v); });
+  std::vector<std::uint8_t> mayHaveOne(mesh.indexEnd(), 0);
+  forEachVertex(mesh, executor, VerticesPerRange,
+    [&](VertexIndex v)
+    {
+      const Layer layer(mesh, v);
+      mayHaveOne[v] = layer.isKnown() &&
+          grid.anyAround(mesh.position(v), layer.reach(),
+            [&](VertexIndex other)
+            { return layer.reaches(mesh.position(other)) && layer.isAgainst(normals[other]); })
+        ? 1
+        : 0;
+    });
+  return oppositeVertices(
+    mesh, [&](Vector4 point) { return grid.closest(point, mesh.positions()); }, mayHaveOne,
+    executor);
 }
 
 PlaceOnMesh closestPlaceOnLayer(Vector4 point, const Mesh& mesh, VertexIndex near)

@@ -226,8 +226,7 @@ VertexGrid::Candidate VertexGrid::searchCell(
 VertexGrid::Candidate VertexGrid::searchBall(
   CellIndex home, Vector4 sample, const Vector4* positions, Candidate best) const
 {
-  // A hair more than the radius, so that rounding never hides a cell.
-  const float radius = 1.00001f * std::sqrt(squaredDistanceOf(best));
+  const float radius = MoreThanRounding * std::sqrt(squaredDistanceOf(best));
   const Vector4 reach(radius, radius, radius);
   const CellIndex low = cellOf(sample - reach);
   const CellIndex high = cellOf(sample + reach);

@@ -6,6 +6,7 @@
 #include "base/Vector4.h"
 #include "mesh/Ring.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -65,6 +66,10 @@ public:
   void closest(std::span<const Vector4> samples, std::span<const Vector4> positions,
     std::span<VertexIndex> winners, const Executor& executor) const;
 
+  /// Whether there is a vertex for which `isMeant(v)` in the ball: those in it are asked, and some around it.
+  template <typename Condition>
+  bool anyAround(Vector4 center, float radius, const Condition& isMeant) const;
+
   /// Brings the cell of `sample` into the cache.
   void prefetch(Vector4 sample) const;
 
@@ -114,6 +119,9 @@ private:
   static constexpr Candidate NoCandidate =
     Candidate(std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity())) << 32 |
     NoVertex;
+
+  /// Times a radius, so that rounding never hides a cell.
+  static constexpr float MoreThanRounding = 1.00001f;
 
   Vector4 inCells(Vector4 position) const;
   IntegerLanes cellLanes(Vector4 position) const;
@@ -197,6 +205,33 @@ inline unsigned VertexGrid::cellInBlock(CellIndex cell)
 inline std::uint32_t VertexGrid::lineOf(CellIndex cell) const
 {
   return blocks_[blockNumbers_[blockOf(cell)]].lines[cellInBlock(cell)];
+}
+
+template <typename Condition>
+bool VertexGrid::anyAround(Vector4 center, float radius, const Condition& isMeant) const
+{
+  radius *= MoreThanRounding;
+  const Vector4 reach(radius, radius, radius);
+  const CellIndex low = cellOf(center - reach), high = cellOf(center + reach);
+  for (int z = low.z; z <= high.z; ++z)
+  {
+    for (int y = low.y; y <= high.y; ++y)
+    {
+      for (int x = low.x; x <= high.x; ++x)
+      {
+        for (std::uint32_t number = lineOf({ x, y, z }); number != 0; number = lines_[number].next)
+        {
+          const Line& line = lines_[number];
+          const auto end = line.vertices.begin() + line.count;
+          if (std::any_of(line.vertices.begin(), end, isMeant))
+          {
+            return true;
+          }
+        }
+      }
+    }
+  }
+  return false;
 }
 
 inline void VertexGrid::prefetch(Vector4 sample) const

@@ -102,8 +102,7 @@ bool SurfaceFit::findPlaces(const Progress& progress)
   const VertexGrid grid = hasPlaces_ ? VertexGrid() : gridOf(mesh_, cloud_, executor_);
   if (!hasPlaces_)
   {
-    opposite_ = oppositeVertices(
-      mesh_, [&](Vector4 point) { return grid.closest(point, mesh_.positions()); }, {}, executor_);
+    opposite_ = oppositeVertices(mesh_, grid, executor_);
   }
   ZeroedArray<float> distances(samples_.size());
   const std::size_t count = samples_.size();

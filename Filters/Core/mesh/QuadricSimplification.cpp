@@ -128,8 +128,7 @@ public:
       {
         return false;
       }
-      const auto [cost, removed, kept] = edges_.top();
-      edges_.pop();
+      const auto [cost, removed, kept] = edges_.takeCheapest();
       // An edge is there as long as both its ends.
       if (mesh_.isAlive(removed) && mesh_.isAlive(kept))
       {

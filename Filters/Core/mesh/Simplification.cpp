@@ -30,8 +30,7 @@ public:
   {
     while (mesh_.vertexCount() > count && !edges_.empty())
     {
-      const WaitingEdge edge = edges_.top();
-      edges_.pop();
+      const WaitingEdge edge = edges_.takeCheapest();
       // Vertices do not move, so an edge that is there has its length.
       if (mesh_.isAlive(edge.a) && mesh_.ring(edge.a).contains(edge.b))
       {

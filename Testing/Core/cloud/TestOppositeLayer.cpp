@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/OppositeLayer.h"
 
+#include "base/Random.h"
 #include "cloud/MeshBuilder.h"
 #include "SphereRuns.h"
 #include "ThinPlate.h"
@@ -36,6 +37,7 @@ TEST(OppositeLayer, IsThereWhereAPartIsThin)
     const Mesh mesh = buildMesh(makePlate(QuadranglesOfPlate, thickness), cloud);
     const std::vector<VertexIndex> opposite =
       oppositeVertices(mesh, closestIn(mesh, gridOf(mesh, cloud)), {});
+    EXPECT_EQ(oppositeVertices(mesh, gridOf(mesh, cloud)), opposite);
     std::size_t found = 0;
     for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
     {
@@ -59,6 +61,26 @@ TEST(OppositeLayer, IsThereWhereAPartIsThin)
   const std::vector<VertexIndex> none =
     oppositeVertices(sphere, closestIn(sphere, gridOf(sphere, cleanSphere())), {});
   EXPECT_TRUE(std::all_of(none.begin(), none.end(), [](VertexIndex v) { return v == NoVertex; }));
+}
+
+// Where vertices lie anywhere beside each other, turned to all sides, those for which none is looked for have none.
+TEST(OppositeLayer, IsNotMissed)
+{
+  const PointCloud cloud(platePoints(5000, EdgeOfPlate));
+  Mesh mesh = buildMesh(makePlate(QuadranglesOfPlate, EdgeOfPlate), cloud);
+  Random random(1);
+  for (Vector4& position : mesh.movablePositions())
+  {
+    const auto step = [&random] { return 0.1f * float(random.uniform() - 0.5); };
+    position += Vector4(step(), step(), step());
+  }
+  const VertexGrid grid = gridOf(mesh, cloud);
+  const std::vector<VertexIndex> opposite = oppositeVertices(mesh, closestIn(mesh, grid), {});
+  const auto found =
+    std::count_if(opposite.begin(), opposite.end(), [](VertexIndex v) { return v != NoVertex; });
+  EXPECT_GT(found, std::ptrdiff_t(opposite.size() / 10));
+  EXPECT_LT(found, std::ptrdiff_t(opposite.size() - opposite.size() / 10));
+  EXPECT_EQ(oppositeVertices(mesh, grid), opposite);
 }
 
 // Only those that are asked for are looked at.
