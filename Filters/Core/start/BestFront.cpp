@@ -158,6 +158,10 @@ std::optional<FrontSurface> bestFront(const PointCloud& cloud, const NearestPoin
       best = std::move(other);
     }
   }
+  if (best)
+  {
+    best->reachesEdges = isOfEdge;
+  }
   return best && best->disorder() <= MostDisorderAtAll ? std::move(best) : std::nullopt;
 }
 }
