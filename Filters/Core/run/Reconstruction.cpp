@@ -143,7 +143,7 @@ bool holdsMore(const Reconstruction& finer, const Reconstruction& other, std::si
 /// The same for a closed mesh with more handles, which may be right and narrow.
 bool holdsMoreWithHoles(const Reconstruction& withHoles, const Reconstruction& other)
 {
-  if (withHoles.surface.isOpen() || genusOf(withHoles.surface) <= genusOf(other.surface))
+  if (withHoles.surface.isOpen() || genusOf(withHoles.surface) < genusOf(other.surface))
   {
     return false;
   }
@@ -323,7 +323,13 @@ Reconstruction runWithNarrowHoles(
   Run run(request, progress);
   std::optional<Beginning> beginning = run.beginWithNarrowParts(vertices, { 0., StartOfLearning });
   times.leave();
-  if (!beginning || genusOf(*beginning->mesh) <= genusOf(result.surface))
+  // With as many handles, it may reach the edge of a wedge that the grid has cut off.
+  const long least = genusOf(result.surface) +
+    (std::ranges::any_of(result.warnings,
+       [](const std::string& warning) { return isAbout(warning, WarningTopic::PartIsMissing); })
+        ? 0
+        : 1);
+  if (!beginning || genusOf(*beginning->mesh) < least)
   {
     result.times.add(times);
     if (!progress(1.))

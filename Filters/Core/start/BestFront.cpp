@@ -19,7 +19,7 @@ constexpr std::uint64_t SeedOfFront = 1;
 /// So many more are tried where two of them show one surface with other handles.
 constexpr std::uint64_t FrontsAtOdds = 2;
 /// Of the area of the best one before.
-constexpr double LeastAreaOfOther = 0.999;
+constexpr double AreaOfOther = 0.999;
 /// See FrontSurface::disorder(): less is a surface without doubt. Where there is no other that is, more
 /// will do.
 constexpr double MostDisorder = 5.;
@@ -74,11 +74,41 @@ bool isSimpler(const FrontSurface& front, const FrontSurface& other)
     (loops < otherLoops || genus < otherGenus);
 }
 
+/// Cuts that would make disks of it.
+long cutsOf(const FrontSurface& front)
+{
+  return 2 * genusOf(front.mesh) + long(BoundaryManager(front.mesh).loopCount()) +
+    long(pieceCount(front.mesh));
+}
+
+/// Whether a front goes on to the edge of a wedge, where another one has handles that lead from one side to the other:
+/// that one has less area, as there is one layer of samples between them.
+bool showsEdge(const FrontSurface& front, const FrontSurface& other)
+{
+  return genusOf(front.mesh) < genusOf(other.mesh) && cutsOf(front) < cutsOf(other) &&
+    areaOf(front.mesh) >= AreaOfOther * areaOf(other.mesh) &&
+    findNarrowHandles(other.mesh).count > 0;
+}
+
 /// Whether handles of a front may have come by chance: that makes narrow ones, and tears.
 bool isInDoubt(const FrontSurface& front)
 {
   return genusOf(front.mesh) > 0 &&
     (BoundaryManager(front.mesh).loopCount() > 0 || findNarrowHandles(front.mesh).count > 0);
+}
+
+/// Whether an edge is told by too few samples to be closed, or in order.
+bool isTorn(const FrontSurface& front)
+{
+  return front.disorder() >= MostDisorder || BoundaryManager(front.mesh).loopCount() > 0 ||
+    pieceCount(front.mesh) > 1;
+}
+
+bool isLessTorn(const FrontSurface& front, const FrontSurface& other)
+{
+  const long difference = cutsOf(front) - cutsOf(other);
+  return genusOf(front.mesh) <= genusOf(other.mesh) &&
+    (difference < 0 || (difference == 0 && front.disorder() < other.disorder()));
 }
 }
 
@@ -100,27 +130,37 @@ std::optional<FrontSurface> bestFront(const PointCloud& cloud, const NearestPoin
   const bool isWithoutDoubt =
     best && best->disorder() < MostDisorder && best->inOneOfTwo < LeastInTwoLayers;
   auto apart = isWithoutDoubt ? std::nullopt : frontOf(Layers::Apart, SeedOfFront, 0.5, 0.75);
-  const bool areAtOdds = best && apart && (isSimpler(*apart, *best) || isSimpler(*best, *apart));
+  const bool isOfEdge = best && apart && showsEdge(*apart, *best);
+  const bool areAtOdds =
+    best && apart && (isOfEdge || isSimpler(*apart, *best) || isSimpler(*best, *apart));
   const auto isBetter = [&](const FrontSurface& front)
   {
     return (best->disorder() >= MostDisorder && front.disorder() < best->disorder()) ||
-      showsBothLayers(front, *best) || closesMore(front, *best) || isSimpler(front, *best);
+      showsBothLayers(front, *best) || closesMore(front, *best) || isSimpler(front, *best) ||
+      isOfEdge;
   };
   if (apart && (!best || isBetter(*apart)))
   {
     best = std::move(apart);
   }
   // Which of them is right in thin places is chance: others are asked.
-  for (std::uint64_t i = 1; areAtOdds && isInDoubt(*best) && i <= FrontsAtOdds; ++i)
+  for (std::uint64_t i = 1;
+       areAtOdds && (isInDoubt(*best) || (isOfEdge && isTorn(*best))) && i <= FrontsAtOdds; ++i)
   {
     const double at = 0.75 + 0.25 * double(i - 1) / double(FrontsAtOdds);
     auto other = frontOf(Layers::Apart, SeedOfFront + i, at, at + 0.25 / double(FrontsAtOdds));
     // Without a limb, or one side of a blade, it would be simpler, too.
-    if (other && isSimpler(*other, *best) && genusOf(other->mesh) < genusOf(best->mesh) &&
-      areaOf(other->mesh) >= LeastAreaOfOther * areaOf(best->mesh))
+    const bool hasArea = other && areaOf(other->mesh) >= AreaOfOther * areaOf(best->mesh);
+    if (hasArea &&
+      ((isSimpler(*other, *best) && genusOf(other->mesh) < genusOf(best->mesh)) ||
+        (isOfEdge && isLessTorn(*other, *best))))
     {
       best = std::move(other);
     }
+  }
+  if (best)
+  {
+    best->reachesEdges = isOfEdge;
   }
   return best && best->disorder() <= MostDisorderAtAll ? std::move(best) : std::nullopt;
 }

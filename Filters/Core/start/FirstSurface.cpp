@@ -69,6 +69,8 @@ constexpr double MostMedianOfSolid = 0.2;
 constexpr std::size_t MostLoopsOfSheet = 2;
 /// A sheet that has more of its vertices at its boundary is a ribbon of a few voxels.
 constexpr double MostAtBoundary = 0.5;
+/// Of a front that reaches the edges of wedges, so many more vertices may be kept: simplification crosses their sides.
+constexpr double MoreOfEdges = 1.2;
 constexpr int FitRounds = 2;
 constexpr double FitSmoothness = 1.;
 constexpr std::size_t FitSamples = 10; ///< per vertex
@@ -468,17 +470,18 @@ std::optional<FirstSurface> surfaceOfFront(const PointCloud& cloud, const Neares
   {
     return {};
   }
+  const auto most = std::size_t((best->reachesEdges ? MoreOfEdges : 1.) * double(mostVertices));
   FirstSurface result;
   result.mesh = std::move(best->mesh);
   result.isOpen = true;
   result.isCertain = isCertain(*best);
   result.bridgeWidth = 2. * result.mesh.meanEdge();
-  simplify(result.mesh, mostVertices);
+  simplify(result.mesh, most);
   if (boundaries == Boundaries::Close)
   {
     closeBoundaries(result.mesh);
   }
-  return hasRightSize(result, mostVertices) ? std::optional(std::move(result)) : std::nullopt;
+  return hasRightSize(result, most) ? std::optional(std::move(result)) : std::nullopt;
 }
 }
 

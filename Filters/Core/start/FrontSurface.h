@@ -22,6 +22,9 @@ struct FrontSurface
   double inOneOfTwo = 0.;      ///< see LayerSamples
   std::size_t crossings = 0; ///< pairs of triangles that intersected, before these were taken away
 
+  bool reachesEdges =
+    false; ///< of wedges, with folds there; known where others do not, see bestFront()
+
   /// Loops filled and crossings, for a thousand samples. Surfaces have few; where it is many the samples
   /// tell no surface.
   double disorder() const

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Promise: bores of noisy parts, narrower than the voxels of the first grid, are open in the mesh; and where points of
-// a wall are cut off together, a warning says so.
+// a wall are cut off together, a warning says so. Where such a grid cuts off the edge of a wedge, the mesh reaches it.
 #include "base/Random.h"
 #include "mesh/Pieces.h"
 #include "run/CutOffPoints.h"
 #include "run/Reconstruction.h"
 #include "Shapes.h"
 #include "SphereRuns.h"
+#include "Wedge.h"
 
 #include <gtest/gtest.h>
 
@@ -100,6 +101,19 @@ TEST(NarrowHoles, BoresOfANoisyPlateAreOpen)
   // A draft is to be fast: it keeps the grid.
   parameters.fidelity = Fidelity::Draft;
   EXPECT_TRUE(reconstruct(PointCloud(boredPlate(40000, 0.002)), parameters, goOn).isFromGrid);
+}
+
+TEST(NarrowHoles, EdgesOfWedgesAreReached)
+{
+  CloudOptions options;
+  options.count = 100000;
+  Parameters parameters;
+  parameters.numberOfVertices = 10000;
+  const Reconstruction run =
+    reconstruct(PointCloud(generateCloud(makeWedge(16.), options)), parameters, goOn);
+  EXPECT_FALSE(run.isFromGrid);
+  EXPECT_EQ(genusOf(run.surface), 0);
+  EXPECT_FALSE(run.surface.isOpen());
 }
 
 // Also an abort of the second start, which leaves the first mesh as it is.

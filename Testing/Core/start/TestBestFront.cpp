@@ -6,6 +6,7 @@
 #include "mesh/Pieces.h"
 
 #include "ThinPlate.h"
+#include "Wedge.h"
 
 #include <gtest/gtest.h>
 
@@ -37,5 +38,30 @@ TEST(BestFront, OthersAreAskedOnlyInDoubt)
   EXPECT_EQ(BoundaryManager(best->mesh).loopCount(), 0u);
   // That of the first two.
   EXPECT_LE(*told.rbegin(), 0.75);
+}
+
+// Keeps the promise: a wedge has no handles beside its edge, where one layer of samples lies between its two sides.
+TEST(BestFront, EdgesOfWedgesHaveNoHandles)
+{
+  constexpr std::size_t Count = 11250;
+  for (const double angle : { 10., 14. })
+  {
+    CloudOptions options;
+    options.count = 100000;
+    const TriangleMesh wedge = makeWedge(angle);
+    const PointCloud cloud(generateCloud(wedge, options));
+    const NearestPoints nearest(cloud.points());
+    PointLayers layers(nearest, Count);
+    const auto joined = frontSurface(cloud, layers, Layers::Joined, 1, [](double) { return true; });
+    ASSERT_TRUE(joined.has_value());
+    EXPECT_GT(genusOf(joined->mesh), 0) << angle;
+
+    const auto best = bestFront(
+      cloud, nearest, Count, [](double) { return true; }, LeastPiece, false);
+    ASSERT_TRUE(best.has_value());
+    EXPECT_EQ(genusOf(best->mesh), 0) << angle;
+    EXPECT_LE(BoundaryManager(best->mesh).loopCount(), 2u) << angle;
+    EXPECT_GT(areaOf(best->mesh), areaOf(joined->mesh)) << angle;
+  }
 }
 }
