@@ -3,6 +3,7 @@
 
 #include "base/InterruptibleExecutor.h"
 #include "fit/FidelityRounds.h"
+#include "fit/NarrowBridges.h"
 #include "fit/SheetJoints.h"
 #include "fit/SliverRepair.h"
 #include "fit/TornLoops.h"
@@ -224,7 +225,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     }
     if (isLast && round > 0)
     {
-      if (trimsOutlines() && openGaps(*surfaceFit, true))
+      if (trimOutlines(*surfaceFit))
       {
         flipEdges(mesh_, EdgesToFlip::All, executor_);
         beginAnew();
@@ -502,11 +503,25 @@ bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
   return true;
 }
 
-/// Whether gaps are looked for once more: samples that lay on what was left over at an outline have their places
-/// elsewhere by now. What was closed would be opened.
-bool Finish::trimsOutlines() const
+/// Gaps are looked for once more: samples that lay on what was left over at an outline have their places elsewhere by
+/// now. What was closed would be opened.
+bool Finish::trimOutlines(const SurfaceFit& surfaceFit)
 {
-  return plan_.gaps && mesh_.isOpen(executor_) && !(plan_.closedOutline > 0.);
+  if (!plan_.gaps || plan_.closedOutline > 0. || !mesh_.isOpen(executor_))
+  {
+    return false;
+  }
+  const std::size_t count = mesh_.vertexCount();
+  const bool isOpened = openGaps(surfaceFit, true);
+  const std::size_t bridges = cutNarrowBridges(
+    cloud_, mesh_, surfaceFit.places().size(), surfaceFit.medianDistance(), executor_);
+  if (bridges > 0)
+  {
+    report_.gapTriangles += bridges;
+    mesh_.dropErased(executor_);
+    refine(mesh_, count, [](double) { return true; });
+  }
+  return isOpened || bridges > 0;
 }
 
 bool Finish::closeHoles()
