@@ -40,6 +40,8 @@ constexpr double MostPartFolded = 0.0025;
 constexpr std::size_t FewFolds = 32;
 /// Of the residual of a surface: what it may cost to mend intersections, and slivers.
 constexpr double MostGrownByRepair = 0.1;
+/// Of the variance of the noise, what its parts have by chance, and as the finished mesh follows some of the noise.
+constexpr double MostVarianceTold = 2.;
 /// A piece with less than this part of the area has shrunk to a point.
 constexpr double ShrunkPart = 1e-14;
 /// ... however many vertices it has.
@@ -48,6 +50,14 @@ constexpr double AnyVertices = 1.;
 DefectCount countDefects(const Mesh& mesh, const Executor& executor)
 {
   return { intersectingTriangles(mesh, executor).size(), foldedEdges(mesh, executor).size() };
+}
+
+/// Whether parts are those of more than all noise that the finished mesh tells: they are told on a smoother one, which
+/// may miss ripples. Those look like layers. Half of what two views share is about their mean.
+bool isMore(const NoiseParts& parts, double noise)
+{
+  return parts.own * parts.own + 0.5 * parts.shared * parts.shared >
+    MostVarianceTold * noise * noise;
 }
 
 VertexIndex nearestToCollapseInto(const Mesh& mesh, VertexIndex v)
@@ -497,7 +507,8 @@ bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
   report_.noise = surfaceFit.noise();
   report_.smoothness = rounds.lambda();
   report_.outlierShare = surfaceFit.outlierShare();
-  tell(rounds.noiseParts());
+  tell(isMore(rounds.noiseParts(), report_.noise) ? NoiseParts{ report_.noise, 0. }
+                                                  : rounds.noiseParts());
   report_.heldVertices += rounds.heldVertices();
   report_.shareBetweenLayers = surfaceFit.shareBetweenLayers();
   return true;
