@@ -6,6 +6,7 @@
 #include "cloud/NearestPoints.h"
 #include "fit/CutTubes.h"
 #include "fit/EmptyPieces.h"
+#include "fit/GapRims.h"
 #include "fit/LocalSpacing.h"
 #include "fit/Webs.h"
 #include "mesh/BoundaryFilling.h"
@@ -389,6 +390,7 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   float medianDistance, const GapPlan& plan, const Executor& executor)
 {
   OpenedGaps result;
+  std::vector<Triangle> gaps;
   std::optional<SomePoints> points;
   double reach = 0.;
   const auto isCovered = [&](const Triangle& triangle)
@@ -408,7 +410,7 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   {
     JudgedPieces judged = judgedPieces(cloud, mesh, places, medianDistance, plan.rules, executor);
     const std::vector<std::vector<Triangle>> tubes = std::move(judged.tubes);
-    std::vector<Triangle> gaps = gapsAmong(mesh, std::move(judged), executor);
+    gaps = gapsAmong(mesh, std::move(judged), executor);
     result.tubes = tubes.empty() ? 0 : cutTubes(mesh, tubes, longestEdge(), isCovered);
     std::erase_if(gaps,
       [&](const Triangle& triangle)
@@ -426,7 +428,10 @@ OpenedGaps openDataGaps(const PointCloud& cloud, Mesh& mesh, std::span<const Pla
   {
     return result;
   }
-  result.joined = mergeBoundaries(mesh, boundaries, plan.bridgeWidth, LoopDistance::Mean);
+  GapRims rims(mesh, gaps);
+  result.joined = mergeBoundaries(mesh, boundaries, plan.bridgeWidth, LoopDistance::Mean,
+    [&](std::span<const VertexIndex> one, std::span<const VertexIndex> other)
+    { return !plan.mayOpen || rims.mayJoin(one, other); });
   result.filled = fillBoundaries(mesh, boundaries, longestEdge(), isCovered,
     std::numeric_limits<std::size_t>::max(), CosineOfHole);
   return result;

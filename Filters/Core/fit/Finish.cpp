@@ -3,6 +3,7 @@
 
 #include "base/InterruptibleExecutor.h"
 #include "fit/FidelityRounds.h"
+#include "fit/NarrowBridges.h"
 #include "fit/SheetJoints.h"
 #include "fit/SliverRepair.h"
 #include "fit/TornLoops.h"
@@ -39,6 +40,8 @@ constexpr double MostPartFolded = 0.0025;
 constexpr std::size_t FewFolds = 32;
 /// Of the residual of a surface: what it may cost to mend intersections, and slivers.
 constexpr double MostGrownByRepair = 0.1;
+/// Of the variance of the noise, what its parts have by chance, and as the finished mesh follows some of the noise.
+constexpr double MostVarianceTold = 2.;
 /// A piece with less than this part of the area has shrunk to a point.
 constexpr double ShrunkPart = 1e-14;
 /// ... however many vertices it has.
@@ -47,6 +50,14 @@ constexpr double AnyVertices = 1.;
 DefectCount countDefects(const Mesh& mesh, const Executor& executor)
 {
   return { intersectingTriangles(mesh, executor).size(), foldedEdges(mesh, executor).size() };
+}
+
+/// Whether parts are those of more than all noise that the finished mesh tells: they are told on a smoother one, which
+/// may miss ripples. Those look like layers. Half of what two views share is about their mean.
+bool isMore(const NoiseParts& parts, double noise)
+{
+  return parts.own * parts.own + 0.5 * parts.shared * parts.shared >
+    MostVarianceTold * noise * noise;
 }
 
 VertexIndex nearestToCollapseInto(const Mesh& mesh, VertexIndex v)
@@ -224,7 +235,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
     }
     if (isLast && round > 0)
     {
-      if (trimsOutlines() && openGaps(*surfaceFit, true))
+      if (trimOutlines(*surfaceFit))
       {
         flipEdges(mesh_, EdgesToFlip::All, executor_);
         beginAnew();
@@ -496,17 +507,32 @@ bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
   report_.noise = surfaceFit.noise();
   report_.smoothness = rounds.lambda();
   report_.outlierShare = surfaceFit.outlierShare();
-  tell(rounds.noiseParts());
+  tell(isMore(rounds.noiseParts(), report_.noise) ? NoiseParts{ report_.noise, 0. }
+                                                  : rounds.noiseParts());
   report_.heldVertices += rounds.heldVertices();
   report_.shareBetweenLayers = surfaceFit.shareBetweenLayers();
   return true;
 }
 
-/// Whether gaps are looked for once more: samples that lay on what was left over at an outline have their places
-/// elsewhere by now. What was closed would be opened.
-bool Finish::trimsOutlines() const
+/// Gaps are looked for once more: samples that lay on what was left over at an outline have their places elsewhere by
+/// now. What was closed would be opened.
+bool Finish::trimOutlines(const SurfaceFit& surfaceFit)
 {
-  return plan_.gaps && mesh_.isOpen(executor_) && !(plan_.closedOutline > 0.);
+  if (!plan_.gaps || plan_.closedOutline > 0. || !mesh_.isOpen(executor_))
+  {
+    return false;
+  }
+  const std::size_t count = mesh_.vertexCount();
+  const bool isOpened = openGaps(surfaceFit, true);
+  const std::size_t bridges = cutNarrowBridges(
+    cloud_, mesh_, surfaceFit.places().size(), surfaceFit.medianDistance(), executor_);
+  if (bridges > 0)
+  {
+    report_.gapTriangles += bridges;
+    mesh_.dropErased(executor_);
+    refine(mesh_, count, [](double) { return true; });
+  }
+  return isOpened || bridges > 0;
 }
 
 bool Finish::closeHoles()

@@ -91,7 +91,7 @@ private:
   bool move(SurfaceFit& surfaceFit, double smoothness, const Progress& progress);
   void tell(const NoiseParts& parts);
   bool openGaps(const SurfaceFit& surfaceFit, bool mustBeFar);
-  bool trimsOutlines() const;
+  bool trimOutlines(const SurfaceFit& surfaceFit);
   bool improve(SurfaceFit& surfaceFit, const Progress& progress);
   bool closeHoles();
   bool cutJoints(const SurfaceFit& surfaceFit);

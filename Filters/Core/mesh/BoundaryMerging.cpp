@@ -204,8 +204,9 @@ bool join(Mesh& mesh, const LoopOfPoints& a, const LoopOfPoints& b, LoopDistance
 }
 }
 
-std::size_t mergeBoundaries(
-  Mesh& mesh, BoundaryManager& boundaries, double limit, LoopDistance distance)
+std::size_t mergeBoundaries(Mesh& mesh, BoundaryManager& boundaries, double limit,
+  LoopDistance distance,
+  const std::function<bool(std::span<const VertexIndex>, std::span<const VertexIndex>)>& mayJoin)
 {
   std::vector<LoopOfPoints> loops;
   for (LoopIndex index = 0; index < boundaries.loops().size(); ++index)
@@ -226,7 +227,8 @@ std::size_t mergeBoundaries(
   {
     for (std::size_t b = a + 1; b < loops.size(); ++b)
     {
-      if (const auto near = distanceOf(mesh, loops[a], loops[b], limit, distance))
+      const auto near = distanceOf(mesh, loops[a], loops[b], limit, distance);
+      if (near && (!mayJoin || mayJoin(loops[a].vertices, loops[b].vertices)))
       {
         pairs.push_back({ *near, a, b });
       }

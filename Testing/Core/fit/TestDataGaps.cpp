@@ -338,6 +338,37 @@ TEST(DataGaps, WebsAcrossHandlesAreCut)
   }
 }
 
+// Two sheets back to back have rims as near to each other as bridges are wide. No points lie between these: so they stay
+// open, also where gaps are looked for again.
+TEST(DataGaps, RimsOfSheetsBackToBackStayOpen)
+{
+  constexpr double Thickness = 0.2;
+  TriangleMesh slab = makeCube(20);
+  for (Eigen::Vector3d& point : slab.points)
+  {
+    point.z() *= Thickness;
+  }
+  for (const std::uint64_t seed : { 1u, 2u })
+  {
+    std::vector<Eigen::Vector3d> points =
+      generateCloud(slab, CloudOptions{ .count = 60000, .seed = seed });
+    std::erase_if(
+      points, [](const Eigen::Vector3d& point) { return std::abs(point.z()) < 0.499 * Thickness; });
+    const PointCloud cloud(points);
+    Mesh mesh = buildMesh(slab, cloud);
+    for (const bool isFirst : { true, false })
+    {
+      const OpenedGaps gaps = openedGaps(cloud, mesh, 1.5 * Thickness / cloud.unit());
+      EXPECT_EQ(gaps.triangles > 0, isFirst);
+      EXPECT_EQ(gaps.joined, 0u);
+      mesh.dropErased();
+      EXPECT_EQ(defectOf(mesh), "");
+      EXPECT_EQ(reportOf(mesh).components, 2u);
+      EXPECT_EQ(reportOf(mesh).boundaryLoops, 2u);
+    }
+  }
+}
+
 /// Those of the faces at the ends of a tube, at its wall: they are as near to that as to the faces around it.
 void removeBesideTube(
   std::vector<Eigen::Vector3d>& points, double distance, double halfWidth, double halfHeight)

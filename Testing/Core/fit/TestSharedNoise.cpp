@@ -190,4 +190,50 @@ TEST(SharedNoise, IsReportedByTheFinish)
     EXPECT_DOUBLE_EQ(reportOf(0., 0., fidelity).sharedNoise, 0.);
   }
 }
+
+// Ripples that only the finished mesh follows are no layers.
+TEST(SharedNoise, NoneIsToldByRipples)
+{
+  constexpr double Height = 8., Ripple = 0.04, Noise = 0.008;
+  constexpr std::uint32_t Sides = 120, Rings = 120;
+  constexpr std::size_t PointsOfColumn = 100000;
+  const auto placeAt = [&](double angle, double height, double away)
+  {
+    const double radius = 1. + Ripple * std::cos(24. * angle) + away;
+    return Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), height);
+  };
+  TriangleMesh column;
+  for (std::uint32_t ring = 0; ring <= Rings; ++ring)
+  {
+    for (std::uint32_t side = 0; side < Sides; ++side)
+    {
+      const std::uint32_t a = ring * Sides + side, b = ring * Sides + (side + 1) % Sides;
+      column.points.push_back(
+        placeAt(2. * std::numbers::pi * side / Sides, Height * ring / Rings, 0.));
+      if (ring < Rings)
+      {
+        column.triangles.push_back({ a, b, b + Sides });
+        column.triangles.push_back({ a, b + Sides, a + Sides });
+      }
+    }
+  }
+  for (const std::uint64_t seed : { 1u, 2u })
+  {
+    Random random(seed);
+    std::vector<Eigen::Vector3d> points;
+    for (std::size_t i = 0; i < PointsOfColumn; ++i)
+    {
+      const double angle = 2. * std::numbers::pi * random.uniform();
+      points.push_back(placeAt(angle, Height * random.uniform(), Noise * gaussian(random)));
+    }
+    const PointCloud cloud(points);
+    Mesh mesh = buildMesh(column, cloud);
+    FinishPlan plan;
+    plan.vertexCount = mesh.vertexCount();
+    Finish finish(cloud, mesh, plan);
+    EXPECT_TRUE(finish.run(goOn));
+    EXPECT_DOUBLE_EQ(finish.report().sharedNoise, 0.);
+    EXPECT_NEAR(finish.report().ownNoise * cloud.unit(), Noise, 0.25 * Noise);
+  }
+}
 }
