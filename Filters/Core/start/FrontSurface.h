@@ -21,9 +21,8 @@ struct FrontSurface
   std::size_t filledLoops = 0; ///< small ones that the front had left
   double inOneOfTwo = 0.;      ///< see LayerSamples
   std::size_t crossings = 0; ///< pairs of triangles that intersected, before these were taken away
-
-  bool reachesEdges =
-    false; ///< of wedges, with folds there; known where others do not, see bestFront()
+  /// It goes on to the edges of wedges, and has folds there. Only bestFront() knows, where another front does not.
+  bool reachesEdges = false;
 
   /// Loops filled and crossings, for a thousand samples. Surfaces have few; where it is many the samples
   /// tell no surface.

@@ -11,13 +11,12 @@
 
 #include <gtest/gtest.h>
 
-#include <utility>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 namespace neuralmesh::testing
 {
