@@ -75,8 +75,8 @@ private:
     const auto called = std::partition(others_.begin(), others_.end(),
       [this](const WaitingEdge<Cost>& edge) { return dearest_ < edge; });
     next_.assign(called, others_.end());
-    others_.erase(called, others_.end());
     std::make_heap(next_.begin(), next_.end(), std::greater<>());
+    others_.resize(others_.size() - next_.size());
   }
 
   std::vector<WaitingEdge<Cost>> next_; ///< a heap
