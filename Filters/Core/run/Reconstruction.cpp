@@ -140,7 +140,7 @@ bool holdsMore(const Reconstruction& finer, const Reconstruction& other, std::si
     isCloser(finer, other, other.surface.vertexCount());
 }
 
-/// The same for a closed mesh with more handles, which may be right and narrow.
+/// The same for a closed mesh with as many handles or more, which may be right and narrow.
 bool holdsMoreWithHoles(const Reconstruction& withHoles, const Reconstruction& other)
 {
   if (withHoles.surface.isOpen() || genusOf(withHoles.surface) < genusOf(other.surface))
