@@ -6,6 +6,7 @@
 #include "fit/EmptyPieces.h"
 #include "mesh/NumberedTriangles.h"
 #include "mesh/Pieces.h"
+#include "run/BareStrips.h"
 #include "start/LayerSearch.h"
 
 #include <algorithm>
@@ -154,6 +155,11 @@ public:
         }
       }
     }
+    for (const std::vector<std::uint32_t>& strip :
+      bareStrips(mesh_, triangles_, cloud_, MediansOfGap * median_, executor_))
+    {
+      patches.push_back(patchOf(strip));
+    }
     return patches;
   }
 
@@ -260,6 +266,23 @@ private:
     return patch;
   }
 
+  /// What is in a patch already does not count again.
+  Patch patchOf(const std::vector<std::uint32_t>& strip)
+  {
+    Patch patch;
+    for (const std::uint32_t t : strip)
+    {
+      if (isTaken_[t] == 0)
+      {
+        isTaken_[t] = 1;
+        const double area = areaOf(mesh_, triangles_.all()[t]);
+        patch.area += area;
+        patch.center += area * cloud_.toInput(centerOf(mesh_, triangles_.all()[t]));
+      }
+    }
+    return patch;
+  }
+
   const Mesh& mesh_;
   const PointCloud& cloud_;
   const Executor& executor_;
@@ -278,9 +301,7 @@ std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& suppo
   const PointCloud& cloud, const PointDistances& distances, const Executor& executor)
 {
   const double least = LeastPointsAtVertex * support.pointsPerAsked;
-  if (support.weights.size() != mesh.indexEnd() || distances.distances.empty() ||
-    std::none_of(support.weights.begin(), support.weights.end(),
-      [least](double weight) { return weight < least; }))
+  if (support.weights.size() != mesh.indexEnd() || distances.distances.empty())
   {
     return {};
   }

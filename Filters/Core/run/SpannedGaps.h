@@ -19,10 +19,11 @@ struct SpannedGap
   Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< in the coordinates of the input
 };
 
-/// The patches of a mesh that span a gap of the cloud, the largest first. Their triangles have a
-/// vertex that rests on no point. Their centres are farther from all points than three times the
+/// The patches of a mesh that span a gap of the cloud, the largest first. Mostly, their triangles
+/// have a vertex that rests on no point. Their centres are farther from all points than three times the
 /// spacing there, and than the noise; in noise, those beside them count, too, half as far away.
-/// Less is enough in a ring of points, such as the wall of a bore. Sparse parts of a surface are no gaps.
+/// Less is enough in a ring of points, such as the wall of a bore, and along a strip, see bareStrips(). Sparse parts of
+/// a surface are no gaps.
 /// `distances` are those of points to the mesh.
 std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& support,
   const PointCloud& cloud, const PointDistances& distances,

@@ -119,6 +119,42 @@ TEST(SpannedGaps, AcrossABore)
   EXPECT_TRUE(Pole(points, 0.99 * Radius, 0.).isWarnedOf());
 }
 
+// Promise: a gap hardly wider than triangles, each of which reaches points, is told if it is long.
+TEST(SpannedGaps, LongStripsHardlyWiderThanTriangles)
+{
+  // Spacings are 0.011, edges 0.03.
+  const auto withBand = [](double halfWidth, double part, double noise = 0.)
+  {
+    std::vector<Eigen::Vector3d> points = onSphere(100000, noise);
+    std::mt19937 engine(3);
+    std::erase_if(points,
+      [&](const Eigen::Vector3d& point)
+      { return std::abs(point.z()) < halfWidth && double(engine()) >= part * 4294967295.; });
+    return Pole(points, 0., 0.).isWarnedOf();
+  };
+  EXPECT_TRUE(withBand(0.023, 0.));
+  EXPECT_TRUE(withBand(0.03, 0., 0.002));
+  EXPECT_FALSE(withBand(0.01, 0.));
+  EXPECT_FALSE(withBand(0.023, 0.25));
+}
+
+// Promise: the lines of a scan, though their points are much closer than they, have no gaps between them.
+TEST(SpannedGaps, ScanLinesAreNoGaps)
+{
+  constexpr int Lines = 100, PointsOnLine = 1000;
+  std::vector<Eigen::Vector3d> points;
+  for (int line = 0; line < Lines; ++line)
+  {
+    const double z = -1. + 2. * (line + 0.5) / Lines, radius = std::sqrt(1. - z * z);
+    for (int i = 0; i < PointsOnLine; ++i)
+    {
+      const double angle = 2. * std::numbers::pi * (i + std::numbers::phi * line) / PointsOnLine;
+      points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+  }
+  EXPECT_FALSE(Pole(points, 0., 0.).isWarnedOf());
+}
+
 TEST(SpannedGaps, SparseIsNoGap)
 {
   EXPECT_FALSE(Pole(0.2, 0.1).isWarnedOf());

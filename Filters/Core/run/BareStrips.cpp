@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/BareStrips.h"
+
+#include "base/DisjointSets.h"
+#include "base/UnitVector.h"
+#include "cloud/NearestPoints.h"
+#include "fit/EmptyPieces.h"
+#include "mesh/EachVertex.h"
+#include "mesh/Pieces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace neuralmesh
+{
+namespace
+{
+/// Of the cloud; more points tell of narrower gaps, and take longer.
+constexpr std::size_t MostPointsPerVertex = 10;
+constexpr std::size_t FewestPointsOfStrips = 10000;
+/// A place is bare if no point is within so many times the distance between points. With points at random one in e^7 is.
+constexpr float SpacingsAround = 1.5f;
+/// Bare places side by side are a strip if they reach so many times that distance far: an empty rectangle as long, and
+/// three spacings wide, is one in e^72.
+constexpr float LeastLength = 24.f;
+/// At first the distance is that of so many points on a disc around the one closest to a vertex, and what is bare and how
+/// far it reaches is asked with a part of it. Beside a gap it comes out too large.
+constexpr std::size_t PointsOnSpacingDisc = 16;
+constexpr float PartOfDisc = 0.8f;
+/// Then it is what the centres of triangles tell that are no more than so many of these away from the strip. So many of
+/// them have a point within it, times the second, if points are at random; on scan lines they are farther away.
+constexpr float SpacingsAroundStrip = 8.f;
+constexpr double PartOfCenters = 0.6;
+constexpr float SpacingsOfPart = 0.54f;
+constexpr std::size_t FewestCenters = 30;
+/// A triangle is looked at if its centre, a corner or the middle of an edge is far from points: strips lead across them.
+/// Triangles are divided until parts are as small, in these distances, and two bare ones are neighbors if they are as close.
+constexpr float MostRadius = 0.5f;
+constexpr float BetweenBare = 0.9f;
+/// ... or so many times, as where points are repeated.
+constexpr int MostDivisions = 6;
+/// In noise, so many points may be closer than the one that is closest along the surface.
+constexpr std::size_t PointsAcross = 32;
+/// ... which is not looked for farther away than so many of these distances.
+constexpr float MostSpacingsAsked = 3.f;
+/// For the executor.
+constexpr std::size_t TrianglesProbed = 1024;
+constexpr std::size_t VerticesMeasured = 1024;
+
+/// A part of a triangle that is far from all points.
+struct BarePlace
+{
+  Vector4 place;
+  std::uint32_t triangle = 0;
+  float distance = 0.f; ///< to a point
+  float spacing = 0.f;  ///< of points, about
+};
+
+struct Corners
+{
+  Vector4 a, b, c;
+};
+
+float distanceOf(Vector4 a, Vector4 b) { return std::sqrt(squaredNorm(a - b)); }
+
+class StripSearch
+{
+public:
+  StripSearch(const Mesh& mesh, const NumberedTriangles& triangles, const PointCloud& cloud,
+    float noise, const Executor& executor)
+    : mesh_(mesh)
+    , triangles_(triangles)
+    , executor_(executor)
+    , noise_(noise)
+    , nearest_(PickedPoints(cloud.points(),
+                 std::min(cloud.points().size(),
+                   std::max(FewestPointsOfStrips, MostPointsPerVertex * mesh.vertexCount()))),
+        executor)
+    , distances_(mesh.indexEnd(), 0.f)
+    , spacings_(mesh.indexEnd(), 0.f)
+  {
+    forEachVertex(mesh, executor, VerticesMeasured,
+      [&](VertexIndex v)
+      {
+        if (mesh.isAlive(v))
+        {
+          measure(v);
+        }
+      });
+    findBare();
+  }
+
+  std::vector<std::vector<std::uint32_t>> strips()
+  {
+    std::vector<std::pair<float, std::vector<std::uint32_t>>> found;
+    for (const std::vector<BarePlace>& group : groupsOf(bare_))
+    {
+      const float usual = spacingAround(group);
+      std::vector<BarePlace> left;
+      for (BarePlace place : group)
+      {
+        place.spacing = usual;
+        if (place.distance > SpacingsAround * usual)
+        {
+          left.push_back(place);
+        }
+      }
+      for (const std::vector<BarePlace>& strip : groupsOf(left))
+      {
+        std::vector<std::uint32_t> triangles;
+        for (const BarePlace& place : strip)
+        {
+          triangles.push_back(place.triangle);
+        }
+        std::sort(triangles.begin(), triangles.end());
+        triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+        found.emplace_back(lengthOf(strip), std::move(triangles));
+      }
+    }
+    std::ranges::stable_sort(found, std::ranges::greater(), [](const auto& one) { return one.first; });
+    std::vector<std::vector<std::uint32_t>> result;
+    for (auto& one : found)
+    {
+      result.push_back(std::move(one.second));
+    }
+    return result;
+  }
+
+private:
+  /// Sets the distance of a vertex from the closest point, and that between points around it.
+  void measure(VertexIndex v)
+  {
+    std::array<NearPoint, PointsOnSpacingDisc + 1> around;
+    if (nearest_.find(mesh_.position(v), std::span(around).first(1)) > 0)
+    {
+      distances_[v] = std::sqrt(around[0].squaredDistance);
+      const std::size_t found = nearest_.find(nearest_.points()[around[0].index], around);
+      const float area = std::numbers::pi_v<float> * around[found - 1].squaredDistance;
+      spacings_[v] = PartOfDisc * std::sqrt(area / std::max(1.f, float(found - 1)));
+    }
+  }
+
+  /// From a place to the closest point; where that is more than `enough`, only the part along the surface counts.
+  float distanceAlong(Vector4 place, Vector4 normal, float enough, float spacing) const
+  {
+    std::array<NearPoint, PointsAcross> found;
+    if (nearest_.find(place, std::span(found).first(1)) == 0)
+    {
+      return std::numeric_limits<float>::infinity();
+    }
+    if (const float closest = std::sqrt(found[0].squaredDistance); closest <= enough)
+    {
+      return closest;
+    }
+    const float mostAcross = std::max(noise_, SpacingsAround * spacing);
+    float least = std::numeric_limits<float>::infinity();
+    const auto take = [&](std::uint32_t point, float squared)
+    {
+      const float across = dot(nearest_.points()[point] - place, normal);
+      if (std::abs(across) <= mostAcross)
+      {
+        least = std::min(least, squared - across * across);
+      }
+    };
+    const std::size_t count = nearest_.find(place, found);
+    for (const NearPoint& point : std::span(found).first(count))
+    {
+      take(point.index, point.squaredDistance);
+    }
+    const float most = MostSpacingsAsked * spacing;
+    const float squaredReach = std::min(least, most * most) + mostAcross * mostAcross;
+    if (count == found.size() && found.back().squaredDistance < squaredReach)
+    {
+      nearest_.forEachWithin(place, std::sqrt(squaredReach), take);
+    }
+    return std::sqrt(std::max(0.f, least));
+  }
+
+  void findBare()
+  {
+    const std::size_t count = triangles_.all().size();
+    std::vector<std::vector<BarePlace>> parts((count + TrianglesProbed - 1) / TrianglesProbed);
+    executor_.forEachRange(count, TrianglesProbed,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t t = begin; t < end; ++t)
+        {
+          probe(std::uint32_t(t), parts[begin / TrianglesProbed]);
+        }
+      });
+    for (const std::vector<BarePlace>& part : parts)
+    {
+      bare_.insert(bare_.end(), part.begin(), part.end());
+    }
+  }
+
+  /// From all points.
+  bool isFar(Vector4 place, float distance) const
+  {
+    std::array<NearPoint, 1> found;
+    return nearest_.find(place, found) == 0 || found[0].squaredDistance > distance * distance;
+  }
+
+  float spacingOf(std::uint32_t t) const
+  {
+    const auto& [a, b, c] = triangles_.all()[t];
+    return std::min({ spacings_[a], spacings_[b], spacings_[c] });
+  }
+
+  Vector4 normalOf(std::uint32_t t) const { return unit(crossOf(mesh_, triangles_.all()[t])); }
+
+  void probe(std::uint32_t t, std::vector<BarePlace>& bare) const
+  {
+    const auto& [a, b, c] = triangles_.all()[t];
+    const Corners corners{ mesh_.position(a), mesh_.position(b), mesh_.position(c) };
+    const float least = SpacingsAround * spacingOf(t);
+    const bool isAtBare =
+      std::max({ distances_[a], distances_[b], distances_[c] }) > least ||
+      isFar(centerOf(mesh_, triangles_.all()[t]), least) ||
+      isFar(0.5f * (corners.a + corners.b), least) ||
+      isFar(0.5f * (corners.b + corners.c), least) || isFar(0.5f * (corners.c + corners.a), least);
+    if (isAtBare)
+    {
+      probe(corners, t, normalOf(t), spacingOf(t), MostDivisions, bare);
+    }
+  }
+
+  void probe(const Corners& corners, std::uint32_t t, Vector4 normal, float spacing, int divisions,
+    std::vector<BarePlace>& bare) const
+  {
+    const auto& [a, b, c] = corners;
+    const Vector4 center = 1.f / 3.f * (a + b + c);
+    const float least = SpacingsAround * spacing;
+    const float radius =
+      std::max({ distanceOf(a, center), distanceOf(b, center), distanceOf(c, center) });
+    const bool isSmall = radius <= MostRadius * spacing || divisions == 0;
+    if (isSmall)
+    {
+      const float distance = distanceAlong(center, normal, least, spacing);
+      if (distance > least)
+      {
+        bare.push_back({ center, t, distance, spacing });
+      }
+    }
+    else if (radius >= least || distanceAlong(center, normal, least - radius, spacing) > least - radius)
+    {
+      const Vector4 ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
+      for (const Corners& part :
+        { Corners{ a, ab, ca }, Corners{ ab, b, bc }, Corners{ ca, bc, c }, Corners{ bc, ca, ab } })
+      {
+        probe(part, t, normal, spacing, divisions - 1, bare);
+      }
+    }
+  }
+
+  static float lengthOf(const std::vector<BarePlace>& places)
+  {
+    Vector4 low = places[0].place, high = low;
+    for (const BarePlace& place : places)
+    {
+      low = min(low, place.place);
+      high = max(high, place.place);
+    }
+    return distanceOf(low, high);
+  }
+
+  /// Those of places that lie side by side, and reach far enough.
+  static std::vector<std::vector<BarePlace>> groupsOf(const std::vector<BarePlace>& places)
+  {
+    std::vector<Vector4> positions;
+    for (const BarePlace& place : places)
+    {
+      positions.push_back(place.place);
+    }
+    const NearestPoints nearest(positions);
+    DisjointSets sets(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      nearest.forEachWithin(places[i].place, BetweenBare * places[i].spacing,
+        [&](std::uint32_t other, float) { sets.join(i, other); });
+    }
+    std::vector<std::vector<BarePlace>> groups(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      groups[sets.root(i)].push_back(places[i]);
+    }
+    std::erase_if(groups,
+      [](const std::vector<BarePlace>& group)
+      {
+        const float spacing = std::accumulate(group.begin(), group.end(), 0.f,
+          [](float sum, const BarePlace& place) { return sum + place.spacing; });
+        return group.empty() ||
+          !(lengthOf(group) >= LeastLength * spacing / float(group.size()));
+      });
+    return groups;
+  }
+
+  /// The distance between points beside a group of bare places; infinite where there is nothing to tell it.
+  float spacingAround(const std::vector<BarePlace>& group)
+  {
+    if (!centers_)
+    {
+      for (const Triangle& triangle : triangles_.all())
+      {
+        positions_.push_back(centerOf(mesh_, triangle));
+      }
+      centers_.emplace(positions_, executor_);
+    }
+    std::vector<std::uint8_t> isAround(positions_.size(), 0);
+    for (const BarePlace& place : group)
+    {
+      centers_->forEachWithin(place.place, SpacingsAroundStrip * place.spacing,
+        [&](std::uint32_t t, float) { isAround[t] = 1; });
+    }
+    for (const BarePlace& place : group)
+    {
+      isAround[place.triangle] = 0;
+    }
+    std::vector<float> distances;
+    for (std::size_t t = 0; t < isAround.size(); ++t)
+    {
+      if (isAround[t] != 0)
+      {
+        distances.push_back(distanceAlong(positions_[t], normalOf(std::uint32_t(t)), 0.f, spacingOf(std::uint32_t(t))));
+      }
+    }
+    if (distances.size() < FewestCenters)
+    {
+      return std::numeric_limits<float>::infinity();
+    }
+    const auto at = distances.begin() + std::ptrdiff_t(PartOfCenters * double(distances.size()));
+    std::nth_element(distances.begin(), at, distances.end());
+    return *at / SpacingsOfPart;
+  }
+
+  const Mesh& mesh_;
+  const NumberedTriangles& triangles_;
+  const Executor& executor_;
+  float noise_;
+  NearestPickedPoints nearest_;
+  std::vector<float> distances_; ///< of vertices, to the closest point
+  std::vector<float> spacings_;  ///< of points around vertices, about
+  std::vector<BarePlace> bare_;
+  std::vector<Vector4> positions_; ///< of the centres of triangles
+  std::optional<NearestPoints> centers_;
+};
+}
+
+std::vector<std::vector<std::uint32_t>> bareStrips(const Mesh& mesh,
+  const NumberedTriangles& triangles, const PointCloud& cloud, float noise,
+  const Executor& executor)
+{
+  return StripSearch(mesh, triangles, cloud, noise, executor).strips();
+}
+}
