@@ -48,6 +48,8 @@ constexpr std::size_t PointsAroundGap = 25;
 constexpr float MostSpacingAround = 1.2f;
 constexpr std::size_t PointsOfUsualSpacing = 500;
 
+/// Of the area of a strip: then it is told.
+constexpr double LeastPartTold = 1. / 3.;
 /// A part for the executor.
 constexpr std::size_t TrianglesPerRange = 4096;
 
@@ -266,21 +268,24 @@ private:
     return patch;
   }
 
-  /// What is in a patch already does not count again.
+  /// What is in a patch already does not count again. A wide gap has a strip along its rim: it is told already.
   Patch patchOf(const std::vector<std::uint32_t>& strip)
   {
     Patch patch;
+    double told = 0.;
     for (const std::uint32_t t : strip)
     {
-      if (isTaken_[t] == 0)
+      const double area = areaOf(mesh_, triangles_.all()[t]);
+      if (isTaken_[t] != 0)
       {
-        isTaken_[t] = 1;
-        const double area = areaOf(mesh_, triangles_.all()[t]);
-        patch.area += area;
-        patch.center += area * cloud_.toInput(centerOf(mesh_, triangles_.all()[t]));
+        told += area;
+        continue;
       }
+      isTaken_[t] = 1;
+      patch.area += area;
+      patch.center += area * cloud_.toInput(centerOf(mesh_, triangles_.all()[t]));
     }
-    return patch;
+    return told > LeastPartTold * (told + patch.area) ? Patch() : patch;
   }
 
   const Mesh& mesh_;

@@ -145,7 +145,8 @@ TEST(SpannedGaps, ScanLinesAreNoGaps)
   std::vector<Eigen::Vector3d> points;
   for (int line = 0; line < Lines; ++line)
   {
-    const double z = -1. + 2. * (line + 0.5) / Lines, radius = std::sqrt(1. - z * z);
+    const double latitude = std::numbers::pi * ((line + 0.5) / Lines - 0.5);
+    const double z = std::sin(latitude), radius = std::cos(latitude);
     for (int i = 0; i < PointsOnLine; ++i)
     {
       const double angle = 2. * std::numbers::pi * (i + std::numbers::phi * line) / PointsOnLine;
