@@ -125,7 +125,8 @@ public:
         found.emplace_back(lengthOf(strip), std::move(triangles));
       }
     }
-    std::ranges::stable_sort(found, std::ranges::greater(), [](const auto& one) { return one.first; });
+    std::ranges::stable_sort(
+      found, std::ranges::greater(), [](const auto& one) { return one.first; });
     std::vector<std::vector<std::uint32_t>> result;
     for (auto& one : found)
     {
@@ -222,8 +223,7 @@ private:
     const auto& [a, b, c] = triangles_.all()[t];
     const Corners corners{ mesh_.position(a), mesh_.position(b), mesh_.position(c) };
     const float least = SpacingsAround * spacingOf(t);
-    const bool isAtBare =
-      std::max({ distances_[a], distances_[b], distances_[c] }) > least ||
+    const bool isAtBare = std::max({ distances_[a], distances_[b], distances_[c] }) > least ||
       isFar(centerOf(mesh_, triangles_.all()[t]), least) ||
       isFar(0.5f * (corners.a + corners.b), least) ||
       isFar(0.5f * (corners.b + corners.c), least) || isFar(0.5f * (corners.c + corners.a), least);
@@ -250,7 +250,8 @@ private:
         bare.push_back({ center, t, distance, spacing });
       }
     }
-    else if (radius >= least || distanceAlong(center, normal, least - radius, spacing) > least - radius)
+    else if (radius >= least ||
+      distanceAlong(center, normal, least - radius, spacing) > least - radius)
     {
       const Vector4 ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
       for (const Corners& part :
@@ -297,8 +298,7 @@ private:
       {
         const float spacing = std::accumulate(group.begin(), group.end(), 0.f,
           [](float sum, const BarePlace& place) { return sum + place.spacing; });
-        return group.empty() ||
-          !(lengthOf(group) >= LeastLength * spacing / float(group.size()));
+        return group.empty() || !(lengthOf(group) >= LeastLength * spacing / float(group.size()));
       });
     return groups;
   }
@@ -329,7 +329,8 @@ private:
     {
       if (isAround[t] != 0)
       {
-        distances.push_back(distanceAlong(positions_[t], normalOf(std::uint32_t(t)), 0.f, spacingOf(std::uint32_t(t))));
+        distances.push_back(distanceAlong(
+          positions_[t], normalOf(std::uint32_t(t)), 0.f, spacingOf(std::uint32_t(t))));
       }
     }
     if (distances.size() < FewestCenters)
