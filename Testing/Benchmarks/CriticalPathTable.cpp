@@ -159,16 +159,17 @@ int main(int argc, char* argv[])
 
   const MeasuredExecutor executor(threads);
   std::array<Row, 6> rows{ { { "cloud" }, { "start" }, { "learning" }, { "finish" },
-    { "repair and report" }, { "whole run" } } };
+    { "report" }, { "whole run" } } };
   Phases phases(executor);
   const PointCloud cloud(points, {}, false, executor);
   phases.take(rows[0], 0.);
+  const double part = partOfFirstRun(parameters);
   const auto rowAt = [&](double fraction) -> Row&
   {
-    return rows[fraction <= StartOfLearning ? 1
-        : fraction <= EndOfLearning         ? 2
-        : fraction < 1.                     ? 3
-                                            : 4];
+    return rows[fraction <= part * StartOfLearning ? 1
+        : fraction <= part * EndOfLearning         ? 2
+        : fraction < part * StartOfDescription     ? 3
+                                                   : 4];
   };
   double before = 0.;
   reconstruct(

@@ -100,7 +100,8 @@ void printRow(const PointCloud& cloud, std::uint64_t vertices, const Executor& e
   Parameters parameters;
   parameters.numberOfVertices = vertices;
   const double before = anonymousBytes();
-  Peak learning(StartOfLearning, EndOfLearning), finish(EndOfLearning, 1.);
+  const double part = partOfFirstRun(parameters);
+  Peak learning(part * StartOfLearning, part * EndOfLearning), finish(part * EndOfLearning, 1.);
   const auto begin = std::chrono::steady_clock::now();
   const Reconstruction result = reconstruct(
     cloud, parameters,

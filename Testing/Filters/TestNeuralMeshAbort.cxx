@@ -14,14 +14,14 @@ namespace
 /** Of CPU time: a loaded machine does not matter. Promised are 0.2 s; sanitizers take more. */
 constexpr double MostSeconds = 5.0;
 
-/** Aborts the run in the middle, and remembers when. */
+/** Aborts the run in the middle of learning, and remembers when. */
 class Aborter : public vtkCommand
 {
 public:
   static Aborter* New() { return new Aborter; }
   void Execute(vtkObject* caller, unsigned long, void* callData) override
   {
-    if (*static_cast<double*>(callData) > 0.5 && this->AbortTime == 0.0)
+    if (*static_cast<double*>(callData) > 0.25 && this->AbortTime == 0.0)
     {
       static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
       this->AbortTime = vtkTimerLog::GetCPUTime();

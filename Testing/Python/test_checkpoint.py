@@ -33,7 +33,7 @@ class Checkpoints(unittest.TestCase):
     # Promise: a call that was ended by an exception goes on to the same bytes, and removes the file.
     def test_goes_on(self):
         def interrupt(fraction):
-            if fraction > 0.5:
+            if fraction > 0.25:
                 raise KeyboardInterrupt
 
         unbroken = support.arrays_of(reconstruct())

@@ -25,8 +25,8 @@ class Progress(unittest.TestCase):
     # Promise: False cancels, also that of numpy, and the mesh so far is valid; nothing else
     # cancels.
     def test_cancel(self):
-        half = np.float64(0.5)
-        mesh = neuralmesh.reconstruct(support.sphere(), 1000, progress=lambda done: done < half)
+        quarter = np.float64(0.25)
+        mesh = neuralmesh.reconstruct(support.sphere(), 1000, progress=lambda done: done < quarter)
         self.assertEqual(support.stop_reason(mesh), "cancelled")
         self.assertTrue(10 < mesh.GetNumberOfPoints() < 1000)
         self.assertTrue(support.is_closed_manifold(mesh))

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <memory>
 
 namespace neuralmesh
 {
@@ -12,5 +14,12 @@ using Progress = std::function<bool(double fraction)>;
 inline Progress partOf(const Progress& whole, double begin, double end)
 {
   return [&whole, begin, end](double fraction) { return whole(begin + fraction * (end - begin)); };
+}
+
+/// Tells no less than before: a part that ended early, or that begins anew, takes nothing back. `whole` must outlive it.
+inline Progress rising(const Progress& whole)
+{
+  return [&whole, last = std::make_shared<double>(0.)](double fraction)
+  { return whole(*last = std::max(*last, fraction)); };
 }
 }

@@ -48,9 +48,12 @@ constexpr double LeastPartOfSettled = 0.5;
 /// Beyond so many deviations of the usual bend it is a crease.
 constexpr double DeviationsOfCreaseIfClean = 2.;
 /// The mesh on which places are found first is so much smoother than that of the rounds before, but its lambda is at
-/// least that, and at most the one for which each place of it follows so many samples ...
+/// least that, and at most the one for which each place of it follows so many samples. Where noise is large against
+/// edges, samples slide along what the mesh has followed of it, and lambda is then chosen so that it follows them again.
+/// So the mesh bends, by the noise, no more than that part of an edge ...
 constexpr double FirstTimesSmoother = 2.;
 constexpr double LeastFirstLambda = 50.;
+constexpr double MostFirstBend = 0.03;
 constexpr double MostFollowed = 60.;
 /// ... and so much smoother than the one that comes out, later.
 constexpr double TimesSmoother = 2.;
@@ -194,13 +197,18 @@ bool FidelityRounds::sharpenCorners(const Progress& progress)
   return true;
 }
 
-bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress)
+/// Of the mesh on which places are found first on a noisy cloud.
+double FidelityRounds::firstLambda() const
 {
   const double perVertex = double(fit_.placedSamples().points.size()) / double(mesh_.vertexCount());
-  const double most = FitSystem::smoothnessThatFollows(MostFollowed, perVertex);
-  const double smoother = !isFirst ? TimesSmoother * lambda_
-    : isFixed                      ? lambda_
-              : std::clamp(FirstTimesSmoother * lambda_, std::min(LeastFirstLambda, most), most);
+  const double bend = fit_.noise() / (MostFirstBend * mesh_.meanEdge(executor_));
+  return std::min(FitSystem::smoothnessThatFollows(MostFollowed, perVertex),
+    std::max({ FirstTimesSmoother * lambda_, LeastFirstLambda, bend * bend }));
+}
+
+bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress)
+{
+  const double smoother = !isFirst ? TimesSmoother * lambda_ : isFixed ? lambda_ : firstLambda();
   // Later the places are those for which lambda was chosen.
   if ((isFirst && !fit_.findPlaces(partOf(progress, 0., 0.1))) ||
     !move(smoother, partOf(progress, 0.1, 0.2)) || !fit_.findPlaces(partOf(progress, 0.2, 0.3)))

@@ -59,6 +59,7 @@ private:
   bool sharpen(bool distributes, const Progress& progress);
   bool sharpenCorners(const Progress& progress);
   bool smooth(bool isFirst, bool isFixed, const Progress& progress);
+  double firstLambda() const;
   bool move(double lambda, const Progress& progress);
   bool move(double lambda, const Progress& progress, PackedVectors& before);
 

@@ -18,9 +18,11 @@ namespace
 {
 /// The part of growth in the progress of a level.
 constexpr double PartOfGrowth = 0.5;
-/// Of the whole progress, the ends of the largest level, of those that grow, of those that are simplified from it, and of
+/// Of the progress of a level that is simplified.
+constexpr double PartOfMaking = 0.9;
+/// Of the whole progress, the ends of the first run of the largest level, of the largest level, of those that grow, of those that are simplified from it, and of
 /// the mesh for those that have lost parts.
-constexpr double EndOfLargest = 0.6, EndOfGrown = 0.75, EndOfSimplified = 0.9,
+constexpr double EndOfFirst = 0.5, EndOfLargest = 0.6, EndOfGrown = 0.75, EndOfSimplified = 0.9,
                  EndOfSecondLargest = 0.95;
 /// Rounds of the fidelity smooth noise. In a mesh of fewer than half of the vertices they would smooth thin parts, too.
 constexpr std::uint64_t TimesFewerIfNoisy = 2;
@@ -121,13 +123,14 @@ bool simplifyTo(std::span<SmallerLevel* const> levels, Source source, std::uint6
       copy.result.times.enter(Phase::Finish);
       const double share = (part.end - part.begin) / double(levels.size());
       const double begin = part.begin + share * double(next - levels.rbegin());
-      const ProgressPart own{ begin, begin + share };
+      const ProgressPart making{ begin, begin + PartOfMaking * share };
       const bool hasFidelity = source == Source::Finished &&
         (copy.result.finish->isClean || TimesFewerIfNoisy * level.vertices >= largest);
-      hasFidelity ? run.makeAgain(copy, level.vertices, own)
-                  : run.makeSimplified(copy, level.vertices, own);
+      hasFidelity ? run.makeAgain(copy, level.vertices, making)
+                  : run.makeSimplified(copy, level.vertices, making);
       copy.result.times.leave();
-      Reconstruction mesh = run.describe(std::move(copy), level.vertices, own);
+      Reconstruction mesh =
+        run.describe(std::move(copy), level.vertices, { making.end, begin + share });
       isComplete = mesh.isComplete();
       if (isComplete && level.mesh)
       {
@@ -137,8 +140,9 @@ bool simplifyTo(std::span<SmallerLevel* const> levels, Source source, std::uint6
       {
         level.mesh = mesh;
         const Parameters parameters = parametersOf(level.vertices, request);
+        const double end = begin + share;
         mesh = betterRun(
-          std::move(mesh), requestWith(request, parameters), partOf(progress, own.end, own.end));
+          std::move(mesh), requestWith(request, parameters), partOf(progress, end, end));
         isComplete = mesh.isComplete();
         if (isComplete)
         {
@@ -230,11 +234,13 @@ LargestLevel largestLevel(
   learnt.isLearnt = true;
   std::optional<LearntRun> made;
   Reconstruction result =
-    run.finish(learnt, vertices, { EndOfLargest * EndOfLearning, EndOfLargest },
+    run.finish(learnt, vertices, { EndOfLargest * EndOfLearning, EndOfFirst },
       [&made](const LearntRun& last) { made.emplace(last); });
   result.times.add(times);
-  const Progress atTheEnd = partOf(progress, EndOfLargest, EndOfLargest);
-  result = runWithThinParts(betterRun(std::move(result), own, atTheEnd), own, atTheEnd, &*made);
+  const double middle = 0.5 * (EndOfFirst + EndOfLargest);
+  const Progress better = partOf(progress, EndOfFirst, middle),
+                 thin = partOf(progress, middle, EndOfLargest);
+  result = runWithThinParts(betterRun(std::move(result), own, better), own, thin, &*made);
   return { std::move(result), std::move(beginning), std::move(learnt), *std::move(made) };
 }
 
@@ -385,7 +391,8 @@ std::string whyNoLevels(
 Reconstruction reconstructLevels(const RunRequest& request, std::span<const std::uint64_t> levels,
   const LevelTaker& take, const Progress& progress)
 {
-  return maySimplify(request.parameters) ? reconstructFromLargest(request, levels, take, progress)
-                                         : reconstructGrown(request, levels, take, progress);
+  const Progress told = rising(progress);
+  return maySimplify(request.parameters) ? reconstructFromLargest(request, levels, take, told)
+                                         : reconstructGrown(request, levels, take, told);
 }
 }

@@ -41,6 +41,10 @@ constexpr double LeastDifferenceOfUnexplained = 0.005;
 constexpr double TimesOfDraw = 1.2;
 /// Of the triangles: so few slivers are none.
 constexpr double FewSlivers = 0.0002;
+/// Of the progress, where other runs may follow.
+constexpr double PartIfOthersMayFollow = 0.92;
+/// Of what the first run leaves: the ends of betterRun() and of runWithThinParts().
+constexpr double EndOfBetterRun = 0.5, EndOfThinParts = 0.8;
 
 /// Whether learning starts from a surface that the points tell.
 bool startsFromSpace(const RunRequest& request)
@@ -82,11 +86,15 @@ Reconstruction learnAndFinish(std::uint64_t vertices, const RunRequest& request,
 
 /// Whether a run may learn another number of vertices than asked. A first mesh is fitted as it is,
 /// and stopping rules are meant for the mesh that learns.
+bool mayLearnOtherwise(const Parameters& parameters)
+{
+  return parameters.fitRounds > 0 && !parameters.topologyLearning &&
+    !mayEndBeforeVertices(parameters);
+}
+
 bool mayLearnOtherwise(const RunRequest& request)
 {
-  const Parameters& parameters = request.parameters;
-  return !request.first && parameters.fitRounds > 0 && !parameters.topologyLearning &&
-    !mayEndBeforeVertices(parameters);
+  return !request.first && mayLearnOtherwise(request.parameters);
 }
 
 /// Whether a simplified mesh is what was asked for. Handles and pieces may need more vertices than
@@ -344,16 +352,32 @@ Reconstruction runWithNarrowHoles(
     holdsMoreWithHoles);
 }
 
+Reconstruction withFurtherRuns(
+  Reconstruction result, const RunRequest& request, const Progress& progress)
+{
+  const Progress better = partOf(progress, 0., EndOfBetterRun),
+                 thin = partOf(progress, EndOfBetterRun, EndOfThinParts),
+                 holes = partOf(progress, EndOfThinParts, 1.);
+  return runWithNarrowHoles(
+    runWithThinParts(betterRun(std::move(result), request, better), request, thin), request, holes);
+}
+
+double partOfFirstRun(const Parameters& parameters, bool hasFirstMesh)
+{
+  const bool isLast = hasFirstMesh || !mayLearnOtherwise(parameters);
+  return isLast || parameters.fidelity == Fidelity::Draft ? 1. : PartIfOthersMayFollow;
+}
+
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,
   const Progress& progress, const std::optional<Mesh>& first, const GrowthWatch& watch,
   const CheckpointPlan& plan, const Executor& executor, const OrientationHints& hints,
   bool explainsAll)
 {
   const RunRequest request{ cloud, parameters, first, executor, hints, explainsAll };
-  const Progress atTheEnd = partOf(progress, 1., 1.);
-  Reconstruction result = betterRun(
-    learnAndFinish(verticesToLearn(request), request, progress, watch, plan), request, atTheEnd);
-  return runWithNarrowHoles(
-    runWithThinParts(std::move(result), request, atTheEnd), request, atTheEnd);
+  const double end = partOfFirstRun(parameters, first.has_value());
+  const Progress told = rising(progress);
+  const Progress ofFirst = partOf(told, 0., end), ofOthers = partOf(told, end, 1.);
+  return withFurtherRuns(
+    learnAndFinish(verticesToLearn(request), request, ofFirst, watch, plan), request, ofOthers);
 }
 }

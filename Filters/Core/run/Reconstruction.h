@@ -72,9 +72,14 @@ std::size_t firstVertices(std::uint64_t vertices, Fidelity fidelity);
 /// least a million, which show the shape.
 std::uint64_t usualPoints(std::uint64_t vertices);
 
-// The begin and end of learning, as fractions of the progress of a run.
-inline constexpr double StartOfLearning = 0.15;
-inline constexpr double EndOfLearning = 0.65;
+// The parts of a run, as fractions of its progress. A draft learns for longer, and is fitted for less long.
+inline constexpr double StartOfLearning = 0.1;
+inline constexpr double EndOfLearning = 0.4;
+inline constexpr double StartOfDescription = 0.92;
+
+/// How much of the progress the first run of reconstruct() has, which is the only one of most clouds. Whether others
+/// follow is known only when it is over.
+double partOfFirstRun(const Parameters& parameters, bool hasFirstMesh = false);
 
 /// Grows a mesh over a cloud with an extent until a stopping rule is met. It starts from `first`
 /// or, without it, from the start of the parameters. Then finishes the mesh, unless no time is

@@ -14,6 +14,10 @@ namespace
 {
 /// Of the progress of the finish.
 constexpr double PartBeforeRefinement = 0.6;
+constexpr double PartBeforeDescription =
+  (StartOfDescription - EndOfLearning) / (1. - EndOfLearning);
+/// Of the progress of a description: error bars, and of the rest what comes before points are explained.
+constexpr double PartOfBars = 0.75, PartBeforeExplanation = 0.3;
 
 /// Learns until a stopping rule is met; returns which.
 StopReason learnAll(LearningState state, Checkpoint& checkpoint, const PointCloud& cloud,
@@ -243,7 +247,9 @@ Reconstruction Run::describe(LearntRun run, std::uint64_t asked, ProgressPart pa
   Reconstruction& result = run.result;
   result.times.enter(Phase::Finish);
   const Parameters parameters = parametersFor(run.vertices, request_);
-  const Progress telling = inTime(run, partOf(progress_, part.begin, part.end));
+  const double endOfBars =
+    parameters.computeUncertainty ? part.begin + PartOfBars * (part.end - part.begin) : part.begin;
+  const Progress telling = inTime(run, partOf(progress_, part.begin, endOfBars));
   const auto tells = [&]
   {
     return tellUncertainty(
@@ -254,13 +260,15 @@ Reconstruction Run::describe(LearntRun run, std::uint64_t asked, ProgressPart pa
     result.stopReason = whyEnded();
   }
   const bool isWhole = result.stopReason != StopReason::Cancelled;
-  const Progress describing = partOf(progress_, part.end, part.end);
+  const Progress describing = partOf(progress_, endOfBars, part.end);
+  const double middle = endOfBars + PartBeforeExplanation * (part.end - endOfBars);
+  const Progress explaining = partOf(progress_, middle, part.end);
   neuralmesh::describe(std::move(run.learnt), cloud(), isWhole ? &request_.cloud : nullptr,
     request_.hints, result, describing, interruptible_);
   const auto explains = [&]
   {
     return explainPoints(request_.cloud, cleaned_ ? &*cleaned_ : nullptr,
-      request_.parameters.keepPieces, request_.explainsAll, result, describing, interruptible_);
+      request_.parameters.keepPieces, request_.explainsAll, result, explaining, interruptible_);
   };
   if (isWhole && !unlessInterrupted(explains))
   {
@@ -279,7 +287,8 @@ Reconstruction Run::describe(LearntRun run, std::uint64_t asked, ProgressPart pa
 Reconstruction Run::finish(LearntRun run, std::uint64_t asked, ProgressPart part,
   const std::function<void(const LearntRun&)>& made)
 {
-  const double partOfFit = request_.parameters.computeUncertainty ? PartBeforeUncertainty : 1.;
+  const double partOfFit =
+    request_.parameters.computeUncertainty ? PartBeforeUncertainty : PartBeforeDescription;
   const double middle = part.begin + partOfFit * (part.end - part.begin);
   run.result.times.enter(Phase::Finish);
   make(run, asked, { part.begin, middle });

@@ -86,7 +86,7 @@ public:
   bool makeToSimplify(LearntRun& run, ProgressPart part);
   /// Simplifies such a mesh, or one that is made, to `asked` vertices, and fits that. Returns likewise.
   bool makeSimplified(LearntRun& run, std::uint64_t asked, ProgressPart part);
-  /// Tells error bars, if they are wanted, and describes what is made.
+  /// Tells error bars, if they are wanted, and describes what is made, which takes all of this part then.
   Reconstruction describe(LearntRun run, std::uint64_t asked, ProgressPart part);
 
 private:
@@ -134,5 +134,8 @@ Reconstruction runWithThinParts(Reconstruction result, const RunRequest& request
 /// `result`; or a mesh whose first surface has more handles, if `result` may have filled holes, and the other one holds
 /// more.
 Reconstruction runWithNarrowHoles(
+  Reconstruction result, const RunRequest& request, const Progress& progress);
+/// `result`, or what is better by all three.
+Reconstruction withFurtherRuns(
   Reconstruction result, const RunRequest& request, const Progress& progress);
 }

@@ -273,17 +273,15 @@ private:
     const ProgressPart part = next(PartOfResult);
     const std::uint64_t vertices = made.vertices();
     // With error bars, describe() takes time and reports its own progress.
-    if (!request_.parameters.computeUncertainty && !progress_(part.end))
+    if (!request_.parameters.computeUncertainty && !progress_(part.begin))
     {
       made.run.result.stopReason = StopReason::Cancelled;
     }
     const Parameters parameters = parametersWith(vertices);
     const RunRequest request = requestWith(request_, parameters);
-    const Progress atTheEnd = partOf(progress_, part.end, part.end);
-    Reconstruction result =
-      betterRun(run_.describe(std::move(made.run), vertices, part), request, atTheEnd);
-    return runWithNarrowHoles(
-      runWithThinParts(std::move(result), request, atTheEnd), request, atTheEnd);
+    const Progress ofOthers = partOf(progress_, part.end, 1.);
+    return withFurtherRuns(
+      run_.describe(std::move(made.run), vertices, part), request, ofOthers);
   }
 
   /// A power law of the error by the number of vertices, through one trial.
@@ -578,6 +576,7 @@ private:
 Reconstruction reconstructSized(
   const RunRequest& request, const SizeGoal& goal, const Progress& progress)
 {
-  return SizedRun(request, goal, progress).run();
+  const Progress told = rising(progress);
+  return SizedRun(request, goal, told).run();
 }
 }

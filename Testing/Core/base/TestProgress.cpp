@@ -32,6 +32,24 @@ TEST(Progress, PartsAreOfTheWhole)
   EXPECT_DOUBLE_EQ(told[2], 0.9);
 }
 
+// What was told is not taken back, not even by a copy; and whether to go on is passed back.
+TEST(Progress, DoesNotFall)
+{
+  std::vector<double> told;
+  const Progress whole = [&](double fraction)
+  {
+    told.push_back(fraction);
+    return fraction < 0.7;
+  };
+  const Progress upwards = rising(whole);
+  const Progress copy = upwards;
+  EXPECT_TRUE(upwards(0.5));
+  EXPECT_TRUE(copy(0.3));
+  EXPECT_FALSE(copy(0.8));
+  EXPECT_FALSE(upwards(0.1));
+  EXPECT_EQ(told, (std::vector<double>{ 0.5, 0.5, 0.8, 0.8 }));
+}
+
 // Steps of a hundredth are passed on, and what comes later than the last one by 50 ms; of many reports at once
 // hardly any.
 TEST(ProgressThrottle, PassesOnWhatIsDue)

@@ -261,7 +261,8 @@ TEST(Uncertainty, SaysWhereThereIsNone)
 TEST(Uncertainty, CanBeEnded)
 {
   const PointCloud cloud(sphereWith(0.003));
-  const double end = StartOfLearning + 0.97 * (1. - StartOfLearning);
+  const double ofFirst = partOfFirstRun(withBars());
+  const double end = ofFirst * (EndOfLearning + 0.85 * (1. - EndOfLearning));
   const Reconstruction run =
     reconstruct(cloud, withBars(), [&](double fraction) { return fraction < end; });
   EXPECT_EQ(run.stopReason, StopReason::Cancelled);

@@ -17,6 +17,7 @@
 #include <numbers>
 #include <random>
 #include <utility>
+#include <vector>
 
 namespace neuralmesh::testing
 {
@@ -120,26 +121,40 @@ TEST(NarrowHoles, EdgesOfWedgesAreReached)
   }
 }
 
+// Progress does not wait at the end of the first run.
+TEST(NarrowHoles, ProgressRisesToTheEnd)
+{
+  Parameters parameters;
+  parameters.numberOfVertices = 3000;
+  const double ofFirst = partOfFirstRun(parameters);
+  std::vector<double> before, after;
+  reconstruct(PointCloud(boredPlate(40000, 0.002)), parameters,
+    [&](double fraction)
+    {
+      (fraction <= ofFirst ? before : after).push_back(fraction);
+      return true;
+    });
+  ASSERT_FALSE(after.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(before));
+  EXPECT_TRUE(std::ranges::is_sorted(after));
+  EXPECT_EQ(after.back(), 1.);
+  EXPECT_GT(std::ranges::distance(after.begin(), std::ranges::unique(after).begin()), 20);
+}
+
 // Also an abort of the second start, which leaves the first mesh as it is.
 TEST(NarrowHoles, AbortsAreTold)
 {
   const PointCloud cloud(boredPlate(40000, 0.002));
   Parameters parameters;
   parameters.numberOfVertices = 3000;
-  int calls = 0, ofFirst = 0;
-  reconstruct(cloud, parameters,
-    [&](double fraction)
-    {
-      ++calls;
-      ofFirst += fraction < 1. ? 1 : 0;
-      return true;
-    });
-  // What comes after is told as the end of the first run.
-  for (int most = ofFirst; most < calls - 1; most += std::max(1, (calls - ofFirst) / 20))
+  const double ofFirst = partOfFirstRun(parameters);
+  constexpr int Aborts = 20;
+  for (int i = 1; i < Aborts; ++i)
   {
-    SCOPED_TRACE(most);
-    int left = most;
-    const Reconstruction run = reconstruct(cloud, parameters, [&](double) { return left-- > 0; });
+    const double end = ofFirst + (1. - ofFirst) * double(i) / double(Aborts);
+    SCOPED_TRACE(end);
+    const Reconstruction run =
+      reconstruct(cloud, parameters, [end](double fraction) { return fraction <= end; });
     EXPECT_EQ(run.stopReason, StopReason::Cancelled);
   }
 }
