@@ -158,8 +158,8 @@ int main(int argc, char* argv[])
   const std::vector<Eigen::Vector3d> points = generateCloud(makeTorus(), options);
 
   const MeasuredExecutor executor(threads);
-  std::array<Row, 6> rows{ { { "cloud" }, { "start" }, { "learning" }, { "finish" },
-    { "report" }, { "whole run" } } };
+  std::array<Row, 6> rows{ { { "cloud" }, { "start" }, { "learning" }, { "finish" }, { "report" },
+    { "whole run" } } };
   Phases phases(executor);
   const PointCloud cloud(points, {}, false, executor);
   phases.take(rows[0], 0.);

@@ -141,8 +141,8 @@ bool simplifyTo(std::span<SmallerLevel* const> levels, Source source, std::uint6
         level.mesh = mesh;
         const Parameters parameters = parametersOf(level.vertices, request);
         const double end = begin + share;
-        mesh = betterRun(
-          std::move(mesh), requestWith(request, parameters), partOf(progress, end, end));
+        mesh =
+          betterRun(std::move(mesh), requestWith(request, parameters), partOf(progress, end, end));
         isComplete = mesh.isComplete();
         if (isComplete)
         {
@@ -233,9 +233,8 @@ LargestLevel largestLevel(
     { EndOfLargest * StartOfLearning, EndOfLargest * EndOfLearning }, none);
   learnt.isLearnt = true;
   std::optional<LearntRun> made;
-  Reconstruction result =
-    run.finish(learnt, vertices, { EndOfLargest * EndOfLearning, EndOfFirst },
-      [&made](const LearntRun& last) { made.emplace(last); });
+  Reconstruction result = run.finish(learnt, vertices, { EndOfLargest * EndOfLearning, EndOfFirst },
+    [&made](const LearntRun& last) { made.emplace(last); });
   result.times.add(times);
   const double middle = 0.5 * (EndOfFirst + EndOfLargest);
   const Progress better = partOf(progress, EndOfFirst, middle),

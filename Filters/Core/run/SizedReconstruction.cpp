@@ -280,8 +280,7 @@ private:
     const Parameters parameters = parametersWith(vertices);
     const RunRequest request = requestWith(request_, parameters);
     const Progress ofOthers = partOf(progress_, part.end, 1.);
-    return withFurtherRuns(
-      run_.describe(std::move(made.run), vertices, part), request, ofOthers);
+    return withFurtherRuns(run_.describe(std::move(made.run), vertices, part), request, ofOthers);
   }
 
   /// A power law of the error by the number of vertices, through one trial.
