@@ -5,7 +5,6 @@
 #include "base/UnitVector.h"
 #include "cloud/NearestPoints.h"
 #include "fit/EmptyPieces.h"
-#include "mesh/EachVertex.h"
 #include "mesh/Pieces.h"
 
 #include <algorithm>
@@ -47,6 +46,10 @@ constexpr float MostRadius = 0.5f;
 constexpr float BetweenBare = 0.9f;
 /// ... or so many times, as where points are repeated.
 constexpr int MostDivisions = 6;
+/// First, triangles without a point are looked for: a strip has as many as if its area were so many spacings wide. Random
+/// ones rarely hang together like that. With few points a triangle they do: so their centres are as far from points, too.
+constexpr float WidthOfEmpty = 1.5f;
+constexpr double SpacingsIfEmpty = 0.9;
 /// In noise, so many points may be closer than the one that is closest along the surface.
 constexpr std::size_t PointsAcross = 32;
 /// ... which is not looked for farther away than so many of these distances.
@@ -71,11 +74,96 @@ struct Corners
 
 float distanceOf(Vector4 a, Vector4 b) { return std::sqrt(squaredNorm(a - b)); }
 
+/// Those that hang together at vertices with enough others.
+std::vector<std::uint32_t> inLargeClusters(const Mesh& mesh, const NumberedTriangles& all,
+  std::vector<std::uint32_t> triangles, double least)
+{
+  DisjointSets clusters(mesh.indexEnd());
+  for (const std::uint32_t t : triangles)
+  {
+    const auto& [a, b, c] = all.all()[t];
+    clusters.join(a, b);
+    clusters.join(b, c);
+  }
+  std::vector<std::uint32_t> sizes(mesh.indexEnd(), 0);
+  const auto sizeAt = [&](std::uint32_t t) -> std::uint32_t&
+  { return sizes[clusters.root(all.all()[t][0])]; };
+  for (const std::uint32_t t : triangles)
+  {
+    ++sizeAt(t);
+  }
+  std::erase_if(triangles, [&](std::uint32_t t) { return double(sizeAt(t)) < least; });
+  return triangles;
+}
+
+/// Triangles where a strip may be: along it, many of them have no points. Most meshes have none, so this comes first.
+std::vector<std::uint32_t> candidates(const Mesh& mesh, const NumberedTriangles& all,
+  const BareTriangles& bare, const Executor& executor)
+{
+  std::vector<std::uint32_t> empty;
+  for (std::uint32_t t = 0; t < bare.hasPoints.size(); ++t)
+  {
+    if (bare.hasPoints[t] == 0)
+    {
+      empty.push_back(t);
+    }
+  }
+  const double perTriangle =
+    double(bare.points) / double(std::max<std::size_t>(1, all.all().size()));
+  const double least = double(LeastLength * WidthOfEmpty) / perTriangle;
+  empty = inLargeClusters(mesh, all, std::move(empty), least);
+  std::vector<std::uint8_t> isFar(empty.size(), 0);
+  executor.forEachRange(empty.size(), TrianglesProbed,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Triangle& triangle = all.all()[empty[i]];
+        std::array<NearPoint, 1> found;
+        const bool isFound = bare.nearest.find(centerOf(mesh, triangle), found) > 0;
+        const double spacing = std::sqrt(areaOf(mesh, triangle) / perTriangle);
+        isFar[i] =
+          !isFound || std::sqrt(double(found[0].squaredDistance)) > SpacingsIfEmpty * spacing;
+      }
+    });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < empty.size(); ++i)
+  {
+    if (isFar[i] != 0)
+    {
+      empty[kept++] = empty[i];
+    }
+  }
+  empty.resize(kept);
+  empty = inLargeClusters(mesh, all, std::move(empty), least);
+  std::vector<std::uint8_t> isCandidate(empty.empty() ? 0 : all.all().size(), 0);
+  for (const std::uint32_t t : empty)
+  {
+    for (const VertexIndex v : all.all()[t])
+    {
+      for (const std::uint32_t beside : all.at(v))
+      {
+        isCandidate[beside] = 1;
+      }
+    }
+  }
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t t = 0; t < isCandidate.size(); ++t)
+  {
+    if (isCandidate[t] != 0)
+    {
+      result.push_back(t);
+    }
+  }
+  return result;
+}
+
 class StripSearch
 {
 public:
-  StripSearch(const Mesh& mesh, const NumberedTriangles& triangles, const PointCloud& cloud,
-    float noise, const Executor& executor)
+  StripSearch(const Mesh& mesh, const NumberedTriangles& triangles,
+    const std::vector<std::uint32_t>& candidates, const PointCloud& cloud, float noise,
+    const Executor& executor)
     : mesh_(mesh)
     , triangles_(triangles)
     , executor_(executor)
@@ -84,18 +172,12 @@ public:
                  std::min(cloud.points().size(),
                    std::max(FewestPointsOfStrips, MostPointsPerVertex * mesh.vertexCount()))),
         executor)
+    , isMeasured_(mesh.indexEnd(), 0)
     , distances_(mesh.indexEnd(), 0.f)
     , spacings_(mesh.indexEnd(), 0.f)
   {
-    forEachVertex(mesh, executor, VerticesMeasured,
-      [&](VertexIndex v)
-      {
-        if (mesh.isAlive(v))
-        {
-          measure(v);
-        }
-      });
-    findBare();
+    measure(candidates);
+    findBare(candidates);
   }
 
   std::vector<std::vector<std::uint32_t>> strips()
@@ -136,6 +218,30 @@ public:
   }
 
 private:
+  /// The corners of these triangles.
+  void measure(const std::vector<std::uint32_t>& triangles)
+  {
+    std::vector<VertexIndex> corners;
+    for (const std::uint32_t t : triangles)
+    {
+      for (const VertexIndex v : triangles_.all()[t])
+      {
+        if (std::exchange(isMeasured_[v], 1) == 0)
+        {
+          corners.push_back(v);
+        }
+      }
+    }
+    executor_.forEachRange(corners.size(), VerticesMeasured,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          measure(corners[i]);
+        }
+      });
+  }
+
   /// Sets the distance of a vertex from the closest point, and that between points around it.
   void measure(VertexIndex v)
   {
@@ -185,16 +291,16 @@ private:
     return std::sqrt(std::max(0.f, least));
   }
 
-  void findBare()
+  void findBare(const std::vector<std::uint32_t>& candidates)
   {
-    const std::size_t count = triangles_.all().size();
+    const std::size_t count = candidates.size();
     std::vector<std::vector<BarePlace>> parts((count + TrianglesProbed - 1) / TrianglesProbed);
     executor_.forEachRange(count, TrianglesProbed,
       [&](std::size_t begin, std::size_t end)
       {
-        for (std::size_t t = begin; t < end; ++t)
+        for (std::size_t i = begin; i < end; ++i)
         {
-          probe(std::uint32_t(t), parts[begin / TrianglesProbed]);
+          probe(candidates[i], parts[begin / TrianglesProbed]);
         }
       });
     for (const std::vector<BarePlace>& part : parts)
@@ -324,14 +430,19 @@ private:
     {
       isAround[place.triangle] = 0;
     }
-    std::vector<float> distances;
-    for (std::size_t t = 0; t < isAround.size(); ++t)
+    std::vector<std::uint32_t> around;
+    for (std::uint32_t t = 0; t < isAround.size(); ++t)
     {
       if (isAround[t] != 0)
       {
-        distances.push_back(distanceAlong(
-          positions_[t], normalOf(std::uint32_t(t)), 0.f, spacingOf(std::uint32_t(t))));
+        around.push_back(t);
       }
+    }
+    measure(around);
+    std::vector<float> distances;
+    for (const std::uint32_t t : around)
+    {
+      distances.push_back(distanceAlong(positions_[t], normalOf(t), 0.f, spacingOf(t)));
     }
     if (distances.size() < FewestCenters)
     {
@@ -347,6 +458,7 @@ private:
   const Executor& executor_;
   float noise_;
   NearestPickedPoints nearest_;
+  std::vector<std::uint8_t> isMeasured_;
   std::vector<float> distances_; ///< of vertices, to the closest point
   std::vector<float> spacings_;  ///< of points around vertices, about
   std::vector<BarePlace> bare_;
@@ -356,9 +468,14 @@ private:
 }
 
 std::vector<std::vector<std::uint32_t>> bareStrips(const Mesh& mesh,
-  const NumberedTriangles& triangles, const PointCloud& cloud, float noise,
-  const Executor& executor)
+  const NumberedTriangles& triangles, const BareTriangles& bare, const PointCloud& cloud,
+  float noise, const Executor& executor)
 {
-  return StripSearch(mesh, triangles, cloud, noise, executor).strips();
+  const std::vector<std::uint32_t> some = candidates(mesh, triangles, bare, executor);
+  if (some.empty())
+  {
+    return {};
+  }
+  return StripSearch(mesh, triangles, some, cloud, noise, executor).strips();
 }
 }

@@ -6,10 +6,12 @@
 #include "cloud/PlaceOnMesh.h"
 #include "fit/PlacesByRows.h"
 #include "mesh/NearestTriangle.h"
+#include "mesh/NumberedTriangles.h"
 #include "mesh/Pieces.h"
 #include "mesh/TriangleMesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -242,6 +244,8 @@ std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& 
   const float farthest = outlierDistance(median, result.meanEdge);
   SupportSum sum(mesh, cloud);
   const RowParts rows(mesh.indexEnd(), executor);
+  const NumberedTriangles triangles(mesh, executor);
+  std::vector<std::uint8_t> hasPoints(triangles.all().size(), 0);
   const std::size_t ofSupport = std::min(count, mostOfSupport);
   std::vector<PlaceOnMesh> found(std::min(count, PointsPerBlock));
   for (std::size_t first = 0; first < count; first += PointsPerBlock)
@@ -260,6 +264,8 @@ std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& 
           result.distances[i] = std::sqrt(place.squaredDistance);
           result.isBeyondBoundary[i] = isBeyondBoundary(place, mesh) ? 1 : 0;
           setPiece(result, i, pieceOf, place);
+          const std::uint32_t triangle = triangles.number(place.triangle[0], place.triangle[1]);
+          std::atomic_ref(hasPoints[triangle]).store(1, std::memory_order_relaxed);
         }
       });
     if (ofSupport > 0)
@@ -286,7 +292,8 @@ std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& 
   }
   const double pointsOfEach =
     double(cloud.points().size()) / double(std::max<std::size_t>(1, ofSupport));
-  return MeasuredPoints{ std::move(result), sum.result(pointsOfEach, executor) };
+  return MeasuredPoints{ std::move(result), sum.result(pointsOfEach, executor),
+    std::move(hasPoints) };
 }
 
 PointDistances exactly(

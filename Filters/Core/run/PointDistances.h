@@ -45,6 +45,8 @@ struct MeasuredPoints
 {
   PointDistances distances;
   VertexSupport support;
+  /// Of each triangle, in the order of Mesh::forEachTriangle(), whether a point lies on it.
+  std::vector<std::uint8_t> hasPoints;
 };
 
 /// Picks at most `most` points of the cloud evenly, and measures their distances to a mesh. The triangles of the closest

@@ -132,7 +132,8 @@ public:
 
   /// A triangle is looked at only if one of its vertices is bare.
   template <typename IsBare>
-  std::vector<Patch> patches(const IsBare& isBare)
+  std::vector<Patch> patches(
+    const IsBare& isBare, std::span<const std::uint8_t> hasPoints, std::size_t points)
   {
     executor_.forEachRange(places_.size(), TrianglesPerRange,
       [&](std::size_t begin, std::size_t end)
@@ -157,8 +158,8 @@ public:
         }
       }
     }
-    for (const std::vector<std::uint32_t>& strip :
-      bareStrips(mesh_, triangles_, cloud_, MediansOfGap * median_, executor_))
+    for (const std::vector<std::uint32_t>& strip : bareStrips(mesh_, triangles_,
+           { hasPoints, points, nearest_ }, cloud_, MediansOfGap * median_, executor_))
     {
       patches.push_back(patchOf(strip));
     }
@@ -303,7 +304,8 @@ private:
 }
 
 std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& support,
-  const PointCloud& cloud, const PointDistances& distances, const Executor& executor)
+  std::span<const std::uint8_t> hasPoints, const PointCloud& cloud, const PointDistances& distances,
+  const Executor& executor)
 {
   const double least = LeastPointsAtVertex * support.pointsPerAsked;
   if (support.weights.size() != mesh.indexEnd() || distances.distances.empty())
@@ -319,7 +321,8 @@ std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& suppo
   GapSearch search(mesh, cloud, medianOf(distances.distances, executor), onSurface, executor);
   std::vector<SpannedGap> gaps;
   for (const Patch& patch :
-    search.patches([&](VertexIndex v) { return support.weights[v] < least; }))
+    search.patches([&](VertexIndex v) { return support.weights[v] < least; }, hasPoints,
+      distances.points.size()))
   {
     if (patch.area > 0.)
     {

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -24,8 +26,8 @@ struct SpannedGap
 /// spacing there, and than the noise; in noise, those beside them count, too, half as far away.
 /// Less is enough in a ring of points, such as the wall of a bore, and along a strip, see bareStrips(). Sparse parts of
 /// a surface are no gaps.
-/// `distances` are those of points to the mesh.
+/// `distances` are those of points to the mesh, and `hasPoints` tells which of its triangles they lie on.
 std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& support,
-  const PointCloud& cloud, const PointDistances& distances,
+  std::span<const std::uint8_t> hasPoints, const PointCloud& cloud, const PointDistances& distances,
   const Executor& executor = Executor::sequential());
 }

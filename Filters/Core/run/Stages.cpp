@@ -448,8 +448,8 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
     return false;
   }
   // An interruption leaves neither.
-  result.gaps =
-    spannedGaps(result.surface, measured->support, cloud, result.explanation->asked, executor);
+  result.gaps = spannedGaps(result.surface, measured->support, measured->hasPoints, cloud,
+    result.explanation->asked, executor);
   if (result.finish && !result.finish->isClean)
   {
     result.noiseWebs = findNoiseWebs(result.surface, measured->support, cloud, executor);

@@ -50,9 +50,11 @@ struct Pole
       });
     cloud.emplace(points);
     const Mesh mesh = buildMesh(makeSphere(40), *cloud);
-    const PointDistances distances = distancesTo(mesh, *cloud, points.size());
-    result.support = supportOf(mesh, *cloud, points.size());
-    result.gaps = spannedGaps(mesh, result.support, *cloud, distances);
+    const auto measured =
+      measurePoints(mesh, *cloud, points.size(), points.size(), [](double) { return true; });
+    result.support = measured->support;
+    result.gaps =
+      spannedGaps(mesh, result.support, measured->hasPoints, *cloud, measured->distances);
   }
 
   bool isWarnedOf(const Parameters& parameters = {}) const
