@@ -47,7 +47,8 @@ constexpr float BetweenBare = 0.9f;
 /// ... or so many times, as where points are repeated.
 constexpr int MostDivisions = 6;
 /// First, triangles without a point are looked for: a strip has as many as if its area were so many spacings wide. Random
-/// ones rarely hang together like that. With few points a triangle they do: so their centres are as far from points, too.
+/// ones rarely hang together like that. With few points a triangle they do: so their centres are as far from points, too,
+/// and noise besides.
 constexpr float WidthOfEmpty = 1.5f;
 constexpr double SpacingsIfEmpty = 0.9;
 /// In noise, so many points may be closer than the one that is closest along the surface.
@@ -120,10 +121,13 @@ std::vector<std::uint32_t> candidates(const Mesh& mesh, const NumberedTriangles&
       {
         const Triangle& triangle = all.all()[empty[i]];
         std::array<NearPoint, 1> found;
-        const bool isFound = bare.nearest.find(centerOf(mesh, triangle), found) > 0;
-        const double spacing = std::sqrt(areaOf(mesh, triangle) / perTriangle);
-        isFar[i] =
-          !isFound || std::sqrt(double(found[0].squaredDistance)) > SpacingsIfEmpty * spacing;
+        const double least =
+          SpacingsIfEmpty * SpacingsIfEmpty * areaOf(mesh, triangle) / perTriangle +
+          double(bare.median) * double(bare.median);
+        isFar[i] = bare.nearest.find(centerOf(mesh, triangle), found) == 0 ||
+            double(found[0].squaredDistance) > least
+          ? 1
+          : 0;
       }
     });
   std::size_t kept = 0;

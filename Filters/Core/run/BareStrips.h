@@ -19,6 +19,7 @@ struct BareTriangles
   std::span<const std::uint8_t> hasPoints; ///< see MeasuredPoints
   std::size_t points;                      ///< how many were asked for it
   const NearestPoints& nearest;            ///< of the whole cloud
+  float median;                            ///< of the distances between points and the mesh
 };
 
 /// The triangles of a mesh, by their numbers, in each strip of it that has no points and is too long for chance, the

@@ -159,7 +159,7 @@ public:
       }
     }
     for (const std::vector<std::uint32_t>& strip : bareStrips(mesh_, triangles_,
-           { hasPoints, points, nearest_ }, cloud_, MediansOfGap * median_, executor_))
+           { hasPoints, points, nearest_, median_ }, cloud_, MediansOfGap * median_, executor_))
     {
       patches.push_back(patchOf(strip));
     }
