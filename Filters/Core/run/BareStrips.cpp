@@ -202,6 +202,7 @@ public:
       for (const std::vector<BarePlace>& strip : groupsOf(left))
       {
         std::vector<std::uint32_t> triangles;
+        triangles.reserve(strip.size());
         for (const BarePlace& place : strip)
         {
           triangles.push_back(place.triangle);
@@ -214,6 +215,7 @@ public:
     std::ranges::stable_sort(
       found, std::ranges::greater(), [](const auto& one) { return one.first; });
     std::vector<std::vector<std::uint32_t>> result;
+    result.reserve(found.size());
     for (auto& one : found)
     {
       result.push_back(std::move(one.second));
@@ -387,6 +389,7 @@ private:
   static std::vector<std::vector<BarePlace>> groupsOf(const std::vector<BarePlace>& places)
   {
     std::vector<Vector4> positions;
+    positions.reserve(places.size());
     for (const BarePlace& place : places)
     {
       positions.push_back(place.place);
@@ -444,6 +447,7 @@ private:
     }
     measure(around);
     std::vector<float> distances;
+    distances.reserve(around.size());
     for (const std::uint32_t t : around)
     {
       distances.push_back(distanceAlong(positions_[t], normalOf(t), 0.f, spacingOf(t)));
