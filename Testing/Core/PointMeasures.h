@@ -12,7 +12,7 @@ inline PointDistances distancesTo(const Mesh& mesh, const PointCloud& cloud, std
   const Executor& executor = Executor::sequential())
 {
   return std::move(measurePoints(
-    mesh, cloud, most, 0, [](double) { return true; }, executor)
+    mesh, cloud, { .all = most }, [](double) { return true; }, executor)
                      ->distances);
 }
 
@@ -20,7 +20,7 @@ inline VertexSupport supportOf(const Mesh& mesh, const PointCloud& cloud, std::s
   const Executor& executor = Executor::sequential())
 {
   return std::move(measurePoints(
-    mesh, cloud, most, most, [](double) { return true; }, executor)
+    mesh, cloud, { .all = most, .forSupport = most }, [](double) { return true; }, executor)
                      ->support);
 }
 }

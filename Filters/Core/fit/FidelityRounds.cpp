@@ -48,13 +48,14 @@ constexpr double LeastPartOfSettled = 0.5;
 /// Beyond so many deviations of the usual bend it is a crease.
 constexpr double DeviationsOfCreaseIfClean = 2.;
 /// The mesh on which places are found first is so much smoother than that of the rounds before, but its lambda is at
-/// least that, and at most the one for which each place of it follows so many samples. Where noise is large against
-/// edges, samples slide along what the mesh has followed of it, and lambda is then chosen so that it follows them again.
-/// So the mesh bends, by the noise, no more than that part of an edge ...
+/// least that, and at most the one for which each place of it follows so many samples ...
 constexpr double FirstTimesSmoother = 2.;
 constexpr double LeastFirstLambda = 50.;
-constexpr double MostFirstBend = 0.03;
 constexpr double MostFollowed = 60.;
+/// Where noise is large against edges, samples slide along what the mesh has followed of it, and lambda is then chosen so
+/// that it follows them again. So lambda is larger there, up to that limit: the square of the noise in such parts of an
+/// edge ...
+constexpr double MostFirstBend = 0.03;
 /// ... and so much smoother than the one that comes out, later.
 constexpr double TimesSmoother = 2.;
 }

@@ -11,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -41,7 +43,7 @@ constexpr double PartOfCenters = 0.6;
 constexpr float SpacingsOfPart = 0.54f;
 constexpr std::size_t FewestCenters = 30;
 /// A triangle is looked at if its centre, a corner or the middle of an edge is far from points: strips lead across them.
-/// Triangles are divided until parts are as small, in these distances, and two bare ones are neighbors if they are as close.
+/// Triangles are divided until parts are as small, in these distances, and two bare ones are neighbours if they are as close.
 constexpr float MostRadius = 0.5f;
 constexpr float BetweenBare = 0.9f;
 /// ... or so many times, as where points are repeated.
@@ -51,7 +53,9 @@ constexpr int MostDivisions = 6;
 /// and noise besides.
 constexpr float WidthOfEmpty = 1.5f;
 constexpr double SpacingsIfEmpty = 0.9;
-/// In noise, so many points may be closer than the one that is closest along the surface.
+/// Noise reaches so many median distances from the mesh ...
+constexpr float MediansOfNoise = 5.f;
+/// ... and there so many points may be closer than the one that is closest along the surface.
 constexpr std::size_t PointsAcross = 32;
 /// ... which is not looked for farther away than so many of these distances.
 constexpr float MostSpacingsAsked = 3.f;
@@ -97,22 +101,32 @@ std::vector<std::uint32_t> inLargeClusters(const Mesh& mesh, const NumberedTrian
   return triangles;
 }
 
-/// Triangles where a strip may be: along it, many of them have no points. Most meshes have none, so this comes first.
-std::vector<std::uint32_t> candidates(const Mesh& mesh, const NumberedTriangles& all,
-  const BareTriangles& bare, const Executor& executor)
+/// Of triangles without points, where there are so many points a triangle.
+double fewestInStrip(double perTriangle)
+{
+  return double(LeastLength * WidthOfEmpty) / perTriangle;
+}
+
+/// Triangles without points that hang together with many others. Most meshes have none.
+std::vector<std::uint32_t> emptyTriangles(const Mesh& mesh, const NumberedTriangles& all,
+  const PointsOnTriangles& onTriangles, double fewest)
 {
   std::vector<std::uint32_t> empty;
-  for (std::uint32_t t = 0; t < bare.hasPoints.size(); ++t)
+  for (std::uint32_t t = 0; t < onTriangles.hasPoints.size(); ++t)
   {
-    if (bare.hasPoints[t] == 0)
+    if (onTriangles.hasPoints[t] == 0)
     {
       empty.push_back(t);
     }
   }
-  const double perTriangle =
-    double(bare.points) / double(std::max<std::size_t>(1, all.all().size()));
-  const double least = double(LeastLength * WidthOfEmpty) / perTriangle;
-  empty = inLargeClusters(mesh, all, std::move(empty), least);
+  return inLargeClusters(mesh, all, std::move(empty), fewest);
+}
+
+/// Those around them where a strip may be.
+std::vector<std::uint32_t> candidates(const Mesh& mesh, const NumberedTriangles& all,
+  std::vector<std::uint32_t> empty, double perTriangle, float median,
+  const NearestPickedPoints& nearest, const Executor& executor)
+{
   std::vector<std::uint8_t> isFar(empty.size(), 0);
   executor.forEachRange(empty.size(), TrianglesProbed,
     [&](std::size_t begin, std::size_t end)
@@ -121,11 +135,11 @@ std::vector<std::uint32_t> candidates(const Mesh& mesh, const NumberedTriangles&
       {
         const Triangle& triangle = all.all()[empty[i]];
         std::array<NearPoint, 1> found;
-        const double least =
+        const double squaredLeast =
           SpacingsIfEmpty * SpacingsIfEmpty * areaOf(mesh, triangle) / perTriangle +
-          double(bare.median) * double(bare.median);
-        isFar[i] = bare.nearest.find(centerOf(mesh, triangle), found) == 0 ||
-            double(found[0].squaredDistance) > least
+          double(median) * double(median);
+        isFar[i] = nearest.find(centerOf(mesh, triangle), found) == 0 ||
+            double(found[0].squaredDistance) > squaredLeast
           ? 1
           : 0;
       }
@@ -139,7 +153,7 @@ std::vector<std::uint32_t> candidates(const Mesh& mesh, const NumberedTriangles&
     }
   }
   empty.resize(kept);
-  empty = inLargeClusters(mesh, all, std::move(empty), least);
+  empty = inLargeClusters(mesh, all, std::move(empty), fewestInStrip(perTriangle));
   std::vector<std::uint8_t> isCandidate(empty.empty() ? 0 : all.all().size(), 0);
   for (const std::uint32_t t : empty)
   {
@@ -166,26 +180,22 @@ class StripSearch
 {
 public:
   StripSearch(const Mesh& mesh, const NumberedTriangles& triangles,
-    const std::vector<std::uint32_t>& candidates, const PointCloud& cloud, float noise,
-    const Executor& executor)
+    const NearestPickedPoints& nearest, float noise, const Executor& executor)
     : mesh_(mesh)
     , triangles_(triangles)
+    , nearest_(nearest)
     , executor_(executor)
     , noise_(noise)
-    , nearest_(PickedPoints(cloud.points(),
-                 std::min(cloud.points().size(),
-                   std::max(FewestPointsOfStrips, MostPointsPerVertex * mesh.vertexCount()))),
-        executor)
     , isMeasured_(mesh.indexEnd(), 0)
     , distances_(mesh.indexEnd(), 0.f)
     , spacings_(mesh.indexEnd(), 0.f)
   {
-    measure(candidates);
-    findBare(candidates);
   }
 
-  std::vector<std::vector<std::uint32_t>> strips()
+  std::vector<std::vector<std::uint32_t>> stripsAmong(const std::vector<std::uint32_t>& candidates)
   {
+    measure(candidates);
+    findBare(candidates);
     std::vector<std::pair<float, std::vector<std::uint32_t>>> found;
     for (const std::vector<BarePlace>& group : groupsOf(bare_))
     {
@@ -335,6 +345,10 @@ private:
     const auto& [a, b, c] = triangles_.all()[t];
     const Corners corners{ mesh_.position(a), mesh_.position(b), mesh_.position(c) };
     const float least = SpacingsAround * spacingOf(t);
+    if (!(least > 0.f))
+    {
+      return;
+    }
     const bool isAtBare = std::max({ distances_[a], distances_[b], distances_[c] }) > least ||
       isFar(centerOf(mesh_, triangles_.all()[t]), least) ||
       isFar(0.5f * (corners.a + corners.b), least) ||
@@ -409,9 +423,10 @@ private:
     std::erase_if(groups,
       [](const std::vector<BarePlace>& group)
       {
-        const float spacing = std::accumulate(group.begin(), group.end(), 0.f,
-          [](float sum, const BarePlace& place) { return sum + place.spacing; });
-        return group.empty() || !(lengthOf(group) >= LeastLength * spacing / float(group.size()));
+        const double spacing = std::accumulate(group.begin(), group.end(), 0.,
+          [](double sum, const BarePlace& place) { return sum + double(place.spacing); });
+        return group.empty() ||
+          !(double(lengthOf(group)) >= double(LeastLength) * spacing / double(group.size()));
       });
     return groups;
   }
@@ -427,31 +442,31 @@ private:
       }
       centers_.emplace(positions_, executor_);
     }
-    std::vector<std::uint8_t> isAround(positions_.size(), 0);
+    std::vector<std::uint32_t> own, near, around;
     for (const BarePlace& place : group)
     {
+      own.push_back(place.triangle);
       centers_->forEachWithin(place.place, SpacingsAroundStrip * place.spacing,
-        [&](std::uint32_t t, float) { isAround[t] = 1; });
+        [&](std::uint32_t t, float) { near.push_back(t); });
     }
-    for (const BarePlace& place : group)
+    for (std::vector<std::uint32_t>* some : { &own, &near })
     {
-      isAround[place.triangle] = 0;
+      std::sort(some->begin(), some->end());
+      some->erase(std::unique(some->begin(), some->end()), some->end());
     }
-    std::vector<std::uint32_t> around;
-    for (std::uint32_t t = 0; t < isAround.size(); ++t)
-    {
-      if (isAround[t] != 0)
-      {
-        around.push_back(t);
-      }
-    }
+    std::set_difference(
+      near.begin(), near.end(), own.begin(), own.end(), std::back_inserter(around));
     measure(around);
-    std::vector<float> distances;
-    distances.reserve(around.size());
-    for (const std::uint32_t t : around)
-    {
-      distances.push_back(distanceAlong(positions_[t], normalOf(t), 0.f, spacingOf(t)));
-    }
+    std::vector<float> distances(around.size());
+    executor_.forEachRange(around.size(), TrianglesProbed,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const std::uint32_t t = around[i];
+          distances[i] = distanceAlong(positions_[t], normalOf(t), 0.f, spacingOf(t));
+        }
+      });
     if (distances.size() < FewestCenters)
     {
       return std::numeric_limits<float>::infinity();
@@ -463,9 +478,9 @@ private:
 
   const Mesh& mesh_;
   const NumberedTriangles& triangles_;
+  const NearestPickedPoints& nearest_;
   const Executor& executor_;
   float noise_;
-  NearestPickedPoints nearest_;
   std::vector<std::uint8_t> isMeasured_;
   std::vector<float> distances_; ///< of vertices, to the closest point
   std::vector<float> spacings_;  ///< of points around vertices, about
@@ -476,14 +491,25 @@ private:
 }
 
 std::vector<std::vector<std::uint32_t>> bareStrips(const Mesh& mesh,
-  const NumberedTriangles& triangles, const BareTriangles& bare, const PointCloud& cloud,
-  float noise, const Executor& executor)
+  const NumberedTriangles& triangles, const PointsOnTriangles& onTriangles, const PointCloud& cloud,
+  float median, const Executor& executor)
 {
-  const std::vector<std::uint32_t> some = candidates(mesh, triangles, bare, executor);
-  if (some.empty())
+  const auto all = double(cloud.points().size());
+  const double perTriangle = double(onTriangles.asked) * double(cloud.differentCount()) / all /
+    double(std::max<std::size_t>(1, triangles.all().size()));
+  std::vector<std::uint32_t> empty =
+    emptyTriangles(mesh, triangles, onTriangles, fewestInStrip(perTriangle));
+  if (empty.empty())
   {
     return {};
   }
-  return StripSearch(mesh, triangles, some, cloud, noise, executor).strips();
+  const std::size_t picked = std::min(cloud.points().size(),
+    std::max(FewestPointsOfStrips, MostPointsPerVertex * mesh.vertexCount()));
+  const NearestPickedPoints nearest(PickedPoints(cloud.points(), picked), executor);
+  const std::vector<std::uint32_t> some =
+    candidates(mesh, triangles, std::move(empty), perTriangle, median, nearest, executor);
+  return some.empty()
+    ? std::vector<std::vector<std::uint32_t>>()
+    : StripSearch(mesh, triangles, nearest, MediansOfNoise * median, executor).stripsAmong(some);
 }
 }

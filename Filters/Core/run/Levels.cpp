@@ -20,9 +20,9 @@ namespace
 constexpr double PartOfGrowth = 0.5;
 /// Of the progress of a level that is simplified.
 constexpr double PartOfMaking = 0.9;
-/// Of the whole progress, the ends of the first run of the largest level, of the largest level, of those that grow, of those that are simplified from it, and of
-/// the mesh for those that have lost parts.
-constexpr double EndOfFirst = 0.5, EndOfLargest = 0.6, EndOfGrown = 0.75, EndOfSimplified = 0.9,
+/// Of the whole progress, the ends of the first run of the largest level, of the largest level, of those that grow, of
+/// those that are simplified from it, and of the mesh for those that have lost parts.
+constexpr double EndOfFirstRun = 0.5, EndOfLargest = 0.6, EndOfGrown = 0.75, EndOfSimplified = 0.9,
                  EndOfSecondLargest = 0.95;
 /// Rounds of the fidelity smooth noise. In a mesh of fewer than half of the vertices they would smooth thin parts, too.
 constexpr std::uint64_t TimesFewerIfNoisy = 2;
@@ -226,18 +226,19 @@ LargestLevel largestLevel(
   const RunRequest own = requestWith(request, parameters);
   PhaseTimes times;
   times.enter(Phase::Start);
-  Beginning beginning = run.begin(vertices, { 0., EndOfLargest * StartOfLearning });
+  Beginning beginning = run.begin(vertices, { 0., EndOfFirstRun * StartOfLearning });
   times.leave();
   Checkpoint none({}, request.cloud, request.parameters);
   LearntRun learnt = run.learn(verticesToLearn(own), beginning,
-    { EndOfLargest * StartOfLearning, EndOfLargest * EndOfLearning }, none);
+    { EndOfFirstRun * StartOfLearning, EndOfFirstRun * EndOfLearning }, none);
   learnt.isLearnt = true;
   std::optional<LearntRun> made;
-  Reconstruction result = run.finish(learnt, vertices, { EndOfLargest * EndOfLearning, EndOfFirst },
-    [&made](const LearntRun& last) { made.emplace(last); });
+  Reconstruction result =
+    run.finish(learnt, vertices, { EndOfFirstRun * EndOfLearning, EndOfFirstRun },
+      [&made](const LearntRun& last) { made.emplace(last); });
   result.times.add(times);
-  const double middle = 0.5 * (EndOfFirst + EndOfLargest);
-  const Progress better = partOf(progress, EndOfFirst, middle),
+  const double middle = 0.5 * (EndOfFirstRun + EndOfLargest);
+  const Progress better = partOf(progress, EndOfFirstRun, middle),
                  thin = partOf(progress, middle, EndOfLargest);
   result = runWithThinParts(betterRun(std::move(result), own, better), own, thin, &*made);
   return { std::move(result), std::move(beginning), std::move(learnt), *std::move(made) };

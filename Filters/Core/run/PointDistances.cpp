@@ -229,11 +229,11 @@ private:
 }
 
 std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& cloud,
-  std::size_t most, std::size_t mostOfSupport, const Progress& progress, const Executor& executor)
+  const PointsToMeasure& most, const Progress& progress, const Executor& executor)
 {
   const PlacesOfCloud places(mesh, cloud, executor);
   PointDistances result;
-  result.points = evenlyPicked(cloud.points().size(), most);
+  result.points = evenlyPicked(cloud.points().size(), most.all);
   const std::size_t count = result.points.size();
   result.distances.resize(count);
   result.isBeyondBoundary.resize(count);
@@ -245,8 +245,9 @@ std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& 
   SupportSum sum(mesh, cloud);
   const RowParts rows(mesh.indexEnd(), executor);
   const NumberedTriangles triangles(mesh, executor);
-  std::vector<std::uint8_t> hasPoints(triangles.all().size(), 0);
-  const std::size_t ofSupport = std::min(count, mostOfSupport);
+  PointsOnTriangles onTriangles{ std::vector<std::uint8_t>(triangles.all().size(), 0),
+    std::min(count, most.onTriangles) };
+  const std::size_t ofSupport = std::min(count, most.forSupport);
   std::vector<PlaceOnMesh> found(std::min(count, PointsPerBlock));
   for (std::size_t first = 0; first < count; first += PointsPerBlock)
   {
@@ -264,8 +265,13 @@ std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& 
           result.distances[i] = std::sqrt(place.squaredDistance);
           result.isBeyondBoundary[i] = isBeyondBoundary(place, mesh) ? 1 : 0;
           setPiece(result, i, pieceOf, place);
-          const std::uint32_t triangle = triangles.number(place.triangle[0], place.triangle[1]);
-          std::atomic_ref(hasPoints[triangle]).store(1, std::memory_order_relaxed);
+          if (onTriangles.asked > 0 && isEvenlyPicked(i, count, onTriangles.asked))
+          {
+            // Several threads may store the same.
+            std::atomic_ref(
+              onTriangles.hasPoints[triangles.number(place.triangle[0], place.triangle[1])])
+              .store(1, std::memory_order_relaxed);
+          }
         }
       });
     if (ofSupport > 0)
@@ -293,7 +299,7 @@ std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& 
   const double pointsOfEach =
     double(cloud.points().size()) / double(std::max<std::size_t>(1, ofSupport));
   return MeasuredPoints{ std::move(result), sum.result(pointsOfEach, executor),
-    std::move(hasPoints) };
+    std::move(onTriangles) };
 }
 
 PointDistances exactly(

@@ -41,19 +41,34 @@ struct VertexSupport
   double pointsPerAsked = 1.;
 };
 
+/// On which triangles points lie: on one at the closest vertex of each.
+struct PointsOnTriangles
+{
+  std::vector<std::uint8_t>
+    hasPoints;           ///< of each triangle, in the order of Mesh::forEachTriangle()
+  std::size_t asked = 0; ///< number of points
+};
+
 struct MeasuredPoints
 {
   PointDistances distances;
   VertexSupport support;
-  /// Of each triangle, in the order of Mesh::forEachTriangle(), whether a point lies on it.
-  std::vector<std::uint8_t> hasPoints;
+  PointsOnTriangles onTriangles;
 };
 
-/// Picks at most `most` points of the cloud evenly, and measures their distances to a mesh. The triangles of the closest
+/// How many points are measured at most, and how many of these, picked evenly, count.
+struct PointsToMeasure
+{
+  std::size_t all = 0;
+  std::size_t forSupport = 0;
+  std::size_t onTriangles = 0;
+};
+
+/// Picks points of the cloud evenly, and measures their distances to a mesh. The triangles of the closest
 /// vertex need not have the closest place: a point farther than four medians is measured to all triangles. No vertex may
-/// be erased. At most `mostOfSupport` of these points count for what vertices rest on. Nothing if `progress` ended it.
+/// be erased. Nothing if `progress` ended it.
 std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& cloud,
-  std::size_t most, std::size_t mostOfSupport, const Progress& progress,
+  const PointsToMeasure& most, const Progress& progress,
   const Executor& executor = Executor::sequential());
 
 /// The same points, all of them measured to all triangles: where layers are closer than edges are long, the closest

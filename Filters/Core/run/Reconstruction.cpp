@@ -364,8 +364,9 @@ Reconstruction withFurtherRuns(
 
 double partOfFirstRun(const Parameters& parameters, bool hasFirstMesh)
 {
-  const bool isLast = hasFirstMesh || !mayLearnOtherwise(parameters);
-  return isLast || parameters.fidelity == Fidelity::Draft ? 1. : PartIfOthersMayFollow;
+  const bool isLast = hasFirstMesh || !mayLearnOtherwise(parameters) ||
+    (parameters.fidelity == Fidelity::Draft && parameters.numberOfVertices >= LeastLearntToFit);
+  return isLast ? 1. : PartIfOthersMayFollow;
 }
 
 Reconstruction reconstruct(const PointCloud& cloud, const Parameters& parameters,

@@ -78,7 +78,7 @@ inline constexpr double EndOfLearning = 0.4;
 inline constexpr double StartOfDescription = 0.92;
 
 /// How much of the progress the first run of reconstruct() has, which is the only one of most clouds. Whether others
-/// follow is known only when it is over.
+/// follow is known only when it is over: if none does, this is the last that is told.
 double partOfFirstRun(const Parameters& parameters, bool hasFirstMesh = false);
 
 /// Grows a mesh over a cloud with an extent until a stopping rule is met. It starts from `first`

@@ -260,8 +260,8 @@ Reconstruction Run::describe(LearntRun run, std::uint64_t asked, ProgressPart pa
     result.stopReason = whyEnded();
   }
   const bool isWhole = result.stopReason != StopReason::Cancelled;
-  const Progress describing = partOf(progress_, endOfBars, part.end);
   const double middle = endOfBars + PartBeforeExplanation * (part.end - endOfBars);
+  const Progress describing = partOf(progress_, endOfBars, middle);
   const Progress explaining = partOf(progress_, middle, part.end);
   neuralmesh::describe(std::move(run.learnt), cloud(), isWhole ? &request_.cloud : nullptr,
     request_.hints, result, describing, interruptible_);

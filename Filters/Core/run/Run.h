@@ -135,7 +135,7 @@ Reconstruction runWithThinParts(Reconstruction result, const RunRequest& request
 /// more.
 Reconstruction runWithNarrowHoles(
   Reconstruction result, const RunRequest& request, const Progress& progress);
-/// `result`, or what is better by all three.
+/// `result`, or what betterRun(), runWithThinParts() and runWithNarrowHoles() make of it, one after the other.
 Reconstruction withFurtherRuns(
   Reconstruction result, const RunRequest& request, const Progress& progress);
 }

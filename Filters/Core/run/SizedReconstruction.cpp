@@ -272,7 +272,7 @@ private:
   {
     const ProgressPart part = next(PartOfResult);
     const std::uint64_t vertices = made.vertices();
-    // With error bars, describe() takes time and reports its own progress.
+    // Whoever ends the run here gets the mesh without a report.
     if (!request_.parameters.computeUncertainty && !progress_(part.begin))
     {
       made.run.result.stopReason = StopReason::Cancelled;

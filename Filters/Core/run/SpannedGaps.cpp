@@ -114,8 +114,8 @@ class GapSearch
 public:
   /// `median`: of the distances between points and the mesh. `onSurface`: the distance between points that are spread
   /// evenly on it.
-  GapSearch(const Mesh& mesh, const PointCloud& cloud, float median, float onSurface,
-    const Executor& executor)
+  GapSearch(const Mesh& mesh, const NumberedTriangles& triangles, const PointCloud& cloud,
+    float median, float onSurface, const Executor& executor)
     : mesh_(mesh)
     , cloud_(cloud)
     , executor_(executor)
@@ -124,7 +124,7 @@ public:
     , isNoisy_(MediansOfGap * median > PartOfNoise * SpacingsOfGap * onSurface)
     , nearest_(cloud.points(), executor)
     , spacing_(nearest_, isNoisy_ ? onSurface : 0.f)
-    , triangles_(mesh, executor)
+    , triangles_(triangles)
     , places_(triangles_.all().size(), Place::NearPoints)
     , isTaken_(triangles_.all().size(), 0)
   {
@@ -133,7 +133,7 @@ public:
   /// A triangle is looked at only if one of its vertices is bare.
   template <typename IsBare>
   std::vector<Patch> patches(
-    const IsBare& isBare, std::span<const std::uint8_t> hasPoints, std::size_t points)
+    const IsBare& isBare, const std::vector<std::vector<std::uint32_t>>& strips)
   {
     executor_.forEachRange(places_.size(), TrianglesPerRange,
       [&](std::size_t begin, std::size_t end)
@@ -158,8 +158,7 @@ public:
         }
       }
     }
-    for (const std::vector<std::uint32_t>& strip : bareStrips(mesh_, triangles_,
-           { hasPoints, points, nearest_, median_ }, cloud_, MediansOfGap * median_, executor_))
+    for (const std::vector<std::uint32_t>& strip : strips)
     {
       patches.push_back(patchOf(strip));
     }
@@ -297,32 +296,37 @@ private:
   bool isNoisy_;
   NearestPoints nearest_;
   SpacingAtGap spacing_;
-  NumberedTriangles triangles_;
+  const NumberedTriangles& triangles_;
   std::vector<Place> places_;
   std::vector<std::uint8_t> isTaken_;
 };
 }
 
 std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& support,
-  std::span<const std::uint8_t> hasPoints, const PointCloud& cloud, const PointDistances& distances,
+  const PointsOnTriangles& onTriangles, const PointCloud& cloud, const PointDistances& distances,
   const Executor& executor)
 {
   const double least = LeastPointsAtVertex * support.pointsPerAsked;
-  if (support.weights.size() != mesh.indexEnd() || distances.distances.empty())
+  const double all = areaOf(mesh, executor);
+  if (support.weights.size() != mesh.indexEnd() || distances.distances.empty() || !(all > 0.))
   {
     return {};
   }
-  const double all = areaOf(mesh, executor);
-  if (!(all > 0.))
+  const float median = medianOf(distances.distances, executor);
+  const NumberedTriangles triangles(mesh, executor);
+  const std::vector<std::vector<std::uint32_t>> strips =
+    bareStrips(mesh, triangles, onTriangles, cloud, median, executor);
+  if (strips.empty() &&
+    std::none_of(support.weights.begin(), support.weights.end(),
+      [least](double weight) { return weight < least; }))
   {
     return {};
   }
   const auto onSurface = float(std::sqrt(all / double(cloud.differentCount())));
-  GapSearch search(mesh, cloud, medianOf(distances.distances, executor), onSurface, executor);
+  GapSearch search(mesh, triangles, cloud, median, onSurface, executor);
   std::vector<SpannedGap> gaps;
   for (const Patch& patch :
-    search.patches([&](VertexIndex v) { return support.weights[v] < least; }, hasPoints,
-      distances.points.size()))
+    search.patches([&](VertexIndex v) { return support.weights[v] < least; }, strips))
   {
     if (patch.area > 0.)
     {

@@ -8,8 +8,6 @@
 
 #include <Eigen/Core>
 
-#include <cstdint>
-#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -26,8 +24,8 @@ struct SpannedGap
 /// spacing there, and than the noise; in noise, those beside them count, too, half as far away.
 /// Less is enough in a ring of points, such as the wall of a bore, and along a strip, see bareStrips(). Sparse parts of
 /// a surface are no gaps.
-/// `distances` are those of points to the mesh, and `hasPoints` tells which of its triangles they lie on.
+/// `distances` are those of points to the mesh.
 std::vector<SpannedGap> spannedGaps(const Mesh& mesh, const VertexSupport& support,
-  std::span<const std::uint8_t> hasPoints, const PointCloud& cloud, const PointDistances& distances,
+  const PointsOnTriangles& onTriangles, const PointCloud& cloud, const PointDistances& distances,
   const Executor& executor = Executor::sequential());
 }

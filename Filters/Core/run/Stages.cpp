@@ -37,6 +37,9 @@ constexpr double VerticesOfDensePiece = 100.;
 /// growth loses them.
 constexpr std::uint64_t FewestDistributedLater = 10000;
 
+/// Of the progress of an explanation.
+constexpr double EndOfMeasuring = 0.7, EndOfExplaining = 0.85;
+
 /// A mesh that is finished again is close to its points already. More rounds gain almost nothing.
 constexpr int FidelityRoundsAgain = 2;
 
@@ -432,10 +435,10 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
   const std::size_t vertices = result.surface.vertexCount();
   const auto mostOf = [&](std::size_t some) { return explainsAll ? cloud.points().size() : some; };
   rules.usuallyAsked = std::max(FewestExplained, PointsPerVertexExplained * vertices);
-  std::optional<MeasuredPoints> measured =
-    measurePoints(result.surface, cloud, mostOf(rules.usuallyAsked),
-      mostOf(PointsPerVertexOfSupport * vertices), partOf(progress, 0., 0.9), executor);
-  if (!measured || !progress(0.9))
+  std::optional<MeasuredPoints> measured = measurePoints(result.surface, cloud,
+    { mostOf(rules.usuallyAsked), mostOf(PointsPerVertexOfSupport * vertices), rules.usuallyAsked },
+    partOf(progress, 0., EndOfMeasuring), executor);
+  if (!measured || !progress(EndOfMeasuring))
   {
     return false;
   }
@@ -443,18 +446,18 @@ bool explainPoints(const PointCloud& cloud, const PointCloud* left, double least
   confirmTears(result.surface, cloud, *result.explanation, executor);
   findLeftOut(cloud, rules.isLeftOut, *result.explanation);
   result.explanation->scatteredShare = scatteredShare(cloud, executor);
-  if (!progress(1.))
+  if (!progress(EndOfExplaining))
   {
     return false;
   }
   // An interruption leaves neither.
-  result.gaps = spannedGaps(result.surface, measured->support, measured->hasPoints, cloud,
+  result.gaps = spannedGaps(result.surface, measured->support, measured->onTriangles, cloud,
     result.explanation->asked, executor);
   if (result.finish && !result.finish->isClean)
   {
     result.noiseWebs = findNoiseWebs(result.surface, measured->support, cloud, executor);
   }
   result.support = std::move(measured->support);
-  return true;
+  return progress(1.);
 }
 }

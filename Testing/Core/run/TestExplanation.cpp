@@ -253,7 +253,8 @@ TEST(Explanation, SupportBySome)
 {
   const PointCloud cloud(sphere(20000));
   const Mesh mesh = buildMesh(makeSphere(40), cloud);
-  const auto measured = measurePoints(mesh, cloud, All, 7000, [](double) { return true; });
+  const auto measured =
+    measurePoints(mesh, cloud, { .all = All, .forSupport = 7000 }, [](double) { return true; });
   ASSERT_TRUE(measured);
   EXPECT_EQ(measured->distances.distances, distancesTo(mesh, cloud, All).distances);
   const VertexSupport some = supportOf(mesh, cloud, 7000);

@@ -50,11 +50,11 @@ struct Pole
       });
     cloud.emplace(points);
     const Mesh mesh = buildMesh(makeSphere(40), *cloud);
-    const auto measured =
-      measurePoints(mesh, *cloud, points.size(), points.size(), [](double) { return true; });
+    const auto measured = measurePoints(
+      mesh, *cloud, { points.size(), points.size(), points.size() }, [](double) { return true; });
     result.support = measured->support;
     result.gaps =
-      spannedGaps(mesh, result.support, measured->hasPoints, *cloud, measured->distances);
+      spannedGaps(mesh, result.support, measured->onTriangles, *cloud, measured->distances);
   }
 
   bool isWarnedOf(const Parameters& parameters = {}) const
