@@ -53,6 +53,8 @@ constexpr int MostDivisions = 6;
 /// and noise besides.
 constexpr float WidthOfEmpty = 1.5f;
 constexpr double SpacingsIfEmpty = 0.9;
+/// Of the triangles: where more of them are bare, points lie on scan lines, and what is between them is no strip.
+constexpr double MostCandidates = 0.2;
 /// Noise reaches so many median distances from the mesh ...
 constexpr float MediansOfNoise = 5.f;
 /// ... and there so many points may be closer than the one that is closest along the surface.
@@ -508,7 +510,8 @@ std::vector<std::vector<std::uint32_t>> bareStrips(const Mesh& mesh,
   const NearestPickedPoints nearest(PickedPoints(cloud.points(), picked), executor);
   const std::vector<std::uint32_t> some =
     candidates(mesh, triangles, std::move(empty), perTriangle, median, nearest, executor);
-  return some.empty()
+  const bool isEverywhere = double(some.size()) > MostCandidates * double(triangles.all().size());
+  return some.empty() || isEverywhere
     ? std::vector<std::vector<std::uint32_t>>()
     : StripSearch(mesh, triangles, nearest, MediansOfNoise * median, executor).stripsAmong(some);
 }

@@ -143,7 +143,7 @@ TEST(SpannedGaps, LongStripsHardlyWiderThanTriangles)
 // Promise: the lines of a scan, though their points are much closer than they, have no gaps between them.
 TEST(SpannedGaps, ScanLinesAreNoGaps)
 {
-  constexpr int Lines = 100, PointsOnLine = 1000;
+  constexpr int Lines = 66, PointsOnLine = 1000;
   std::vector<Eigen::Vector3d> points;
   for (int line = 0; line < Lines; ++line)
   {
