@@ -46,8 +46,10 @@ constexpr std::size_t FewestCenters = 30;
 /// Triangles are divided until parts are as small, in these distances, and two bare ones are neighbours if they are as close.
 constexpr float MostRadius = 0.5f;
 constexpr float BetweenBare = 0.9f;
-/// ... or so many times, as where points are repeated.
-constexpr int MostDivisions = 6;
+/// ... or so many times.
+constexpr int MostDivisions = 4;
+/// Of triangles that are looked at together, on average. Between scan lines there are more, and to search them takes long.
+constexpr std::size_t MostPlacesPerTriangle = 24;
 /// First, triangles without a point are looked for: a strip has as many as if its area were so many spacings wide. Random
 /// ones rarely hang together like that. With few points a triangle they do: so their centres are as far from points, too,
 /// and noise besides.
@@ -316,14 +318,19 @@ private:
     executor_.forEachRange(count, TrianglesProbed,
       [&](std::size_t begin, std::size_t end)
       {
-        for (std::size_t i = begin; i < end; ++i)
+        std::vector<BarePlace>& part = parts[begin / TrianglesProbed];
+        for (std::size_t i = begin;
+             i < end && part.size() <= MostPlacesPerTriangle * TrianglesProbed; ++i)
         {
-          probe(candidates[i], parts[begin / TrianglesProbed]);
+          probe(candidates[i], part);
         }
       });
     for (const std::vector<BarePlace>& part : parts)
     {
-      bare_.insert(bare_.end(), part.begin(), part.end());
+      if (part.size() <= MostPlacesPerTriangle * TrianglesProbed)
+      {
+        bare_.insert(bare_.end(), part.begin(), part.end());
+      }
     }
   }
 

@@ -14,7 +14,7 @@ namespace neuralmesh
 /// The triangles of a mesh, by their numbers, in each strip of it that has no points and is too long for chance, the
 /// longest first. Where a gap of the cloud is hardly wider than triangles, each of them reaches points, and no place is
 /// far from all of them: but places as bare as one in a thousand lie side by side along it. The distance between points is
-/// measured around the strip; where sixteen points or more lie in one place, there is none.
+/// measured around the strip; where seventeen points or more lie in one place, there is none.
 ///
 /// `median`: of the distances between points and the mesh.
 std::vector<std::vector<std::uint32_t>> bareStrips(const Mesh& mesh,
