@@ -166,7 +166,7 @@ TEST(Simplification, ToEachNumberGivesWhatOneGives)
 // without erased vertices.
 TEST(Simplification, CanBeEndedAnywhere)
 {
-  const Mesh original = buildMesh(makeTorus(0.4, 96), cleanSphere());
+  const Mesh original = buildMesh(makeTorus(0.4, 48), cleanSphere());
   const std::size_t before = original.vertexCount();
   constexpr std::size_t Count = 200;
   std::size_t all = 0;
