@@ -242,7 +242,7 @@ def main():
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--picture")
     parser.add_argument("rows", nargs="*")
-    given = parser.parse_args()
+    given = parser.parse_intermixed_args()
     chosen = [cloud for cloud in rows()
               if not given.rows or any(fnmatch.fnmatch(cloud.name, pattern) for pattern in given.rows)]
     print("| cloud | seed | within one, % | within two, % | error | error bar | error without noise | CPU | met |")
