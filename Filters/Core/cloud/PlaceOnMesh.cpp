@@ -14,13 +14,22 @@ namespace
 {
 using Lanes = FourVectors::Lanes;
 
+/// The part of a side, as squared, at which the place closest to a point is that is so far along it.
+Lanes partOfSide(Lanes along, Lanes squared)
+{
+  constexpr Lanes zero{};
+  return squared > zero ? clampedToOne(along / squared) : zero;
+}
+
 /// The triangles of a vertex as one sees them from there: the sides from it to its neighbours, with the squares of
 /// their lengths and their dot products with the point, four at a time. The first one comes once more behind the last.
+/// Each side is one of two triangles: the place on it that is closest, and the squared distance of that but for that from
+/// the vertex to the point, are found once.
 struct Sides
 {
   static constexpr std::size_t Most = Ring::Capacity + 1 + 4;
 
-  std::array<float, Most> x, y, z, squaredLength, along;
+  std::array<float, Most> x, y, z, squaredLength, along, part, value;
 
   Sides(Vector4 point, const Mesh& mesh, VertexIndex v)
   {
@@ -35,8 +44,12 @@ struct Sides
       store(sides.x, x, slot);
       store(sides.y, y, slot);
       store(sides.z, z, slot);
-      store(squaredNorm(sides), squaredLength, slot);
-      store(dot(sides, toPoint), along, slot);
+      const Lanes squared = squaredNorm(sides), alongSides = dot(sides, toPoint);
+      const Lanes on = partOfSide(alongSides, squared);
+      store(squared, squaredLength, slot);
+      store(alongSides, along, slot);
+      store(on, part, slot);
+      store(on * (on * squared - 2.f * alongSides), value, slot);
     }
   }
 
@@ -88,17 +101,13 @@ ClosestInFour closestInFour(const Sides& sides, unsigned slot)
   const Lanes c = firstSquared * secondAlong - mixed * firstAlong;
 
   // On the sides.
-  const auto partOf = [&](Lanes along, Lanes squared)
-  { return squared > zero ? clampedToOne(along / squared) : zero; };
-  const Lanes onFirst = partOf(firstAlong, firstSquared);
-  const Lanes onSecond = partOf(secondAlong, secondSquared);
-  ClosestInFour closest{ onFirst * (onFirst * firstSquared - 2.f * firstAlong), onFirst, zero };
-  const Lanes ofSecond = onSecond * (onSecond * secondSquared - 2.f * secondAlong);
-  closest.keep(ofSecond < closest.value, ofSecond, zero, onSecond);
+  ClosestInFour closest{ Sides::load(sides.value, slot), Sides::load(sides.part, slot), zero };
+  const Lanes ofSecond = Sides::load(sides.value, slot + 1);
+  closest.keep(ofSecond < closest.value, ofSecond, zero, Sides::load(sides.part, slot + 1));
 
   // Opposite to the vertex.
   const Lanes squared = firstSquared + secondSquared - 2.f * mixed;
-  const Lanes t = partOf(secondAlong - firstAlong - mixed + firstSquared, squared), s = one - t;
+  const Lanes t = partOfSide(secondAlong - firstAlong - mixed + firstSquared, squared), s = one - t;
   const Lanes ofOpposite = s * s * firstSquared + t * t * secondSquared +
     2.f * (s * t * mixed - s * firstAlong - t * secondAlong);
   closest.keep((b + c >= determinant) & (ofOpposite < closest.value), ofOpposite, s, t);

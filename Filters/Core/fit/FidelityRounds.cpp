@@ -92,10 +92,14 @@ bool FidelityRounds::run(Fidelity fidelity, int rounds, bool isClean, bool isFix
   {
     return false;
   }
+  if (mesh_.vertexCount() >= vertexCount_)
+  {
+    return true;
+  }
+  isUnbroken_ = false;
   // A flip for the sake of shapes would cut off what is sharp now.
-  return mesh_.vertexCount() >= vertexCount_ ||
-    refine(mesh_, vertexCount_, partOf(progress, 1., 1.),
-      isClean ? EdgesAfterSplit::FlipFlat : EdgesAfterSplit::Flip);
+  return refine(mesh_, vertexCount_, partOf(progress, 1., 1.),
+    isClean ? EdgesAfterSplit::FlipFlat : EdgesAfterSplit::Flip);
 }
 
 bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
@@ -161,7 +165,8 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
   // What would mend it in the end rounds off creases.
   const AfterBrokenMoves after =
     takeBackBrokenMoves(mesh_, before, partOf(progress, 1., 1.), executor_);
-  mayBeBroken_ = after != AfterBrokenMoves::Sound;
+  mayBeBroken_ = after == AfterBrokenMoves::Broken;
+  isUnbroken_ = after == AfterBrokenMoves::Untouched;
   return after != AfterBrokenMoves::Cancelled && progress(1.);
 }
 
@@ -169,6 +174,7 @@ bool FidelityRounds::sharpen(bool distributes, const Progress& progress)
 /// have next to none, and the search for them costs as much as a round.
 bool FidelityRounds::sharpenCorners(const Progress& progress)
 {
+  isUnbroken_ = false;
   const auto follow = [&](const auto& change)
   {
     fit_.follow(change(mesh_, fit_.placedSamples(), fit_.variance(), executor_));

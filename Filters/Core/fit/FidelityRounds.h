@@ -50,6 +50,8 @@ public:
   /// would hold what a repair rounds off.
   void stayUnbroken() { staysUnbroken_ = true; }
 
+  /// Whether it is known that no triangles of the mesh intersect or fold, as the last round has seen.
+  bool isUnbroken() const { return isUnbroken_; }
   double lambda() const { return lambda_; }
   std::size_t heldVertices() const { return heldVertices_; }
   /// Of a noisy cloud.
@@ -69,6 +71,7 @@ private:
   bool keepsPlaces_;
   const Executor& executor_;
   bool mayBeBroken_ = true; ///< by intersections or folds
+  bool isUnbroken_ = false;
   bool staysUnbroken_ = false;
   double lambda_ = 0.;
   double least_ = 0.; ///< lambda once the mesh has settled

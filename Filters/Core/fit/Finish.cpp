@@ -150,7 +150,7 @@ bool Finish::isWorseThan(const StoredMesh& before, FitGuard& guard) const
 /// So many rounds of the fit, and what goes with them.
 bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
 {
-  staysUnbroken_ = false;
+  staysUnbroken_ = isUnbroken_ = false;
   const auto samples = std::size_t(plan_.samplesPerVertex * double(plan_.vertexCount));
   // With fewer samples, more rounds would follow single ones.
   const bool areEnough = double(std::min(samples, cloud_.points().size())) >
@@ -284,7 +284,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   }
   if (!plan_.surface)
   {
-    fillCracks(mesh_);
+    isUnbroken_ = fillCracks(mesh_) == 0 && isUnbroken_;
   }
   if (!repair(*surfaceFit, guard, partOf(report, 1., 1.)) || !report(1.))
   {
@@ -354,7 +354,8 @@ bool Finish::repair(SurfaceFit& surfaceFit, FitGuard& guard, const Progress& pro
     return false;
   }
   const StoredMesh before(mesh_, executor_);
-  const IntersectionRepair repair = repairIntersections(mesh_, progress, executor_);
+  const IntersectionRepair repair =
+    isUnbroken_ ? IntersectionRepair() : repairIntersections(mesh_, progress, executor_);
   report_.repaired = repair.before;
   report_.left = repair.after;
   if (!progress(1.))
@@ -504,6 +505,7 @@ bool Finish::improve(SurfaceFit& surfaceFit, const Progress& progress)
   {
     return false;
   }
+  isUnbroken_ = rounds.isUnbroken();
   report_.noise = surfaceFit.noise();
   report_.smoothness = rounds.lambda();
   report_.outlierShare = surfaceFit.outlierShare();

@@ -116,5 +116,6 @@ private:
   PointViews viewOf_;
   FinishReport report_;
   bool staysUnbroken_ = false; ///< no round may break triangles
+  bool isUnbroken_ = false;    ///< none are broken, as the last round has seen
 };
 }

@@ -36,7 +36,9 @@ AfterBrokenMoves takeBackBrokenMoves(
         isAsked[v] = hasMoved = true;
       }
     }
-    result = broken.empty() ? AfterBrokenMoves::Sound : AfterBrokenMoves::Broken;
+    result = !broken.empty() ? AfterBrokenMoves::Broken
+      : time == 0            ? AfterBrokenMoves::Untouched
+                             : AfterBrokenMoves::Sound;
   }
   return result;
 }

@@ -11,6 +11,7 @@ namespace neuralmesh
 /// What is left once moves were taken back.
 enum class AfterBrokenMoves
 {
+  Untouched, ///< nothing was broken anywhere
   Sound,
   Broken, ///< some triangles intersect or fold, though none of their vertices have moved
   Cancelled

@@ -34,23 +34,16 @@ public:
   /// they do, too, where they enclose a vertex that is farther away.)
   bool closeUp(VertexIndex center)
   {
-    collect(center);
-    const auto isAround = [&](VertexIndex v) { return lastCenter_[v] == center; };
-    auto euler = long(around_.size());
-    for (const VertexIndex v : around_)
+    const std::size_t withNeighbors = collect(center);
+    // Each vertex has a part of the Euler characteristic: half of its edges, and a third of its triangles. Of one with all
+    // its neighbours that is a sixth of what its valence lacks.
+    long sixths = 0;
+    for (std::size_t i = 0; i < around_.size(); ++i)
     {
-      const Ring& ring = mesh_.ring(v);
-      for (const VertexIndex neighbor : ring)
-      {
-        euler -= neighbor > v && isAround(neighbor) ? 1 : 0;
-      }
-      for (unsigned slot = 0; slot < ring.triangleCount(); ++slot)
-      {
-        const VertexIndex b = ring[slot], c = ring[ring.after(slot)];
-        euler += b > v && c > v && isAround(b) && isAround(c) ? 1 : 0;
-      }
+      sixths +=
+        i < withNeighbors ? -mesh_.valenceExcess(around_[i]) : sixthsAtRim(around_[i], center);
     }
-    return euler < 1;
+    return sixths < 6;
   }
 
   /// How many lie within some edges of a strip on that side of it where they are fewer. Where both sides hang
@@ -81,14 +74,15 @@ public:
   }
 
 private:
-  void collect(VertexIndex center)
+  /// Returns how many have all their neighbours with them. These come first.
+  std::size_t collect(VertexIndex center)
   {
     around_.assign(1, center);
     lastCenter_[center] = center;
-    spread(center, ringsOfLoop_);
+    return spread(center, ringsOfLoop_);
   }
 
-  void spread(VertexIndex center, int rings)
+  std::size_t spread(VertexIndex center, int rings)
   {
     std::size_t next = 0;
     for (int ring = 0; ring < rings; ++ring)
@@ -105,6 +99,23 @@ private:
         }
       }
     }
+    return next;
+  }
+
+  /// The part of the Euler characteristic at a vertex of which some neighbours may not be around `center`.
+  int sixthsAtRim(VertexIndex v, VertexIndex center) const
+  {
+    const Ring& ring = mesh_.ring(v);
+    const auto isAround = [&](VertexIndex neighbor) { return lastCenter_[neighbor] == center; };
+    int sixths = 6;
+    bool wasAround = !ring.isOpen() && isAround(ring.back());
+    for (const VertexIndex neighbor : ring)
+    {
+      const bool isNow = isAround(neighbor);
+      sixths += (isNow && wasAround ? 2 : 0) - (isNow ? 3 : 0);
+      wasAround = isNow;
+    }
+    return sixths;
   }
 
   /// How many of those around `center` hang together with one of them, which are then not around it any more.
