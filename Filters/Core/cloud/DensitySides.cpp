@@ -48,8 +48,8 @@ constexpr double LeastVariance = 0.5;
 constexpr double MostOfSlope = 0.8;
 /// Of what the law explains: the most by a place that sees the other sides.
 constexpr double MostOpposite = 0.5;
-/// Of the probes of a piece that look to one side.
-constexpr double LeastAgreement = 0.75;
+/// Of probes: those that face a scanner less those that look away, for all face it where a surface was seen from it.
+constexpr double LeastMajority = 0.5;
 
 struct DensityProbe
 {
@@ -147,8 +147,9 @@ public:
       return std::nullopt;
     }
     const std::vector<int> result = directionsTo(best.place);
+    // A scanner sees one side only: a place from which there are both is none of the other sides, either.
     const Station opposite = bestIn(surroundings(),
-      [&](const Eigen::Vector3d& place) { return agreement(place, result) < 0; });
+      [&](const Eigen::Vector3d& place) { return agreement(place, result) < -LeastMajority; });
     return explained(opposite) > MostOpposite * explained(best) ? std::nullopt
                                                                  : std::optional(result);
   }
@@ -272,21 +273,22 @@ private:
     std::vector<int> result;
     for (const auto& [number, sum] : countsFrom(place))
     {
-      const bool isClear = std::abs(sum) > (2. * LeastAgreement - 1.) * number;
+      const bool isClear = std::abs(sum) > LeastMajority * number;
       result.push_back(!isClear ? 0 : sum > 0 ? 1 : -1);
     }
     return result;
   }
 
-  int agreement(const Eigen::Vector3d& place, const std::vector<int>& directions) const
+  /// What faces the place less what looks away, of all probes, with these directions.
+  double agreement(const Eigen::Vector3d& place, const std::vector<int>& directions) const
   {
-    int result = 0;
+    double result = 0.;
     const std::vector<std::array<int, 2>> counts = countsFrom(place);
     for (std::size_t i = 0; i < counts.size(); ++i)
     {
-      result += directions[i] * counts[i][1];
+      result += double(directions[i] * counts[i][1]);
     }
-    return result;
+    return result / double(probes_.size());
   }
 
   std::vector<DensityProbe> probes_;

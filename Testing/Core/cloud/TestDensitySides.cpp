@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -19,48 +19,43 @@ namespace
 constexpr std::size_t PointsOfScan = 30000;
 /// Half of the sides of a room.
 const Eigen::Vector3d RoomSize(1.5, 1., 0.6);
+const Eigen::Vector3d PlaceOfScanner(0.6, -0.3, 0.1);
 
-/// Where a look from within ends at the walls.
-Eigen::Vector3d onWalls(const Eigen::Vector3d& from, const Eigen::Vector3d& look)
-{
-  double way = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i)
-  {
-    way = std::min(way, ((look[i] > 0. ? 1. : -1.) * RoomSize[i] - from[i]) / look[i]);
-  }
-  return from + way * look;
-}
-
-/// What a scanner in the room sees in even angles.
-std::vector<Eigen::Vector3d> scannedFrom(const Eigen::Vector3d& scanner)
+/// What a scanner sees in even angles within a room.
+std::vector<Eigen::Vector3d> scanOfRoom()
 {
   Random random(1);
   std::vector<Eigen::Vector3d> points;
   while (points.size() < PointsOfScan)
   {
-    const Eigen::Vector3d direction = randomDirection(random);
-    const double length = direction.norm();
-    if (length > 0.01 && length < 0.5)
+    const Eigen::Vector3d look = randomDirection(random);
+    if (look.norm() > 1.)
     {
-      points.push_back(onWalls(scanner, direction / length));
+      continue;
     }
+    double way = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i)
+    {
+      way = std::min(way, (std::copysign(RoomSize[i], look[i]) - PlaceOfScanner[i]) / look[i]);
+    }
+    points.push_back(PlaceOfScanner + way * look);
   }
   return points;
 }
 
-/// Points on the walls, of which each is kept by chance.
-std::vector<Eigen::Vector3d> evenlyOnWalls(
-  const std::function<double(const Eigen::Vector3d&)>& chanceAt)
+/// Points on the walls of a room, as dense as e^(slope x).
+std::vector<Eigen::Vector3d> pointsOnWalls(double slope)
 {
   Random random(2);
   std::vector<Eigen::Vector3d> points;
   while (points.size() < PointsOfScan)
   {
-    // The walls are thin boxes of the same thickness.
-    const Eigen::Vector3d at = 2.02 * RoomSize.cwiseProduct(randomDirection(random));
-    const Eigen::Array3d inside = RoomSize.array() - at.array().abs();
-    const bool isNearWall = inside.minCoeff() < 0.006 && inside.minCoeff() > -0.006;
-    if (isNearWall && randomDirection(random).x() + 0.5 < chanceAt(at))
+    Eigen::Vector3d at = RoomSize.cwiseProduct(randomDirection(random));
+    const Eigen::Vector3d areas = RoomSize.cwiseInverse() / RoomSize.cwiseInverse().sum();
+    const double which = random.uniform();
+    const int axis = which < areas[0] ? 0 : which < areas[0] + areas[1] ? 1 : 2;
+    at[axis] = std::copysign(RoomSize[axis], at[axis]);
+    if (random.uniform() < std::exp(slope * (at.x() - RoomSize.x())))
     {
       points.push_back(at);
     }
@@ -68,45 +63,33 @@ std::vector<Eigen::Vector3d> evenlyOnWalls(
   return points;
 }
 
-TriangleMesh wall(const Eigen::Vector3d& corner, const Eigen::Vector3d& u, const Eigen::Vector3d& v)
+/// Which looks outwards.
+TriangleMesh roomAlone()
 {
-  Eigen::Matrix3d axes;
-  axes << u, v, u.cross(v);
-  return placed(makeGrid(24), axes, corner);
+  return placed(makeCube(24), 2. * RoomSize.asDiagonal(), Eigen::Vector3d::Zero());
 }
 
-/// Six walls, which look outwards.
-TriangleMesh room()
-{
-  const Eigen::Vector3d size = 2. * RoomSize;
-  const Eigen::Vector3d x(size.x(), 0., 0.), y(0., size.y(), 0.), z(0., 0., size.z());
-  TriangleMesh all = wall(-RoomSize, y, x);
-  append(all, wall(-RoomSize, x, z));
-  append(all, wall(-RoomSize, z, y));
-  append(all, wall(RoomSize, -x, -y));
-  append(all, wall(RoomSize, -z, -x));
-  append(all, wall(RoomSize, -y, -z));
-  return joined(all);
-}
+/// How far a place is from the nearest of three walls that meet in a corner.
+double fromCorner(const Eigen::Vector3d& at) { return (at + RoomSize).minCoeff(); }
 
 struct ScannedScene
 {
   ScannedScene(const TriangleMesh& triangles, const std::vector<Eigen::Vector3d>& points)
     : cloud(points)
     , mesh(buildMesh(triangles, cloud))
+    , report(orientMesh(mesh, cloud, {}))
   {
   }
 
-  /// The part of the area that faces a place, and what told so.
-  double facing(const Eigen::Vector3d& place)
+  /// The part of the triangles that face the scanner.
+  double facing() const
   {
-    report = orientMesh(mesh, cloud, {});
     const TriangleMesh result = trianglesOf(mesh, cloud);
     double count = 0.;
     for (const auto& [a, b, c] : result.triangles)
     {
       const Eigen::Vector3d &p = result.points[a], &q = result.points[b], &r = result.points[c];
-      count += (q - p).cross(r - p).dot(place - p) > 0. ? 1. : 0.;
+      count += (q - p).cross(r - p).dot(PlaceOfScanner - p) > 0. ? 1. : 0.;
     }
     return count / double(result.triangles.size());
   }
@@ -115,4 +98,55 @@ struct ScannedScene
   Mesh mesh;
   OrientationReport report;
 };
+}
+
+// What a scanner sees from within in even angles looks inwards, though it encloses a volume.
+TEST(DensitySides, ARoomLooksInwards)
+{
+  const ScannedScene scene(roomAlone(), scanOfRoom());
+  EXPECT_EQ(scene.facing(), 1.);
+  EXPECT_EQ(scene.report.main(), SideEvidence::Density);
+  EXPECT_DOUBLE_EQ(scene.report.guessedShare, 1.);
+}
+
+// A density that is even, or falls evenly, tells nothing: the volume counts.
+TEST(DensitySides, SlopesTellNothing)
+{
+  for (const double slope : { 0., 0.5, 1., 2. })
+  {
+    const ScannedScene scene(roomAlone(), pointsOnWalls(slope));
+    EXPECT_EQ(scene.facing(), 0.) << slope;
+    EXPECT_EQ(scene.report.main(), SideEvidence::Volume) << slope;
+  }
+}
+
+// Walls whose volume is a guess look to where they were scanned from. A flat one would be as dense from behind.
+TEST(DensitySides, OpenWallsLookToTheScanner)
+{
+  for (const bool isFlat : { false, true })
+  {
+    const auto isKept = [&](const Eigen::Vector3d& at)
+    { return (isFlat ? at.x() + RoomSize.x() : fromCorner(at)) < 1e-9; };
+    std::vector<Eigen::Vector3d> points = scanOfRoom();
+    std::erase_if(points, [&](const Eigen::Vector3d& at) { return !isKept(at); });
+    const ScannedScene scene(partOf(roomAlone(), isKept), points);
+    EXPECT_EQ(scene.report.main() == SideEvidence::Density, !isFlat);
+    EXPECT_TRUE(isFlat || scene.facing() == 1.);
+  }
+}
+
+// What is known of a room by more than its volume is not asked here; the number of threads changes nothing.
+TEST(DensitySides, ThreadsChangeNothing)
+{
+  const ScannedScene scene(roomAlone(), scanOfRoom());
+  const std::vector<Piece> pieces = findPieces(scene.mesh);
+  const std::vector<Side> outwards{ { SideEvidence::Volume, true } };
+  const ThreadPool threads(3);
+  const std::vector<Side> one = sidesByDensity(scene.mesh, pieces, outwards, scene.cloud);
+  const std::vector<Side> more =
+    sidesByDensity(scene.mesh, pieces, outwards, scene.cloud, threads);
+  ASSERT_TRUE(one[0].isKnown());
+  EXPECT_FALSE(one[0].isTurned);
+  EXPECT_EQ(one[0].isTurned, more[0].isTurned);
+}
 }
