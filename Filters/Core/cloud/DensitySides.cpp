@@ -29,6 +29,8 @@ constexpr double LeastRoom = 0.2;
 constexpr std::size_t DensityProbes = 400;
 /// By so many points, whose number is known to a fifth then.
 constexpr std::size_t PointsPerProbe = 32;
+/// Of the logarithm of the density: its variance where points are even, twice. No more tells nothing.
+constexpr double VarianceByChance = 2. / double(PointsPerProbe);
 /// Of the logarithm of the density: what is farther off the law lies beside a boundary or an edge, or across a gap, and
 /// counts as much as that.
 constexpr double FarthestOff = 2.;
@@ -140,6 +142,10 @@ public:
       return std::nullopt;
     }
     const double all = varianceOfAll();
+    if (all < VarianceByChance)
+    {
+      return std::nullopt;
+    }
     const auto explained = [all](const Station& station) { return 1. - station.variance / all; };
     const Station best = bestIn(box, [](const Eigen::Vector3d&) { return true; });
     if (explained(best) < LeastVariance || best.variance > MostOfSlope * varianceBesideSlope())
@@ -151,7 +157,7 @@ public:
     const Station opposite = bestIn(surroundings(),
       [&](const Eigen::Vector3d& place) { return agreement(place, result) < -LeastMajority; });
     return explained(opposite) > MostOpposite * explained(best) ? std::nullopt
-                                                                 : std::optional(result);
+                                                                : std::optional(result);
   }
 
   Eigen::AlignedBox3d surroundings() const
@@ -299,7 +305,8 @@ private:
 
 /// Those whose pieces `isAsked`.
 template <typename IsAsked>
-std::vector<DensityProbe> chosenFrom(const std::vector<DensityProbe>& probes, const IsAsked& isAsked)
+std::vector<DensityProbe> chosenFrom(
+  const std::vector<DensityProbe>& probes, const IsAsked& isAsked)
 {
   std::vector<DensityProbe> chosen;
   std::copy_if(probes.begin(), probes.end(), std::back_inserter(chosen),
@@ -353,8 +360,7 @@ std::vector<Side> sidesByDensity(const Mesh& mesh, std::span<const Piece> pieces
     const StationSearch search(probes, pieces.size(), executor);
     if (const std::optional<std::vector<int>> directions = search.directions(search.surroundings()))
     {
-      tell(*directions,
-        [&](std::size_t i) { return !known[i].isKnown() && !sides[i].isKnown(); });
+      tell(*directions, [&](std::size_t i) { return !known[i].isKnown() && !sides[i].isKnown(); });
     }
   }
   return sides;

@@ -143,8 +143,7 @@ TEST(DensitySides, ThreadsChangeNothing)
   const std::vector<Side> outwards{ { SideEvidence::Volume, true } };
   const ThreadPool threads(3);
   const std::vector<Side> one = sidesByDensity(scene.mesh, pieces, outwards, scene.cloud);
-  const std::vector<Side> more =
-    sidesByDensity(scene.mesh, pieces, outwards, scene.cloud, threads);
+  const std::vector<Side> more = sidesByDensity(scene.mesh, pieces, outwards, scene.cloud, threads);
   ASSERT_TRUE(one[0].isKnown());
   EXPECT_FALSE(one[0].isTurned);
   EXPECT_EQ(one[0].isTurned, more[0].isTurned);
