@@ -44,12 +44,11 @@ constexpr double ReachOutside = 0.6;
 constexpr std::size_t PlacesImproved = 3;
 constexpr double FirstStride = 1. / 8.;
 constexpr double LastStride = 1. / 128.;
-/// Of the variance of the logarithm of the density: what the law must explain, and how much of what an even slope
-/// leaves it may leave.
+/// Of the variance of the logarithm of the density: what the law must explain.
 constexpr double LeastVariance = 0.5;
-constexpr double MostOfSlope = 0.8;
-/// Of what the law explains: the most by a place that sees the other sides.
-constexpr double MostOpposite = 0.5;
+/// What it may leave, of what others leave: an even slope, and places that see the other sides. With so many probes that
+/// is far beyond chance.
+constexpr double MostOfOthers = 0.8;
 /// Of probes: those that face a scanner less those that look away, for all face it where a surface was seen from it.
 constexpr double LeastMajority = 0.5;
 
@@ -146,9 +145,9 @@ public:
     {
       return std::nullopt;
     }
-    const auto explained = [all](const Station& station) { return 1. - station.variance / all; };
     const Station best = bestIn(box, [](const Eigen::Vector3d&) { return true; });
-    if (explained(best) < LeastVariance || best.variance > MostOfSlope * varianceBesideSlope())
+    if (best.variance > (1. - LeastVariance) * all ||
+      best.variance > MostOfOthers * varianceBesideSlope())
     {
       return std::nullopt;
     }
@@ -156,8 +155,7 @@ public:
     // A scanner sees one side only: a place from which there are both is none of the other sides, either.
     const Station opposite = bestIn(surroundings(),
       [&](const Eigen::Vector3d& place) { return agreement(place, result) < -LeastMajority; });
-    return explained(opposite) > MostOpposite * explained(best) ? std::nullopt
-                                                                : std::optional(result);
+    return best.variance > MostOfOthers * opposite.variance ? std::nullopt : std::optional(result);
   }
 
   Eigen::AlignedBox3d surroundings() const
