@@ -145,7 +145,7 @@ public:
     {
       return std::nullopt;
     }
-    const Station best = bestIn(box, [](const Eigen::Vector3d&) { return true; });
+    const Station best = bestOf(box, [](const Eigen::Vector3d&) { return true; });
     if (best.variance > (1. - LeastVariance) * all ||
       best.variance > MostOfOthers * varianceBesideSlope())
     {
@@ -153,7 +153,7 @@ public:
     }
     const std::vector<int> result = directionsTo(best.place);
     // A scanner sees one side only: a place from which there are both is none of the other sides, either.
-    const Station opposite = bestIn(surroundings(),
+    const Station opposite = bestOf(surroundings(),
       [&](const Eigen::Vector3d& place) { return agreement(place, result) < -LeastMajority; });
     return best.variance > MostOfOthers * opposite.variance ? std::nullopt : std::optional(result);
   }
@@ -174,17 +174,26 @@ private:
     return varianceOf(values);
   }
 
-  /// What a density leaves that falls evenly in some direction.
+  /// What a density leaves that falls evenly in some direction, and is another one on each piece.
   double varianceBesideSlope() const
   {
+    std::vector<Eigen::Vector4d> means(pieceCount_, Eigen::Vector4d::Zero());
+    std::vector<double> numbers(pieceCount_, 0.);
+    for (const DensityProbe& probe : probes_)
+    {
+      means[probe.piece] +=
+        Eigen::Vector4d(probe.place.x(), probe.place.y(), probe.place.z(), probe.logDensity);
+      numbers[probe.piece] += 1.;
+    }
     const auto count = Eigen::Index(probes_.size());
-    Eigen::MatrixXd places(count, 4);
+    Eigen::MatrixXd places(count, 3);
     Eigen::VectorXd densities(count);
     for (Eigen::Index i = 0; i < count; ++i)
     {
       const DensityProbe& probe = probes_[std::size_t(i)];
-      places.row(i) << (probe.place - bounds_.center()).transpose(), bounds_.diagonal().norm();
-      densities[i] = probe.logDensity;
+      const Eigen::Vector4d mean = means[probe.piece] / numbers[probe.piece];
+      places.row(i) = (probe.place - mean.head<3>()).transpose();
+      densities[i] = probe.logDensity - mean[3];
     }
     const Eigen::VectorXd off = densities - places * places.colPivHouseholderQr().solve(densities);
     std::vector<double> values(off.begin(), off.end());
@@ -206,7 +215,17 @@ private:
     return { place, varianceOf(values) };
   }
 
-  /// The best station in a box, of those that `isAsked`.
+  /// The best station in a box, of those that `isAsked`. Most are among what they see, so it is looked there more
+  /// closely.
+  template <typename IsAsked>
+  Station bestOf(const Eigen::AlignedBox3d& box, const IsAsked& isAsked) const
+  {
+    const Station anywhere = bestIn(box, isAsked);
+    const Station among = bestIn(box.intersection(bounds_), isAsked);
+    return among.variance < anywhere.variance ? among : anywhere;
+  }
+
+  /// The same, if all places are looked at alike.
   template <typename IsAsked>
   Station bestIn(const Eigen::AlignedBox3d& box, const IsAsked& isAsked) const
   {
