@@ -22,7 +22,7 @@ double uncertaintyOfVolume(const Piece& piece)
 std::string_view name(SideEvidence evidence)
 {
   constexpr std::array<std::string_view, SideEvidences> names{ "nothing", "neighbours", "shadows",
-    "volume", "normals", "up direction", "viewpoints" };
+    "density", "volume", "normals", "up direction", "viewpoints" };
   return names[std::size_t(evidence)];
 }
 

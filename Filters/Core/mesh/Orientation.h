@@ -20,14 +20,16 @@ enum class SideEvidence : std::uint8_t
   Nothing,
   Neighbors,   ///< a piece near by, whose side is known
   Shadows,     ///< what is hidden from where it looks, see ShadowSides.h
+  Density,     ///< how dense the points are, seen from there, see DensitySides.h
   Volume,      ///< what the piece encloses
   Normals,     ///< those of the points
   UpDirection, ///< most of the piece looks upwards
   Viewpoints   ///< it looks to where its points were seen from
 };
-constexpr std::size_t SideEvidences = 7;
+constexpr std::size_t SideEvidences = 8;
 
-/// "nothing", "neighbours", "shadows", "volume", "normals", "up direction", "viewpoints".
+/// "nothing", "neighbours", "shadows", "density", "volume", "normals", "up direction",
+/// "viewpoints".
 std::string_view name(SideEvidence evidence);
 
 /// What is known of the sides of a piece.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/MeshOrientation.h"
 
+#include "cloud/DensitySides.h"
 #include "cloud/OrientationVote.h"
 #include "cloud/PieceAgreement.h"
 #include "cloud/ShadowSides.h"
@@ -238,8 +239,15 @@ OrientationReport orientMesh(
   std::transform(pieces.begin(), pieces.end(), byVolume.begin(), sideByVolume);
   const std::vector<Side> ofBodies = sidesOfBodies(pieces, byVolume);
   addSides(certainOf(ofBodies), sides);
-  bool isFromWithin = false;
+  bool isFromWithin = false, isByDensity = false;
   if (!isHinted)
+  {
+    std::vector<Side> byDensity = sidesByDensity(mesh, pieces, sides, cloud, executor);
+    isByDensity = !addSides(byDensity, sides);
+    addSides(sides, byDensity);
+    sides = std::move(byDensity);
+  }
+  if (!isHinted && !isByDensity)
   {
     FromWithin within = sidesFromWithin(mesh, pieces, sides, cloud, executor);
     isFromWithin = within.isInDoubt;
@@ -247,7 +255,7 @@ OrientationReport orientMesh(
     sides = std::move(within.sides);
   }
   addSides(sidesByOpenings(mesh, pieces, sides), sides);
-  if (!isHinted)
+  if (!isHinted && !isByDensity)
   {
     addSides(sidesByShadows(mesh, pieces, sides, cloud, executor), sides);
   }

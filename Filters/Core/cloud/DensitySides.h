@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Executor.h"
+#include "cloud/PointCloud.h"
+#include "mesh/Mesh.h"
+#include "mesh/Orientation.h"
+#include "mesh/Pieces.h"
+
+#include <span>
+#include <vector>
+
+namespace neuralmesh
+{
+/// The sides of pieces by how dense the points are. A scanner that measures in even angles from one place leaves them
+/// as dense as the cosine between its look and the normal, over the square of the distance. So a place that explains the
+/// density by that law is where it stood, and what it saw faces it. Such a place is searched for
+///
+/// - within the bounding box of each large piece that looks outwards by its volume: if it is found, the piece is a room
+///   with what is in it, and looks inwards;
+/// - and in and around the bounding box of all, if half of the area has no certain side.
+///
+/// It tells only if it explains half of how the density varies, and clearly more than an even slope with a density of
+/// its own for each piece does, or any place that sees the other sides. Clouds that were thinned, and scans that cover a
+/// surface from several places, tell nothing. The side is a guess. No vertex may be erased.
+std::vector<Side> sidesByDensity(const Mesh& mesh, std::span<const Piece> pieces,
+  std::span<const Side> known, const PointCloud& cloud,
+  const Executor& executor = Executor::sequential());
+}

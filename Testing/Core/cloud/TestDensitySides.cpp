@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cloud/DensitySides.h"
+
+#include "OrientedScene.h"
+
+#include "base/ThreadPool.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace neuralmesh::testing
+{
+namespace
+{
+constexpr std::size_t PointsOfScan = 30000;
+/// Half of the sides of a room.
+const Eigen::Vector3d RoomSize(1.5, 1., 0.6);
+const Eigen::Vector3d PlaceOfScanner(0.6, -0.3, 0.1);
+
+/// What a scanner sees in even angles within a room.
+std::vector<Eigen::Vector3d> scanOfRoom()
+{
+  Random random(1);
+  std::vector<Eigen::Vector3d> points;
+  while (points.size() < PointsOfScan)
+  {
+    const Eigen::Vector3d look = randomDirection(random);
+    if (look.norm() > 1.)
+    {
+      continue;
+    }
+    double way = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i)
+    {
+      way = std::min(way, (std::copysign(RoomSize[i], look[i]) - PlaceOfScanner[i]) / look[i]);
+    }
+    points.push_back(PlaceOfScanner + way * look);
+  }
+  return points;
+}
+
+/// Points on the walls of a room, as dense as e^(slope x).
+std::vector<Eigen::Vector3d> pointsOnWalls(double slope)
+{
+  Random random(2);
+  std::vector<Eigen::Vector3d> points;
+  while (points.size() < PointsOfScan)
+  {
+    Eigen::Vector3d at = RoomSize.cwiseProduct(randomDirection(random));
+    const Eigen::Vector3d areas = RoomSize.cwiseInverse() / RoomSize.cwiseInverse().sum();
+    const double which = random.uniform();
+    const int axis = which < areas[0] ? 0 : which < areas[0] + areas[1] ? 1 : 2;
+    at[axis] = std::copysign(RoomSize[axis], at[axis]);
+    if (random.uniform() < std::exp(slope * (at.x() - RoomSize.x())))
+    {
+      points.push_back(at);
+    }
+  }
+  return points;
+}
+
+/// Which looks outwards.
+TriangleMesh roomAlone()
+{
+  return placed(makeCube(24), 2. * RoomSize.asDiagonal(), Eigen::Vector3d::Zero());
+}
+
+/// How far a place is from the nearest of three walls that meet in a corner.
+double fromCorner(const Eigen::Vector3d& at) { return (at + RoomSize).minCoeff(); }
+
+struct ScannedScene
+{
+  ScannedScene(const TriangleMesh& triangles, const std::vector<Eigen::Vector3d>& points)
+    : cloud(points)
+    , mesh(buildMesh(triangles, cloud))
+    , report(orientMesh(mesh, cloud, {}))
+  {
+  }
+
+  /// The part of the triangles that face the scanner.
+  double facing() const
+  {
+    const TriangleMesh result = trianglesOf(mesh, cloud);
+    double count = 0.;
+    for (const auto& [a, b, c] : result.triangles)
+    {
+      const Eigen::Vector3d &p = result.points[a], &q = result.points[b], &r = result.points[c];
+      count += (q - p).cross(r - p).dot(PlaceOfScanner - p) > 0. ? 1. : 0.;
+    }
+    return count / double(result.triangles.size());
+  }
+
+  PointCloud cloud;
+  Mesh mesh;
+  OrientationReport report;
+};
+}
+
+// What a scanner sees from within in even angles looks inwards, though it encloses a volume.
+TEST(DensitySides, ARoomLooksInwards)
+{
+  const ScannedScene scene(roomAlone(), scanOfRoom());
+  EXPECT_EQ(scene.facing(), 1.);
+  EXPECT_EQ(scene.report.main(), SideEvidence::Density);
+  EXPECT_DOUBLE_EQ(scene.report.guessedShare, 1.);
+}
+
+// A density that is even, or falls evenly, tells nothing: the volume counts.
+TEST(DensitySides, SlopesTellNothing)
+{
+  for (const double slope : { 0., 0.5, 1., 2. })
+  {
+    const ScannedScene scene(roomAlone(), pointsOnWalls(slope));
+    EXPECT_EQ(scene.facing(), 0.) << slope;
+    EXPECT_EQ(scene.report.main(), SideEvidence::Volume) << slope;
+  }
+}
+
+// Walls whose volume is a guess look to where they were scanned from. A flat one would be as dense from behind.
+TEST(DensitySides, OpenWallsLookToTheScanner)
+{
+  for (const bool isFlat : { false, true })
+  {
+    const auto isKept = [&](const Eigen::Vector3d& at)
+    { return (isFlat ? at.x() + RoomSize.x() : fromCorner(at)) < 1e-9; };
+    std::vector<Eigen::Vector3d> points = scanOfRoom();
+    std::erase_if(points, [&](const Eigen::Vector3d& at) { return !isKept(at); });
+    const ScannedScene scene(partOf(roomAlone(), isKept), points);
+    EXPECT_EQ(scene.report.main() == SideEvidence::Density, !isFlat);
+    EXPECT_TRUE(isFlat || scene.facing() == 1.);
+  }
+}
+
+// What is known of a room by more than its volume is not asked here; the number of threads changes nothing.
+TEST(DensitySides, ThreadsChangeNothing)
+{
+  const ScannedScene scene(roomAlone(), scanOfRoom());
+  const std::vector<Piece> pieces = findPieces(scene.mesh);
+  const std::vector<Side> outwards{ { SideEvidence::Volume, true } };
+  const ThreadPool threads(3);
+  const std::vector<Side> one = sidesByDensity(scene.mesh, pieces, outwards, scene.cloud);
+  const std::vector<Side> more = sidesByDensity(scene.mesh, pieces, outwards, scene.cloud, threads);
+  ASSERT_TRUE(one[0].isKnown());
+  EXPECT_FALSE(one[0].isTurned);
+  EXPECT_EQ(one[0].isTurned, more[0].isTurned);
+}
+}
