@@ -2,6 +2,8 @@
 #include "cloud/DensitySides.h"
 
 #include "cloud/NearestPoints.h"
+#include "cloud/Visibility.h"
+#include "mesh/NearestTriangle.h"
 
 #include <Eigen/Core>
 #include <Eigen/Dense>
@@ -11,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <iterator>
 #include <numeric>
@@ -51,6 +54,13 @@ constexpr double LeastVariance = 0.5;
 constexpr double MostOfOthers = 0.8;
 /// Of probes: those that face a scanner less those that look away, for all face it where a surface was seen from it.
 constexpr double LeastMajority = 0.5;
+/// Of probes: what the surface hides from a scanner, which measures what it sees. Meshes span some of the gaps through
+/// which it has seen.
+constexpr double MostHidden = 0.15;
+/// The same of a closed surface: there is a place below a scanner that it does not see, so most rooms are open.
+constexpr double MostHiddenIfClosed = 0.04;
+/// A rough surface does not hide itself: looks begin so many edges away.
+constexpr double EdgesBeforeLook = 2.;
 
 struct DensityProbe
 {
@@ -121,8 +131,10 @@ std::vector<DensityProbe> probesOn(
 class StationSearch
 {
 public:
-  StationSearch(std::vector<DensityProbe> probes, std::size_t pieceCount, const Executor& executor)
-    : probes_(std::move(probes))
+  StationSearch(const Mesh& mesh, std::vector<DensityProbe> probes, std::size_t pieceCount,
+    const Executor& executor)
+    : mesh_(mesh)
+    , probes_(std::move(probes))
     , pieceCount_(pieceCount)
     , executor_(executor)
   {
@@ -133,8 +145,9 @@ public:
   }
 
   /// The directions of pieces, 1 towards the scanner and -1 away from it, 0 where that is unknown; none if no place
-  /// within `box` explains the density.
-  std::optional<std::vector<int>> directions(const Eigen::AlignedBox3d& box) const
+  /// within `box` explains the density, or if more is hidden from it.
+  std::optional<std::vector<int>> directions(
+    const Eigen::AlignedBox3d& box, double mostHidden) const
   {
     if (probes_.size() < DensityProbes / 2)
     {
@@ -155,7 +168,9 @@ public:
     // A scanner sees one side only: a place from which there are both is none of the other sides, either.
     const Station opposite = bestOf(surroundings(),
       [&](const Eigen::Vector3d& place) { return agreement(place, result) < -LeastMajority; });
-    return best.variance > MostOfOthers * opposite.variance ? std::nullopt : std::optional(result);
+    const bool isTold =
+      best.variance <= MostOfOthers * opposite.variance && partHiddenFrom(best.place) <= mostHidden;
+    return isTold ? std::optional(result) : std::nullopt;
   }
 
   Eigen::AlignedBox3d surroundings() const
@@ -314,6 +329,26 @@ private:
     return result / double(probes_.size());
   }
 
+  double partHiddenFrom(const Eigen::Vector3d& station) const
+  {
+    const TriangleMesh surface = trianglesIn(mesh_, executor_);
+    const Visibility visibility(surface);
+    const double before = EdgesBeforeLook * mesh_.meanEdge(executor_);
+    std::vector<std::uint8_t> isHidden(probes_.size(), 0);
+    executor_.forEachPart(probes_.size(),
+      [&](std::size_t i)
+      {
+        const Eigen::Vector3d look = station - probes_[i].place;
+        const double length = look.norm();
+        isHidden[i] =
+          length > before && !visibility.isSeen(probes_[i].place + before / length * look, station)
+          ? 1
+          : 0;
+      });
+    return double(std::count(isHidden.begin(), isHidden.end(), 1)) / double(probes_.size());
+  }
+
+  const Mesh& mesh_;
   std::vector<DensityProbe> probes_;
   std::size_t pieceCount_;
   const Executor& executor_;
@@ -365,8 +400,9 @@ std::vector<Side> sidesByDensity(const Mesh& mesh, std::span<const Piece> pieces
       continue;
     }
     const auto isWithin = [&](std::size_t i) { return boxes[hull].contains(boxes[i]); };
-    const StationSearch search(chosenFrom(probes, isWithin), pieces.size(), executor);
-    const std::optional<std::vector<int>> directions = search.directions(boxes[hull]);
+    const StationSearch search(mesh, chosenFrom(probes, isWithin), pieces.size(), executor);
+    const std::optional<std::vector<int>> directions =
+      search.directions(boxes[hull], pieces[hull].isClosed ? MostHiddenIfClosed : MostHidden);
     if (directions && (*directions)[hull] == (known[hull].isTurned ? 1 : -1))
     {
       tell(*directions, isWithin);
@@ -374,8 +410,9 @@ std::vector<Side> sidesByDensity(const Mesh& mesh, std::span<const Piece> pieces
   }
   if (openQuestion >= LeastOpenQuestion * area)
   {
-    const StationSearch search(probes, pieces.size(), executor);
-    if (const std::optional<std::vector<int>> directions = search.directions(search.surroundings()))
+    const StationSearch search(mesh, probes, pieces.size(), executor);
+    if (const std::optional<std::vector<int>> directions =
+          search.directions(search.surroundings(), MostHidden))
     {
       tell(*directions, [&](std::size_t i) { return !known[i].isKnown() && !sides[i].isKnown(); });
     }

@@ -21,8 +21,9 @@ namespace neuralmesh
 /// - and in and around the bounding box of all, if half of the area has no certain side.
 ///
 /// It tells only if it explains half of how the density varies, and clearly more than an even slope with a density of
-/// its own for each piece does, or any place that sees the other sides. Clouds that were thinned, and scans that cover a
-/// surface from several places, tell nothing. The side is a guess. No vertex may be erased.
+/// its own for each piece does, or any place that sees the other sides, and if little is hidden from it, next to nothing
+/// of a closed surface. Clouds that were thinned, and scans that cover a surface from several places, tell nothing. The
+/// side is a guess. No vertex may be erased.
 std::vector<Side> sidesByDensity(const Mesh& mesh, std::span<const Piece> pieces,
   std::span<const Side> known, const PointCloud& cloud,
   const Executor& executor = Executor::sequential());

@@ -4,6 +4,7 @@
 #include "OrientedScene.h"
 
 #include "base/ThreadPool.h"
+#include "cloud/CloudGenerator.h"
 
 #include <gtest/gtest.h>
 
@@ -133,6 +134,28 @@ TEST(DensitySides, OpenWallsLookToTheScanner)
     EXPECT_EQ(scene.report.main() == SideEvidence::Density, !isFlat);
     EXPECT_TRUE(isFlat || scene.facing() == 1.);
   }
+}
+
+// A bent body as dense as if a scanner in its middle had looked through it is no room, whose corners it sees.
+TEST(DensitySides, WhatIsHiddenWasNotSeen)
+{
+  constexpr double Length = 2.5;
+  TriangleMesh body = makeSphere(48);
+  for (Eigen::Vector3d& point : body.points)
+  {
+    const double angle = Length * point.x(), way = 1. + 0.4 * point.y();
+    point = { way * std::sin(angle), way * std::cos(angle), 0.4 * point.z() };
+  }
+  const Eigen::Vector3d middle(0., 1., 0.);
+  CloudOptions options;
+  options.count = 40 * PointsOfScan;
+  Random random(3);
+  std::vector<Eigen::Vector3d> points = generateCloud(body, options);
+  std::erase_if(points,
+    [&](const Eigen::Vector3d& at)
+    { return random.uniform() * (at - middle).squaredNorm() > 0.1; });
+  const ScannedScene scene(body, points);
+  EXPECT_EQ(scene.report.main(), SideEvidence::Volume);
 }
 
 // What is known of a room by more than its volume is not asked here; the number of threads changes nothing.
