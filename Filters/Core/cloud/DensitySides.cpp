@@ -28,8 +28,9 @@ namespace
 constexpr double LeastOpenQuestion = 0.5;
 /// Of the area: smaller pieces are no rooms.
 constexpr double LeastRoom = 0.2;
-/// Places on the surface at which the density is measured.
-constexpr std::size_t DensityProbes = 400;
+/// Triangles at which the density is measured, and of a room, at least.
+constexpr std::size_t DensityProbes = 1000;
+constexpr std::size_t FewestProbes = 100;
 /// By so many points, whose number is known to a fifth then.
 constexpr std::size_t PointsPerProbe = 32;
 /// Of the logarithm of the density: its variance where points are even, twice. No more tells nothing.
@@ -89,40 +90,36 @@ double varianceOf(std::vector<double>& values)
   return sum / double(values.size());
 }
 
+/// As many triangles of a learnt mesh have as many points, so where these are sparse, which tells least, are few probes.
 std::vector<DensityProbe> probesOn(
   const Mesh& mesh, std::span<const Piece> pieces, const NearestPoints& nearest)
 {
-  double area = 0.;
-  for (const Piece& piece : pieces)
-  {
-    area += piece.area;
-  }
-  std::vector<DensityProbe> probes;
-  std::array<NearPoint, PointsPerProbe> around;
-  double passed = 0., next = 0.5;
+  std::vector<std::pair<Triangle, std::size_t>> triangles;
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
     for (const VertexIndex v : pieces[i].vertices)
     {
       mesh.forEachTriangleFrom(v,
-        [&](VertexIndex a, VertexIndex b, VertexIndex c)
-        {
-          passed += areaOf(mesh, { a, b, c });
-          if (passed * double(DensityProbes) <= next * area)
-          {
-            return;
-          }
-          next = std::floor(passed * double(DensityProbes) / area) + 0.5;
-          const Eigen::Vector3d p = mesh.position(a).toDouble(), q = mesh.position(b).toDouble(),
-                                r = mesh.position(c).toDouble();
-          const Eigen::Vector3d place = (p + q + r) / 3.;
-          const std::size_t found = nearest.findPlaces(Vector4(place), around);
-          const double farthest = found > 0 ? double(around[found - 1].squaredDistance) : 0.;
-          if (found == PointsPerProbe && farthest > 0.)
-          {
-            probes.push_back({ place, (q - p).cross(r - p).normalized(), i, -std::log(farthest) });
-          }
+        [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+          triangles.emplace_back(Triangle{ a, b, c }, i);
         });
+    }
+  }
+  std::vector<DensityProbe> probes;
+  std::array<NearPoint, PointsPerProbe> around;
+  const std::size_t count = std::min(DensityProbes, triangles.size());
+  for (std::size_t probe = 0; probe < count; ++probe)
+  {
+    const auto& [corners, piece] = triangles[(2 * probe + 1) * triangles.size() / (2 * count)];
+    const Eigen::Vector3d p = mesh.position(corners[0]).toDouble(),
+                          q = mesh.position(corners[1]).toDouble(),
+                          r = mesh.position(corners[2]).toDouble();
+    const Eigen::Vector3d place = (p + q + r) / 3.;
+    const std::size_t found = nearest.findPlaces(Vector4(place), around);
+    const double farthest = found > 0 ? double(around[found - 1].squaredDistance) : 0.;
+    if (found == PointsPerProbe && farthest > 0.)
+    {
+      probes.push_back({ place, (q - p).cross(r - p).normalized(), piece, -std::log(farthest) });
     }
   }
   return probes;
@@ -149,7 +146,7 @@ public:
   std::optional<std::vector<int>> directions(
     const Eigen::AlignedBox3d& box, double mostHidden) const
   {
-    if (probes_.size() < DensityProbes / 2)
+    if (probes_.size() < FewestProbes)
     {
       return std::nullopt;
     }
