@@ -244,10 +244,10 @@ private:
     std::vector<Eigen::Vector3d> places;
     for (int i = 0; i < PlacesPerAxis * PlacesPerAxis * PlacesPerAxis; ++i)
     {
-      const Eigen::Array3d along(
+      const Eigen::Array3i along(
         i % PlacesPerAxis, i / PlacesPerAxis % PlacesPerAxis, i / PlacesPerAxis / PlacesPerAxis);
-      const Eigen::Vector3d place =
-        box.min() + ((along + 0.5) / double(PlacesPerAxis)).matrix().cwiseProduct(box.sizes());
+      const Eigen::Vector3d place = box.min() +
+        ((along.cast<double>() + 0.5) / double(PlacesPerAxis)).matrix().cwiseProduct(box.sizes());
       if (isAsked(place))
       {
         places.push_back(place);
