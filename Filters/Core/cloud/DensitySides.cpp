@@ -94,32 +94,33 @@ double varianceOf(std::vector<double>& values)
 std::vector<DensityProbe> probesOn(
   const Mesh& mesh, std::span<const Piece> pieces, const NearestPoints& nearest)
 {
-  std::vector<std::pair<Triangle, std::size_t>> triangles;
+  const std::size_t triangles = mesh.triangleCount(), count = std::min(DensityProbes, triangles);
+  std::vector<DensityProbe> probes;
+  std::array<NearPoint, PointsPerProbe> around;
+  std::size_t passed = 0, picked = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
     for (const VertexIndex v : pieces[i].vertices)
     {
       mesh.forEachTriangleFrom(v,
-        [&](VertexIndex a, VertexIndex b, VertexIndex c) {
-          triangles.emplace_back(Triangle{ a, b, c }, i);
+        [&](VertexIndex a, VertexIndex b, VertexIndex c)
+        {
+          // Spread over all of them.
+          if (passed++ != (2 * picked + 1) * triangles / (2 * count))
+          {
+            return;
+          }
+          ++picked;
+          const Eigen::Vector3d p = mesh.position(a).toDouble(), q = mesh.position(b).toDouble(),
+                                r = mesh.position(c).toDouble();
+          const Eigen::Vector3d place = (p + q + r) / 3.;
+          const std::size_t found = nearest.findPlaces(Vector4(place), around);
+          const double farthest = found > 0 ? double(around[found - 1].squaredDistance) : 0.;
+          if (found == PointsPerProbe && farthest > 0.)
+          {
+            probes.push_back({ place, (q - p).cross(r - p).normalized(), i, -std::log(farthest) });
+          }
         });
-    }
-  }
-  std::vector<DensityProbe> probes;
-  std::array<NearPoint, PointsPerProbe> around;
-  const std::size_t count = std::min(DensityProbes, triangles.size());
-  for (std::size_t probe = 0; probe < count; ++probe)
-  {
-    const auto& [corners, piece] = triangles[(2 * probe + 1) * triangles.size() / (2 * count)];
-    const Eigen::Vector3d p = mesh.position(corners[0]).toDouble(),
-                          q = mesh.position(corners[1]).toDouble(),
-                          r = mesh.position(corners[2]).toDouble();
-    const Eigen::Vector3d place = (p + q + r) / 3.;
-    const std::size_t found = nearest.findPlaces(Vector4(place), around);
-    const double farthest = found > 0 ? double(around[found - 1].squaredDistance) : 0.;
-    if (found == PointsPerProbe && farthest > 0.)
-    {
-      probes.push_back({ place, (q - p).cross(r - p).normalized(), piece, -std::log(farthest) });
     }
   }
   return probes;
@@ -334,14 +335,7 @@ private:
     std::vector<std::uint8_t> isHidden(probes_.size(), 0);
     executor_.forEachPart(probes_.size(),
       [&](std::size_t i)
-      {
-        const Eigen::Vector3d look = station - probes_[i].place;
-        const double length = look.norm();
-        isHidden[i] =
-          length > before && !visibility.isSeen(probes_[i].place + before / length * look, station)
-          ? 1
-          : 0;
-      });
+      { isHidden[i] = visibility.isHidden(probes_[i].place, station, before) ? 1 : 0; });
     return double(std::count(isHidden.begin(), isHidden.end(), 1)) / double(probes_.size());
   }
 
@@ -363,22 +357,19 @@ std::vector<DensityProbe> chosenFrom(
   return chosen;
 }
 }
+
 std::vector<Side> sidesByDensity(const Mesh& mesh, std::span<const Piece> pieces,
   std::span<const Side> known, const PointCloud& cloud, const Executor& executor)
 {
   std::vector<Side> sides(pieces.size());
   const NearestPoints nearest(cloud.points(), executor);
   const std::vector<DensityProbe> probes = probesOn(mesh, pieces, nearest);
+  const std::vector<Eigen::AlignedBox3d> boxes = boxesOf(mesh, pieces);
   double area = 0., openQuestion = 0.;
-  std::vector<Eigen::AlignedBox3d> boxes(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
     area += pieces[i].area;
     openQuestion += known[i].isKnown() ? 0. : pieces[i].area;
-    for (const VertexIndex v : pieces[i].vertices)
-    {
-      boxes[i].extend(mesh.position(v).toDouble());
-    }
   }
   const auto tell = [&](const std::vector<int>& directions, const auto& isAsked)
   {

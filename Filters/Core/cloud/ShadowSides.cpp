@@ -223,9 +223,7 @@ private:
 
   bool isHidden(const Eigen::Vector3d& place, const Eigen::Vector3d& viewpoint) const
   {
-    const Eigen::Vector3d way = viewpoint - place;
-    const double length = way.norm(), gap = InFront * edge_;
-    return length > gap && !visibility_.isSeen(place + gap / length * way, viewpoint);
+    return visibility_.isHidden(place, viewpoint, InFront * edge_);
   }
 
   View lookFrom(const Eigen::Vector3d& viewpoint, std::size_t rimProbes) const
@@ -430,19 +428,6 @@ double shareOf(std::span<const Piece> pieces, const IsChosen& isChosen)
     chosen += isChosen(i) ? pieces[i].area : 0.;
   }
   return area > 0. ? chosen / area : 0.;
-}
-
-std::vector<Eigen::AlignedBox3d> boxesOf(const Mesh& mesh, std::span<const Piece> pieces)
-{
-  std::vector<Eigen::AlignedBox3d> boxes(pieces.size());
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-  {
-    for (const VertexIndex v : pieces[i].vertices)
-    {
-      boxes[i].extend(mesh.position(v).toDouble());
-    }
-  }
-  return boxes;
 }
 }
 

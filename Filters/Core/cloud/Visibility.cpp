@@ -119,4 +119,12 @@ bool Visibility::isSeen(const Eigen::Vector3d& point, const Eigen::Vector3d& vie
   Eigen::BVIntersect(tree_, search);
   return !search.isFound();
 }
+
+bool Visibility::isHidden(
+  const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint, double distance) const
+{
+  const Eigen::Vector3d way = viewpoint - point;
+  const double length = way.norm();
+  return length > distance && !isSeen(point + distance / length * way, viewpoint);
+}
 }

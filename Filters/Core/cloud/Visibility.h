@@ -20,6 +20,10 @@ public:
   /// one of them is that on which it lies.
   bool isSeen(const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint) const;
 
+  /// Whether triangles hide the point that are at least about so far from it: a rough surface does not hide itself.
+  bool isHidden(
+    const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint, double distance) const;
+
 private:
   /// By index.
   using Tree = Eigen::KdBVH<double, 3, std::uint32_t>;

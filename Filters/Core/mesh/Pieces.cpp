@@ -139,6 +139,19 @@ std::vector<Piece> findPieces(const Mesh& mesh, const Executor& executor)
   return pieces;
 }
 
+std::vector<Eigen::AlignedBox3d> boxesOf(const Mesh& mesh, std::span<const Piece> pieces)
+{
+  std::vector<Eigen::AlignedBox3d> boxes(pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    for (const VertexIndex v : pieces[i].vertices)
+    {
+      boxes[i].extend(mesh.position(v).toDouble());
+    }
+  }
+  return boxes;
+}
+
 double areaOf(const Mesh& mesh, const Triangle& triangle)
 {
   const Vector4 a = mesh.position(triangle[0]);

@@ -4,6 +4,9 @@
 #include "base/Executor.h"
 #include "mesh/Mesh.h"
 
+#include <Eigen/Geometry>
+
+#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -22,6 +25,9 @@ struct Piece
 
 /// The pieces of a mesh, in the order of their lowest vertices.
 std::vector<Piece> findPieces(const Mesh& mesh, const Executor& executor = Executor::sequential());
+
+/// The bounding box of each.
+std::vector<Eigen::AlignedBox3d> boxesOf(const Mesh& mesh, std::span<const Piece> pieces);
 
 double areaOf(const Mesh& mesh, const Triangle& triangle);
 /// Of all triangles.
