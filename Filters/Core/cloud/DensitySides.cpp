@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/DensitySides.h"
 
-#include "cloud/NearestPoints.h"
+#include "cloud/DensityProbes.h"
+#include "cloud/StationSearch.h"
 #include "cloud/Visibility.h"
 #include "mesh/NearestTriangle.h"
 
@@ -16,8 +17,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <iterator>
-#include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace neuralmesh
@@ -28,147 +29,141 @@ namespace
 constexpr double LeastOpenQuestion = 0.5;
 /// Of the area: smaller pieces are no rooms.
 constexpr double LeastRoom = 0.2;
-/// Triangles at which the density is measured, and of a room, at least.
-constexpr std::size_t DensityProbes = 1000;
 constexpr std::size_t FewestProbes = 100;
-/// By so many points, whose number is known to a fifth then.
-constexpr std::size_t PointsPerProbe = 32;
-/// Of the logarithm of the density: its variance where points are even, twice. No more tells nothing.
-constexpr double VarianceByChance = 2. / double(PointsPerProbe);
-/// Of the logarithm of the density: what is farther off the law lies beside a boundary or an edge, or across a gap, and
-/// counts as much as that.
-constexpr double FarthestOff = 2.;
-/// Of the angle between look and normal: noise and curvature show more of what is seen along the surface.
-constexpr double LeastCosineOfLook = 0.1;
-/// Places of the first look, along each axis, and how far they reach out of the box, in its diagonals, if the scanner
-/// may have stood outside.
-constexpr int PlacesPerAxis = 7;
+/// How far stations reach out of the box, in its diagonals, if they may have stood outside.
 constexpr double ReachOutside = 0.6;
-/// The best so many are improved, by steps of these fractions of the diagonal.
-constexpr std::size_t PlacesImproved = 3;
-constexpr double FirstStride = 1. / 8.;
-constexpr double LastStride = 1. / 128.;
-/// Of the variance of the logarithm of the density: what the law must explain.
+/// Of the variance of the logarithm of the density: what stations must explain.
 constexpr double LeastVariance = 0.5;
-/// What it may leave, of what others leave: an even slope, and places that see the other sides. With so many probes that
-/// is far beyond chance.
+/// What they may leave, of what others leave: an even slope, and stations that see the other side. With so many probes
+/// that is far beyond chance.
 constexpr double MostOfOthers = 0.8;
-/// Of probes: those that face a scanner less those that look away, for all face it where a surface was seen from it.
+/// Of what is seen of a piece: what faces stations less what looks away, for all faces them where a surface was seen.
 constexpr double LeastMajority = 0.5;
-/// Of probes: what the surface hides from a scanner, which measures what it sees. Meshes span some of the gaps through
-/// which it has seen.
+/// Of probes: what the surface hides from all stations, which measure what they see. Meshes span some of the gaps
+/// through which they have seen.
 constexpr double MostHidden = 0.15;
-/// The same of a closed surface: there is a place below a scanner that it does not see, so most rooms are open.
+/// The same of a closed surface: there is a place below a station that it does not see, so most rooms are open.
 constexpr double MostHiddenIfClosed = 0.04;
+/// A room is scanned from some places, a flat from as many as it has rooms.
+constexpr std::size_t MostStations = 8;
+/// Of the diagonal: how closely the density tells where a station was.
+constexpr double StationKnownTo = 1. / 128.;
 /// A rough surface does not hide itself: looks begin so many edges away.
 constexpr double EdgesBeforeLook = 2.;
 
-struct DensityProbe
+/// What stations see.
+struct Looks
 {
-  Eigen::Vector3d place;
-  Eigen::Vector3d normal;
-  std::size_t piece;
-  double logDensity; ///< up to a summand
+  std::vector<int>
+    directions;       ///< of pieces: 1 towards them, -1 away from them, 0 where that is unknown
+  double hidden = 0.; ///< part of the probes that none of them sees
 };
 
-/// A place that explains the density.
-struct Station
+Eigen::AlignedBox3d boundsOf(const std::vector<DensityProbe>& probes)
 {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  double variance = 0.; ///< what is left of it
-};
-
-/// The mean square of what lies off the median, which is reordered.
-double varianceOf(std::vector<double>& values)
-{
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  const double median = *middle;
-  const double sum = std::accumulate(values.begin(), values.end(), 0.,
-    [median](double before, double value)
-    { return before + std::pow(std::min(std::abs(value - median), FarthestOff), 2); });
-  return sum / double(values.size());
-}
-
-/// As many triangles of a learnt mesh have as many points, so where these are sparse, which tells least, are few probes.
-std::vector<DensityProbe> probesOn(
-  const Mesh& mesh, std::span<const Piece> pieces, const NearestPoints& nearest)
-{
-  const std::size_t triangles = mesh.triangleCount(), count = std::min(DensityProbes, triangles);
-  std::vector<DensityProbe> probes;
-  std::array<NearPoint, PointsPerProbe> around;
-  std::size_t passed = 0, picked = 0;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
+  Eigen::AlignedBox3d bounds;
+  for (const DensityProbe& probe : probes)
   {
-    for (const VertexIndex v : pieces[i].vertices)
-    {
-      mesh.forEachTriangleFrom(v,
-        [&](VertexIndex a, VertexIndex b, VertexIndex c)
-        {
-          // Spread over all of them.
-          if (passed++ != (2 * picked + 1) * triangles / (2 * count))
-          {
-            return;
-          }
-          ++picked;
-          const Eigen::Vector3d p = mesh.position(a).toDouble(), q = mesh.position(b).toDouble(),
-                                r = mesh.position(c).toDouble();
-          const Eigen::Vector3d place = (p + q + r) / 3.;
-          const std::size_t found = nearest.findPlaces(Vector4(place), around);
-          const double farthest = found > 0 ? double(around[found - 1].squaredDistance) : 0.;
-          if (found == PointsPerProbe && farthest > 0.)
-          {
-            probes.push_back({ place, (q - p).cross(r - p).normalized(), i, -std::log(farthest) });
-          }
-        });
-    }
+    bounds.extend(probe.place);
   }
-  return probes;
+  return bounds;
 }
 
-class StationSearch
+/// What of a surface is seen from stations.
+class Sight
 {
 public:
-  StationSearch(const Mesh& mesh, std::vector<DensityProbe> probes, std::size_t pieceCount,
+  /// The mesh, probes and what runs on threads are referred to.
+  Sight(const Mesh& mesh, const std::vector<DensityProbe>& probes, std::size_t pieceCount,
     const Executor& executor)
-    : mesh_(mesh)
-    , probes_(std::move(probes))
+    : probes_(probes)
     , pieceCount_(pieceCount)
     , executor_(executor)
+    , surface_(trianglesIn(mesh, executor))
+    , visibility_(surface_)
+    , beforeLook_(EdgesBeforeLook * mesh.meanEdge(executor))
+    , diagonal_(boundsOf(probes).diagonal().norm())
   {
-    for (const DensityProbe& probe : probes_)
-    {
-      bounds_.extend(probe.place);
-    }
   }
 
-  /// The directions of pieces, 1 towards the scanner and -1 away from it, 0 where that is unknown; none if no place
-  /// within `box` explains the density, or if more is hidden from it.
-  std::optional<std::vector<int>> directions(
-    const Eigen::AlignedBox3d& box, double mostHidden) const
+  Looks looksOf(std::span<const Eigen::Vector3d> stations) const
   {
-    if (probes_.size() < FewestProbes)
+    // How many stations see a probe, and those that see its front less those that see its back.
+    std::vector<std::array<int, 2>> ofProbes(probes_.size());
+    executor_.forEachPart(probes_.size(),
+      [&](std::size_t i)
+      {
+        const DensityProbe& probe = probes_[i];
+        auto& [count, sum] = ofProbes[i] = {};
+        for (const Eigen::Vector3d& station : stations)
+        {
+          const bool isSeen = !visibility_.isHidden(probe.place, station, beforeLook_);
+          const int side = probe.normal.dot(station - probe.place) > 0. ? 1 : -1;
+          count += isSeen ? 1 : 0;
+          sum += isSeen ? side : 0;
+        }
+      });
+    Looks looks;
+    std::vector<std::array<int, 2>> ofPieces(pieceCount_, std::array<int, 2>{});
+    for (std::size_t i = 0; i < probes_.size(); ++i)
     {
-      return std::nullopt;
+      const auto& [count, sum] = ofProbes[i];
+      looks.hidden += (count == 0 ? 1. : 0.) / double(probes_.size());
+      ofPieces[probes_[i].piece][0] += count;
+      ofPieces[probes_[i].piece][1] += sum;
     }
-    const double all = varianceOfAll();
-    if (all < VarianceByChance)
+    for (const auto& [count, sum] : ofPieces)
     {
-      return std::nullopt;
+      const bool isClear = std::abs(sum) > LeastMajority * count;
+      looks.directions.push_back(!isClear ? 0 : sum > 0 ? 1 : -1);
     }
-    const Station best = bestOf(box, [](const Eigen::Vector3d&) { return true; });
-    if (best.variance > (1. - LeastVariance) * all ||
-      best.variance > MostOfOthers * varianceBesideSlope())
+    return looks;
+  }
+
+  /// Of a station about there. What lies close to it would hide much from a place a little beside it.
+  Looks leastHidden(const Eigen::Vector3d& station) const
+  {
+    Looks best = looksOf(std::array{ station });
+    for (int i = 0; i < 6; ++i)
     {
-      return std::nullopt;
+      const double way = (i % 2 == 0 ? 1. : -1.) * StationKnownTo * diagonal_;
+      const Eigen::Vector3d beside = station + way * Eigen::Vector3d::Unit(i / 2);
+      Looks looks = looksOf(std::array{ beside });
+      if (looks.hidden < best.hidden)
+      {
+        best = std::move(looks);
+      }
     }
-    const std::vector<int> result = directionsTo(best.place);
-    // A scanner sees one side only: a place from which there are both is none of the other sides, either.
-    const Station opposite = bestOf(surroundings(),
-      [&](const Eigen::Vector3d& place) { return agreement(place, result) < -LeastMajority; });
-    const bool isTold =
-      best.variance <= MostOfOthers * opposite.variance && partHiddenFrom(best.place) <= mostHidden;
-    return isTold ? std::optional(result) : std::nullopt;
+    return best;
+  }
+
+private:
+  const std::vector<DensityProbe>& probes_;
+  std::size_t pieceCount_;
+  const Executor& executor_;
+  TriangleMesh surface_;
+  Visibility visibility_;
+  double beforeLook_;
+  double diagonal_;
+};
+
+/// How well stations explain the density of a scene.
+class StationEvidence
+{
+public:
+  /// Probes and what runs on threads are referred to.
+  StationEvidence(
+    const std::vector<DensityProbe>& probes, std::size_t pieceCount, const Executor& executor)
+    : probes_(probes)
+    , pieceCount_(pieceCount)
+    , executor_(executor)
+    , bounds_(boundsOf(probes))
+  {
+  }
+
+  bool isEnough() const
+  {
+    return probes_.size() >= FewestProbes && varianceOfAll() >= densityVarianceByChance();
   }
 
   Eigen::AlignedBox3d surroundings() const
@@ -178,13 +173,53 @@ public:
     return { bounds_.min() - reach, bounds_.max() + reach };
   }
 
+  bool isExplainedBy(const Stations& stations) const
+  {
+    return stations.variance <= (1. - LeastVariance) * varianceOfAll() &&
+      stations.variance <= MostOfOthers * varianceBesideSlope();
+  }
+
+  /// One station, which may see both sides.
+  StationSearch one(const Eigen::AlignedBox3d& box) const
+  {
+    StationSearch search(probes_, std::nullopt, box, executor_);
+    search.add();
+    return search;
+  }
+
+  /// One station that sees the other sides.
+  StationSearch oneAgainst(const std::vector<int>& directions) const
+  {
+    StationSearch search(probes_, std::nullopt, surroundings(), executor_,
+      [&](const Eigen::Vector3d& place) { return agreement(place, directions) < -LeastMajority; });
+    search.add();
+    return search;
+  }
+
+  /// Several, that see one side of the hull.
+  StationSearch several(const Eigen::AlignedBox3d& box, const FacingPiece& hull) const
+  {
+    return { probes_, hull, box, executor_ };
+  }
+
 private:
+  /// What faces the place less what looks away, of all probes, with these directions.
+  double agreement(const Eigen::Vector3d& place, const std::vector<int>& directions) const
+  {
+    double sum = 0.;
+    for (const DensityProbe& probe : probes_)
+    {
+      sum += directions[probe.piece] * (probe.normal.dot(place - probe.place) > 0. ? 1. : -1.);
+    }
+    return sum / double(probes_.size());
+  }
+
   double varianceOfAll() const
   {
     std::vector<double> values(probes_.size());
     std::transform(probes_.begin(), probes_.end(), values.begin(),
       [](const DensityProbe& probe) { return probe.logDensity; });
-    return varianceOf(values);
+    return densityVariance(values);
   }
 
   /// What a density leaves that falls evenly in some direction, and is another one on each piece.
@@ -210,141 +245,65 @@ private:
     }
     const Eigen::VectorXd off = densities - places * places.colPivHouseholderQr().solve(densities);
     std::vector<double> values(off.begin(), off.end());
-    return varianceOf(values);
+    return densityVariance(values);
   }
 
-  /// What a scanner at that place leaves.
-  Station stationAt(const Eigen::Vector3d& place) const
-  {
-    std::vector<double> values(probes_.size());
-    std::transform(probes_.begin(), probes_.end(), values.begin(),
-      [&](const DensityProbe& probe)
-      {
-        const Eigen::Vector3d look = place - probe.place;
-        const double square = std::max(look.squaredNorm(), 1e-6 * bounds_.diagonal().squaredNorm());
-        const double cosine = std::abs(probe.normal.dot(look)) / std::sqrt(square);
-        return probe.logDensity - std::log(std::max(cosine, LeastCosineOfLook) / square);
-      });
-    return { place, varianceOf(values) };
-  }
-
-  /// The best station in a box, of those that `isAsked`. Most are among what they see, so it is looked there more
-  /// closely.
-  template <typename IsAsked>
-  Station bestOf(const Eigen::AlignedBox3d& box, const IsAsked& isAsked) const
-  {
-    const Station anywhere = bestIn(box, isAsked);
-    const Station among = bestIn(box.intersection(bounds_), isAsked);
-    return among.variance < anywhere.variance ? among : anywhere;
-  }
-
-  /// The same, if all places are looked at alike.
-  template <typename IsAsked>
-  Station bestIn(const Eigen::AlignedBox3d& box, const IsAsked& isAsked) const
-  {
-    std::vector<Eigen::Vector3d> places;
-    for (int i = 0; i < PlacesPerAxis * PlacesPerAxis * PlacesPerAxis; ++i)
-    {
-      const Eigen::Array3i along(
-        i % PlacesPerAxis, i / PlacesPerAxis % PlacesPerAxis, i / PlacesPerAxis / PlacesPerAxis);
-      const Eigen::Vector3d place = box.min() +
-        ((along.cast<double>() + 0.5) / double(PlacesPerAxis)).matrix().cwiseProduct(box.sizes());
-      if (isAsked(place))
-      {
-        places.push_back(place);
-      }
-    }
-    std::vector<Station> stations(places.size());
-    executor_.forEachPart(
-      places.size(), [&](std::size_t i) { stations[i] = stationAt(places[i]); });
-    std::stable_sort(stations.begin(), stations.end(),
-      [](const Station& a, const Station& b) { return a.variance < b.variance; });
-    Station best{ box.center(), FarthestOff * FarthestOff };
-    for (std::size_t i = 0; i < std::min(stations.size(), PlacesImproved); ++i)
-    {
-      const Station station = improved(stations[i], box, isAsked);
-      best = station.variance < best.variance ? station : best;
-    }
-    return best;
-  }
-
-  template <typename IsAsked>
-  Station improved(Station best, const Eigen::AlignedBox3d& box, const IsAsked& isAsked) const
-  {
-    const double diagonal = bounds_.diagonal().norm();
-    for (double stride = FirstStride; stride >= LastStride;)
-    {
-      const Station start = best;
-      for (int i = 0; i < 6; ++i)
-      {
-        const double way = (i % 2 == 0 ? stride : -stride) * diagonal;
-        const Eigen::Vector3d place = start.place + way * Eigen::Vector3d::Unit(i / 2);
-        if (!box.contains(place) || !isAsked(place))
-        {
-          continue;
-        }
-        const Station station = stationAt(place);
-        best = station.variance < best.variance ? station : best;
-      }
-      stride = best.variance < start.variance ? stride : 0.5 * stride;
-    }
-    return best;
-  }
-
-  /// Of each piece: how many probes there are, and what faces the place less what looks away.
-  std::vector<std::array<int, 2>> countsFrom(const Eigen::Vector3d& place) const
-  {
-    std::vector<std::array<int, 2>> counts(pieceCount_, std::array<int, 2>{});
-    for (const DensityProbe& probe : probes_)
-    {
-      auto& [number, sum] = counts[probe.piece];
-      ++number;
-      sum += probe.normal.dot(place - probe.place) > 0. ? 1 : -1;
-    }
-    return counts;
-  }
-
-  std::vector<int> directionsTo(const Eigen::Vector3d& place) const
-  {
-    std::vector<int> result;
-    for (const auto& [number, sum] : countsFrom(place))
-    {
-      const bool isClear = std::abs(sum) > LeastMajority * number;
-      result.push_back(!isClear ? 0 : sum > 0 ? 1 : -1);
-    }
-    return result;
-  }
-
-  /// What faces the place less what looks away, of all probes, with these directions.
-  double agreement(const Eigen::Vector3d& place, const std::vector<int>& directions) const
-  {
-    double result = 0.;
-    const std::vector<std::array<int, 2>> counts = countsFrom(place);
-    for (std::size_t i = 0; i < counts.size(); ++i)
-    {
-      result += double(directions[i] * counts[i][1]);
-    }
-    return result / double(probes_.size());
-  }
-
-  double partHiddenFrom(const Eigen::Vector3d& station) const
-  {
-    const TriangleMesh surface = trianglesIn(mesh_, executor_);
-    const Visibility visibility(surface);
-    const double before = EdgesBeforeLook * mesh_.meanEdge(executor_);
-    std::vector<std::uint8_t> isHidden(probes_.size(), 0);
-    executor_.forEachPart(probes_.size(),
-      [&](std::size_t i)
-      { isHidden[i] = visibility.isHidden(probes_[i].place, station, before) ? 1 : 0; });
-    return double(std::count(isHidden.begin(), isHidden.end(), 1)) / double(probes_.size());
-  }
-
-  const Mesh& mesh_;
-  std::vector<DensityProbe> probes_;
+  const std::vector<DensityProbe>& probes_;
   std::size_t pieceCount_;
   const Executor& executor_;
   Eigen::AlignedBox3d bounds_;
 };
+
+bool isClearlyBetter(const StationSearch& one, const StationSearch& other)
+{
+  return one.stations().variance <= MostOfOthers * other.stations().variance;
+}
+
+/// By one station. It may see both sides here and there, as meshes have parts that are turned wrongly.
+template <typename SightOfScene>
+std::optional<Looks> looksOfOne(
+  const StationEvidence& evidence, const Eigen::AlignedBox3d& box, const SightOfScene& sight)
+{
+  const StationSearch search = evidence.one(box);
+  if (!evidence.isExplainedBy(search.stations()))
+  {
+    return std::nullopt;
+  }
+  Looks looks = sight().leastHidden(search.stations().places.front());
+  // A station sees one side only: a place from which there are both is none of the other sides, either.
+  return isClearlyBetter(search, evidence.oneAgainst(looks.directions))
+    ? std::optional(std::move(looks))
+    : std::nullopt;
+}
+
+/// By the fewest stations that see that side of the hull and explain clearly more than as many that see the other one.
+template <typename SightOfScene>
+std::optional<Looks> looksOfSeveral(const StationEvidence& evidence, const Eigen::AlignedBox3d& box,
+  const FacingPiece& hull, const SightOfScene& sight)
+{
+  StationSearch search = evidence.several(box, hull);
+  std::optional<StationSearch> opposite;
+  for (std::size_t count = 1; count <= MostStations && search.add(); ++count)
+  {
+    if (count == 1 || !evidence.isExplainedBy(search.stations()))
+    {
+      continue;
+    }
+    if (!opposite)
+    {
+      opposite.emplace(evidence.several(evidence.surroundings(), { hull.piece, -hull.facing }));
+    }
+    while (opposite->stations().places.size() < count)
+    {
+      opposite->add();
+    }
+    if (isClearlyBetter(search, *opposite))
+    {
+      return sight().looksOf(search.stations().places);
+    }
+  }
+  return std::nullopt;
+}
 
 /// Those whose pieces `isAsked`.
 template <typename IsAsked>
@@ -362,8 +321,7 @@ std::vector<Side> sidesByDensity(const Mesh& mesh, std::span<const Piece> pieces
   std::span<const Side> known, const PointCloud& cloud, const Executor& executor)
 {
   std::vector<Side> sides(pieces.size());
-  const NearestPoints nearest(cloud.points(), executor);
-  const std::vector<DensityProbe> probes = probesOn(mesh, pieces, nearest);
+  const std::vector<DensityProbe> probes = densityProbes(mesh, pieces, cloud, executor);
   const std::vector<Eigen::AlignedBox3d> boxes = boxesOf(mesh, pieces);
   double area = 0., openQuestion = 0.;
   for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -388,21 +346,38 @@ std::vector<Side> sidesByDensity(const Mesh& mesh, std::span<const Piece> pieces
       continue;
     }
     const auto isWithin = [&](std::size_t i) { return boxes[hull].contains(boxes[i]); };
-    const StationSearch search(mesh, chosenFrom(probes, isWithin), pieces.size(), executor);
-    const std::optional<std::vector<int>> directions =
-      search.directions(boxes[hull], pieces[hull].isClosed ? MostHiddenIfClosed : MostHidden);
-    if (directions && (*directions)[hull] == (known[hull].isTurned ? 1 : -1))
+    const std::vector<DensityProbe> within = chosenFrom(probes, isWithin);
+    const StationEvidence evidence(within, pieces.size(), executor);
+    const auto sight = [&] { return Sight(mesh, within, pieces.size(), executor); };
+    if (!evidence.isEnough())
     {
-      tell(*directions, isWithin);
+      continue;
+    }
+    const int inwards = known[hull].isTurned ? 1 : -1;
+    std::optional<Looks> looks = looksOfOne(evidence, boxes[hull], sight);
+    if (!looks)
+    {
+      looks = looksOfSeveral(evidence, boxes[hull], { hull, inwards }, sight);
+    }
+    if (looks && looks->hidden <= (pieces[hull].isClosed ? MostHiddenIfClosed : MostHidden) &&
+      looks->directions[hull] == inwards)
+    {
+      tell(looks->directions, isWithin);
     }
   }
   if (openQuestion >= LeastOpenQuestion * area)
   {
-    const StationSearch search(mesh, probes, pieces.size(), executor);
-    if (const std::optional<std::vector<int>> directions =
-          search.directions(search.surroundings(), MostHidden))
+    const StationEvidence evidence(probes, pieces.size(), executor);
+    const auto sight = [&] { return Sight(mesh, probes, pieces.size(), executor); };
+    if (!evidence.isEnough())
     {
-      tell(*directions, [&](std::size_t i) { return !known[i].isKnown() && !sides[i].isKnown(); });
+      return sides;
+    }
+    const std::optional<Looks> looks = looksOfOne(evidence, evidence.surroundings(), sight);
+    if (looks && looks->hidden <= MostHidden)
+    {
+      tell(looks->directions,
+        [&](std::size_t i) { return !known[i].isKnown() && !sides[i].isKnown(); });
     }
   }
   return sides;
