@@ -117,15 +117,8 @@ bool isCertain(const FrontSurface& front)
   return front.disorder() < MostDisorder && front.scatter < MostScatter;
 }
 
-std::optional<FrontSurface> bestFront(const PointCloud& cloud, const NearestPoints& nearest,
-  std::size_t mostVertices, const Progress& progress, double leastPiece, bool mustBeCertain)
+std::optional<FrontSurface> bestFront(const FrontMaker& frontOf)
 {
-  PointLayers pointLayers(nearest, std::clamp(mostVertices, LeastSamples, MostSamples));
-  const auto frontOf = [&](Layers layers, std::uint64_t seed, double begin, double end)
-  {
-    return frontSurface(cloud, pointLayers, layers, seed, partOf(progress, begin, end), leastPiece,
-      mustBeCertain ? MostScatter : 1.);
-  };
   std::optional<FrontSurface> best = frontOf(Layers::Joined, SeedOfFront, 0., 0.5);
   const bool isWithoutDoubt =
     best && best->disorder() < MostDisorder && best->inOneOfTwo < LeastInTwoLayers;
@@ -144,9 +137,11 @@ std::optional<FrontSurface> bestFront(const PointCloud& cloud, const NearestPoin
     best = std::move(apart);
   }
   // Which of them is right in thin places is chance: others are asked.
-  for (std::uint64_t i = 1;
-       areAtOdds && (isInDoubt(*best) || (isOfEdge && isTorn(*best))) && i <= FrontsAtOdds; ++i)
+  const auto isUnsettled = [&] { return isInDoubt(*best) || (isOfEdge && isTorn(*best)); };
+  bool asksAnother = areAtOdds && isUnsettled();
+  for (std::uint64_t i = 1; asksAnother && i <= FrontsAtOdds; ++i)
   {
+    bool isReplaced = false;
     const double at = 0.75 + 0.25 * double(i - 1) / double(FrontsAtOdds);
     auto other = frontOf(Layers::Apart, SeedOfFront + i, at, at + 0.25 / double(FrontsAtOdds));
     // Without a limb, or one side of a blade, it would be simpler, too.
@@ -156,12 +151,27 @@ std::optional<FrontSurface> bestFront(const PointCloud& cloud, const NearestPoin
         (isOfEdge && isLessTorn(*other, *best))))
     {
       best = std::move(other);
+      isReplaced = true;
     }
+    // Handles that no two fronts agree on may be chance, too, though they are not narrow.
+    asksAnother = isUnsettled() || (isReplaced && genusOf(best->mesh) > 0);
   }
   if (best)
   {
     best->reachesEdges = isOfEdge;
   }
   return best && best->disorder() <= MostDisorderAtAll ? std::move(best) : std::nullopt;
+}
+
+std::optional<FrontSurface> bestFront(const PointCloud& cloud, const NearestPoints& nearest,
+  std::size_t mostVertices, const Progress& progress, double leastPiece, bool mustBeCertain)
+{
+  PointLayers pointLayers(nearest, std::clamp(mostVertices, LeastSamples, MostSamples));
+  return bestFront(
+    [&](Layers layers, std::uint64_t seed, double begin, double end)
+    {
+      return frontSurface(cloud, pointLayers, layers, seed, partOf(progress, begin, end),
+        leastPiece, mustBeCertain ? MostScatter : 1.);
+    });
 }
 }
