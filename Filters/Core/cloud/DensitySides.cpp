@@ -46,6 +46,8 @@ constexpr double MostHidden = 0.15;
 constexpr double MostHiddenIfClosed = 0.04;
 /// A room is scanned from some places, a flat from as many as it has rooms.
 constexpr std::size_t MostStations = 8;
+/// Of probes: several stations are searched with one of so many, as each of them is moved for each further one.
+constexpr std::size_t OneOfProbes = 4;
 /// Of the diagonal: how closely the density tells where a station was.
 constexpr double StationKnownTo = 1. / 128.;
 /// A rough surface does not hide itself: looks begin so many edges away.
@@ -159,6 +161,10 @@ public:
     , executor_(executor)
     , bounds_(boundsOf(probes))
   {
+    for (std::size_t i = 0; i < probes_.size(); i += OneOfProbes)
+    {
+      fewerProbes_.push_back(probes_[i]);
+    }
   }
 
   bool isEnough() const
@@ -199,7 +205,7 @@ public:
   /// Several, that see one side of the hull.
   StationSearch several(const Eigen::AlignedBox3d& box, const FacingPiece& hull) const
   {
-    return { probes_, hull, box, executor_ };
+    return { fewerProbes_, hull, box, executor_ };
   }
 
 private:
@@ -249,6 +255,7 @@ private:
   }
 
   const std::vector<DensityProbe>& probes_;
+  std::vector<DensityProbe> fewerProbes_;
   std::size_t pieceCount_;
   const Executor& executor_;
   Eigen::AlignedBox3d bounds_;

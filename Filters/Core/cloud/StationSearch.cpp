@@ -21,8 +21,9 @@ constexpr double MostBesideFurther = 0.95;
 /// Places of the first look, along each axis: around what was scanned, and among it, where most stations are.
 constexpr int PlacesAround = 7;
 constexpr int PlacesAmong = 9;
-/// The best so many are improved, by steps of these fractions of the diagonal.
-constexpr std::size_t PlacesImproved = 8;
+/// The best so many are improved, of the first station and of further ones, by steps of these fractions of the diagonal.
+constexpr std::size_t FirstImproved = 8;
+constexpr std::size_t FurtherImproved = 3;
 constexpr double FirstStride = 1. / 8.;
 constexpr double LastStride = 1. / 128.;
 
@@ -111,7 +112,8 @@ bool StationSearch::add()
       further[i] = { varianceBeside(all), i };
     });
   std::sort(further.begin(), further.end());
-  std::vector<Stations> found(std::min(further.size(), PlacesImproved));
+  const std::size_t improved = stations_.places.empty() ? FirstImproved : FurtherImproved;
+  std::vector<Stations> found(std::min(further.size(), improved));
   executor_.forEachPart(found.size(),
     [&](std::size_t i)
     {

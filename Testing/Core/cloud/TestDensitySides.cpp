@@ -21,13 +21,15 @@ constexpr std::size_t PointsOfScan = 30000;
 const Eigen::Vector3d RoomSize(1.5, 1., 0.6);
 const Eigen::Vector3d PlaceOfScanner(0.6, -0.3, 0.1);
 
-/// What a scanner sees in even angles within a room.
-std::vector<Eigen::Vector3d> scanOfRoom()
+/// What scanners see in even angles within a room.
+std::vector<Eigen::Vector3d> scanOfRoom(
+  const std::vector<Eigen::Vector3d>& stations = { PlaceOfScanner })
 {
   Random random(1);
   std::vector<Eigen::Vector3d> points;
   while (points.size() < PointsOfScan)
   {
+    const Eigen::Vector3d& station = stations[points.size() % stations.size()];
     const Eigen::Vector3d look = randomDirection(random);
     if (look.norm() > 1.)
     {
@@ -36,9 +38,9 @@ std::vector<Eigen::Vector3d> scanOfRoom()
     double way = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i)
     {
-      way = std::min(way, (std::copysign(RoomSize[i], look[i]) - PlaceOfScanner[i]) / look[i]);
+      way = std::min(way, (std::copysign(RoomSize[i], look[i]) - station[i]) / look[i]);
     }
-    points.push_back(PlaceOfScanner + way * look);
+    points.push_back(station + way * look);
   }
   return points;
 }
@@ -63,17 +65,21 @@ std::vector<Eigen::Vector3d> pointsOnWalls(double slope)
   return points;
 }
 
-/// As dense as a scanner at that place would leave them if nothing hid anything.
+/// As dense as scanners at these places would leave them if nothing hid anything: on both sides, or on the front alone.
 std::vector<Eigen::Vector3d> pointsAsIfSeenFrom(
-  const Eigen::Vector3d& place, const TriangleMesh& surface)
+  const std::vector<Eigen::Vector3d>& places, const TriangleMesh& surface, bool isFrontAlone)
 {
   std::vector<double> sums;
   double sum = 0.;
   for (const auto& [a, b, c] : surface.triangles)
   {
     const Eigen::Vector3d &p = surface.points[a], &q = surface.points[b], &r = surface.points[c];
-    const Eigen::Vector3d look = place - (p + q + r) / 3.;
-    sum += std::abs((q - p).cross(r - p).dot(look)) / std::pow(look.norm(), 3);
+    for (const Eigen::Vector3d& place : places)
+    {
+      const Eigen::Vector3d look = place - (p + q + r) / 3.;
+      const double seen = (q - p).cross(r - p).dot(look) / std::pow(look.norm(), 3);
+      sum += isFrontAlone ? std::max(seen, 0.) : std::abs(seen);
+    }
     sums.push_back(sum);
   }
   Random random(3);
@@ -135,6 +141,26 @@ TEST(DensitySides, ARoomLooksInwards)
   EXPECT_DOUBLE_EQ(scene.report.guessedShare, 1.);
 }
 
+// The same where scans of some places were joined, none of which explains the density alone.
+TEST(DensitySides, ARoomOfSeveralStationsLooksInwards)
+{
+  const ScannedScene scene(
+    roomAlone(), scanOfRoom({ { 1.2, 0.6, 0.1 }, { -1.2, -0.6, 0. }, { -0.9, 0.7, 0.1 } }));
+  EXPECT_EQ(scene.facing(), 1.);
+  EXPECT_EQ(scene.report.main(), SideEvidence::Density);
+}
+
+// A body that was scanned from some places around it looks outwards.
+TEST(DensitySides, BodiesSeenFromAroundLookOutwards)
+{
+  // So near that places behind its walls would leave much the same.
+  const std::vector<Eigen::Vector3d> around{ { 1.8, 0.2, 0.1 }, { -1.8, -0.2, 0. },
+    { 0.2, 1.3, -0.1 }, { -0.3, -1.3, 0.1 }, { 0.5, 0.2, 0.9 }, { -0.5, -0.1, -0.9 } };
+  const ScannedScene scene(roomAlone(), pointsAsIfSeenFrom(around, roomAlone(), true));
+  EXPECT_EQ(scene.facing(), 0.);
+  EXPECT_EQ(scene.report.main(), SideEvidence::Volume);
+}
+
 // A density that is even, or falls evenly, tells nothing: the volume counts.
 TEST(DensitySides, SlopesTellNothing)
 {
@@ -171,7 +197,7 @@ TEST(DensitySides, WhatIsHiddenWasNotSeen)
     const double angle = Length * point.x(), way = 1. + 0.3 * point.y();
     point = { way * std::sin(angle), way * std::cos(angle), 0.3 * point.z() };
   }
-  const ScannedScene scene(body, pointsAsIfSeenFrom({ 0., 1., 0. }, body));
+  const ScannedScene scene(body, pointsAsIfSeenFrom({ { 0., 1., 0. } }, body, false));
   EXPECT_EQ(scene.report.main(), SideEvidence::Volume);
 }
 
