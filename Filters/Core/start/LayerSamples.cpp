@@ -42,9 +42,10 @@ constexpr float LargestRiseInLayer = 0.3f;
 constexpr float ReachOfLayer = 1.5f;
 constexpr std::size_t LeastAroundStray = 4;
 /// At a corner, the directions to those within so many radii have a mean of that length: 0.90 at the tip of a right
-/// angle, 0.64 at a straight edge, less between two layers.
+/// angle, 0.64 at a straight edge, less between two layers. There are so many, for which such an angle has room.
 constexpr float ReachOfCorner = 4.f;
 constexpr float LeastMeanAtCorner = 0.75f;
+constexpr float LeastAroundCorner = 8.f;
 
 constexpr std::uint32_t NoSample = ~0u;
 constexpr std::size_t LayersPerCheck = 256;
@@ -162,7 +163,8 @@ bool isAtCorner(
         count += 1.f;
       }
     });
-  return squaredNorm(sum) >= LeastMeanAtCorner * LeastMeanAtCorner * count * count;
+  return count >= LeastAroundCorner &&
+    squaredNorm(sum) >= LeastMeanAtCorner * LeastMeanAtCorner * count * count;
 }
 
 /// Without those that lie in one layer with none around them: between two layers, or across them. At the corner of a

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/FrontSurface.h"
 
+#include "base/Random.h"
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
 #include "mesh/SelfIntersections.h"
 #include "mesh/SurfaceReport.h"
+#include "start/LayerSamples.h"
 
 #include "MeshTools.h"
 #include "Shapes.h"
@@ -14,7 +16,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace neuralmesh::testing
 {
@@ -172,6 +178,64 @@ TEST(FrontSurface, KeepsThinPlatesWithNoise)
     between += !isOnRim && std::abs(point.z()) < 0.3 * Thickness ? 1 : 0;
   }
   EXPECT_LT(between, apart->mesh.vertexCount() / 100);
+}
+
+// Keeps the promise: corners of thin plates with noise are not cut off, though samples there lie in no layer.
+TEST(FrontSurface, KeepsCornersOfThinPlates)
+{
+  // Of the diagonal, which is 2.83.
+  constexpr double Thickness = 0.06, Noise = Thickness / 6. / 2.83;
+  const PointCloud cloud = scanOf(plate(Thickness), Noise, 50000);
+  const NearestPoints nearest(cloud.points());
+  PointLayers pointLayers(nearest, 2500);
+  double sum = 0.;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed)
+  {
+    const LayerSamples samples = layerSamples(
+      pointLayers, Layers::Apart, seed, [](double) { return true; }, 1.);
+    for (const auto& [x, y] : { std::pair(-1., -1.), { -1., 1. }, { 1., -1. }, { 1., 1. } })
+    {
+      double closest = 1.;
+      for (const LayerSample& sample : samples.all)
+      {
+        closest =
+          std::min(closest, (cloud.toInput(sample.position) - Eigen::Vector3d(x, y, 0.)).norm());
+      }
+      sum += closest;
+    }
+  }
+  // 0.0231; without their samples it is 0.0341. They are 0.04 apart.
+  EXPECT_LT(sum / 32., 0.028);
+}
+
+// Keeps the promise: a few samples in a clump of points are no corner, where nothing but strays is around.
+TEST(FrontSurface, ClumpsHaveNoCorners)
+{
+  constexpr double Edge = 0.08;
+  std::vector<Eigen::Vector3d> points = generateCloud(plate(0.06), { .count = 50000 });
+  Random random(1);
+  for (int clump = 0; clump < 16; ++clump)
+  {
+    const Eigen::Vector3d corner(0.4 * (clump % 4) - 0.6, 0.4 * (clump / 4) - 0.6, 0.2);
+    for (int i = 0; i < 100; ++i)
+    {
+      const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+      points.push_back(corner + Edge * Eigen::Vector3d(x, y, z));
+    }
+  }
+  const PointCloud cloud(points);
+  const NearestPoints nearest(cloud.points());
+  PointLayers pointLayers(nearest, 2500);
+  std::ptrdiff_t inClumps = 0;
+  for (std::uint64_t seed = 1; seed <= 2; ++seed)
+  {
+    const LayerSamples samples = layerSamples(
+      pointLayers, Layers::Apart, seed, [](double) { return true; }, 1.);
+    inClumps += std::ranges::count_if(samples.all,
+      [&](const LayerSample& sample) { return cloud.toInput(sample.position).z() > 0.2; });
+  }
+  // 111; if those that have hardly others around stay, it is 162.
+  EXPECT_LT(inClumps, 130);
 }
 
 // Keeps the promise: rods and spheres have no two layers, however coarse the samples are.
