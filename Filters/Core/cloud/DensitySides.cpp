@@ -46,8 +46,9 @@ constexpr double MostHidden = 0.15;
 constexpr double MostHiddenIfClosed = 0.04;
 /// A room is scanned from some places, a flat from as many as it has rooms.
 constexpr std::size_t MostStations = 8;
-/// Of probes: several stations are searched with one of so many, as each of them is moved for each further one.
-constexpr std::size_t OneOfProbes = 4;
+/// Of the logarithm of the density: if it varies less, as where views around an object were joined, several stations on
+/// either side explain it.
+constexpr double LeastVarianceOfSeveral = 0.25;
 /// Of the diagonal: how closely the density tells where a station was.
 constexpr double StationKnownTo = 1. / 128.;
 /// A rough surface does not hide itself: looks begin so many edges away.
@@ -161,16 +162,14 @@ public:
     , executor_(executor)
     , bounds_(boundsOf(probes))
   {
-    for (std::size_t i = 0; i < probes_.size(); i += OneOfProbes)
-    {
-      fewerProbes_.push_back(probes_[i]);
-    }
   }
 
   bool isEnough() const
   {
     return probes_.size() >= FewestProbes && varianceOfAll() >= densityVarianceByChance();
   }
+
+  bool isEnoughForSeveral() const { return varianceOfAll() >= LeastVarianceOfSeveral; }
 
   Eigen::AlignedBox3d surroundings() const
   {
@@ -205,7 +204,7 @@ public:
   /// Several, that see one side of the hull.
   StationSearch several(const Eigen::AlignedBox3d& box, const FacingPiece& hull) const
   {
-    return { fewerProbes_, hull, box, executor_ };
+    return { probes_, hull, box, executor_ };
   }
 
 private:
@@ -255,7 +254,6 @@ private:
   }
 
   const std::vector<DensityProbe>& probes_;
-  std::vector<DensityProbe> fewerProbes_;
   std::size_t pieceCount_;
   const Executor& executor_;
   Eigen::AlignedBox3d bounds_;
@@ -288,23 +286,20 @@ template <typename SightOfScene>
 std::optional<Looks> looksOfSeveral(const StationEvidence& evidence, const Eigen::AlignedBox3d& box,
   const FacingPiece& hull, const SightOfScene& sight)
 {
+  if (!evidence.isEnoughForSeveral())
+  {
+    return std::nullopt;
+  }
   StationSearch search = evidence.several(box, hull);
-  std::optional<StationSearch> opposite;
+  StationSearch opposite = evidence.several(evidence.surroundings(), { hull.piece, -hull.facing });
   for (std::size_t count = 1; count <= MostStations && search.add(); ++count)
   {
-    if (count == 1 || !evidence.isExplainedBy(search.stations()))
+    opposite.add();
+    if (count == 1)
     {
       continue;
     }
-    if (!opposite)
-    {
-      opposite.emplace(evidence.several(evidence.surroundings(), { hull.piece, -hull.facing }));
-    }
-    while (opposite->stations().places.size() < count)
-    {
-      opposite->add();
-    }
-    if (isClearlyBetter(search, *opposite))
+    if (evidence.isExplainedBy(search.stations()) && isClearlyBetter(search, opposite))
     {
       return sight().looksOf(search.stations().places);
     }

@@ -14,16 +14,15 @@ namespace
 {
 /// Of the angle between look and normal: noise and curvature show more of what is seen along the surface.
 constexpr double LeastCosineOfLook = 0.1;
-/// What looks away from a station counts as if there were some points, as a logarithm needs.
-constexpr double CosineOfBack = 0.001;
+/// Of the square of what lies off: what looks away from all stations is as far off as anything.
+constexpr double OffAtBacks = 4.;
 /// What a further station may leave of the variance.
 constexpr double MostBesideFurther = 0.95;
 /// Places of the first look, along each axis: around what was scanned, and among it, where most stations are.
 constexpr int PlacesAround = 7;
 constexpr int PlacesAmong = 9;
-/// The best so many are improved, of the first station and of further ones, by steps of these fractions of the diagonal.
-constexpr std::size_t FirstImproved = 8;
-constexpr std::size_t FurtherImproved = 3;
+/// The best so many are improved, by steps of these fractions of the diagonal.
+constexpr std::size_t PlacesImproved = 8;
 constexpr double FirstStride = 1. / 8.;
 constexpr double LastStride = 1. / 128.;
 
@@ -83,17 +82,24 @@ StationSearch::Densities StationSearch::densitiesFrom(const Eigen::Vector3d& sta
       const double square = std::max(look.squaredNorm(), nearest);
       const double cosine = probe.normal.dot(look) / std::sqrt(square);
       const bool isBack = hull_ && probe.piece == hull_->piece && hull_->facing * cosine < 0.;
-      return (isBack ? CosineOfBack : std::max(std::abs(cosine), LeastCosineOfLook)) / square;
+      return isBack ? 0. : std::max(std::abs(cosine), LeastCosineOfLook) / square;
     });
   return result;
 }
 
 double StationSearch::varianceBeside(const Densities& densities) const
 {
-  std::vector<double> values(probes_.size());
-  std::transform(probes_.begin(), probes_.end(), densities.begin(), values.begin(),
-    [](const DensityProbe& probe, double density) { return probe.logDensity - std::log(density); });
-  return densityVariance(values);
+  std::vector<double> values;
+  values.reserve(probes_.size());
+  for (std::size_t i = 0; i < probes_.size(); ++i)
+  {
+    if (densities[i] > 0.)
+    {
+      values.push_back(probes_[i].logDensity - std::log(densities[i]));
+    }
+  }
+  const double part = double(values.size()) / double(probes_.size());
+  return (values.empty() ? 0. : part * densityVariance(values)) + (1. - part) * OffAtBacks;
 }
 
 bool StationSearch::add()
@@ -112,8 +118,7 @@ bool StationSearch::add()
       further[i] = { varianceBeside(all), i };
     });
   std::sort(further.begin(), further.end());
-  const std::size_t improved = stations_.places.empty() ? FirstImproved : FurtherImproved;
-  std::vector<Stations> found(std::min(further.size(), improved));
+  std::vector<Stations> found(std::min(further.size(), PlacesImproved));
   executor_.forEachPart(found.size(),
     [&](std::size_t i)
     {
