@@ -190,7 +190,7 @@ TEST(DensitySides, OpenWallsLookToTheScanner)
 // A bent body as dense as if a scanner in its middle had looked through it is no room, whose corners it sees.
 TEST(DensitySides, WhatIsHiddenWasNotSeen)
 {
-  constexpr double Length = 3.;
+  constexpr double Length = 1.5;
   TriangleMesh body = makeSphere(48);
   for (Eigen::Vector3d& point : body.points)
   {
