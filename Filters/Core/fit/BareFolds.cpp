@@ -31,9 +31,19 @@ constexpr double LeastSamplesOfArea = 1.5;
 /// Samples may get farther by so many mean squared distances, all together.
 constexpr double MostFarther = 2.;
 constexpr unsigned MostCollapsedValence = 10;
+/// The ends of an edge that is flipped have more edges than that before.
+constexpr unsigned LeastUnfoldedValence = 4;
 /// Of the triangles that come out, unless those before were worse.
 constexpr float LeastCollapsedRatio = 0.2f;
 constexpr std::size_t FoldsPerRange = 1024;
+
+/// The collapse of a vertex, and a flip of an edge opposite to it that has to follow.
+struct Unfolding
+{
+  VertexIndex kept = NoVertex;
+  Edge flipped{ NoVertex, NoVertex };
+  VertexIndex beyond = NoVertex; ///< the other end of that edge afterwards
+};
 
 class BareFolds
 {
@@ -50,24 +60,30 @@ public:
 
   ChangedVertices run()
   {
-    std::vector<std::uint8_t> isLocked(mesh_.indexEnd());
+    isLocked_.assign(mesh_.indexEnd(), 0);
     for (const VertexIndex v : bareVertices())
     {
       // A collapse near by may have ended the fold.
-      const VertexIndex kept = isLocked[v] == 0 && isFolded(v) ? bestNeighbor(v) : NoVertex;
-      if (kept == NoVertex)
+      const Unfolding best = isLocked_[v] == 0 && isFolded(v) ? bestUnfolding(v) : Unfolding();
+      if (best.kept == NoVertex)
       {
         continue;
       }
       // Samples of these triangles lie elsewhere then.
-      isLocked[v] = 1;
+      isLocked_[v] = 1;
       for (const VertexIndex neighbor : mesh_.ring(v))
       {
-        isLocked[neighbor] = 1;
+        isLocked_[neighbor] = 1;
       }
       changed_.touchAround(mesh_, v);
-      mesh_.collapse(v, kept);
-      changed_.erase(v, kept);
+      mesh_.collapse(v, best.kept);
+      changed_.erase(v, best.kept);
+      if (best.beyond != NoVertex)
+      {
+        isLocked_[best.beyond] = 1;
+        changed_.touch(best.beyond);
+        mesh_.flip(best.flipped[0], best.flipped[1]);
+      }
     }
     return std::move(changed_);
   }
@@ -139,37 +155,88 @@ private:
     return false;
   }
 
+  VertexIndex vertexBeyond(VertexIndex a, VertexIndex b, VertexIndex inner) const
+  {
+    const Edge opposite = oppositeTo(mesh_, { a, b });
+    return opposite[0] == inner ? opposite[1] : opposite[0];
+  }
+
   /// Between a normal and that of the triangle beyond an edge, whose triangle on this side has the corner `inner`.
   float cosineBeyond(Vector4 normal, VertexIndex a, VertexIndex b, VertexIndex inner) const
   {
-    if (mesh_.isBoundaryEdge(a, b))
-    {
-      return 1.f;
-    }
-    const Edge opposite = oppositeTo(mesh_, { a, b });
-    const VertexIndex beyond = opposite[0] == inner ? opposite[1] : opposite[0];
-    return cosineBetween(normal, normalOf(a, beyond, b));
+    return mesh_.isBoundaryEdge(a, b)
+      ? 1.f
+      : cosineBetween(normal, normalOf(a, vertexBeyond(a, b, inner), b));
   }
 
-  /// Whether the triangles that come out turn over, once the vertex is one with the neighbour in `slot`.
-  bool foldsInto(VertexIndex v, unsigned slot) const
+  /// Of a triangle around the vertex that is kept: the corners other than that, and the vertex on this side of these
+  /// before.
+  struct Side
+  {
+    VertexIndex first, second, inner;
+  };
+
+  /// Those that come out once the vertex is one with the neighbour in `slot`.
+  void setSides(VertexIndex v, unsigned slot)
   {
     const Ring& ring = mesh_.ring(v);
-    const VertexIndex kept = ring[slot];
-    Vector4 last{};
+    sides_.clear();
     for (unsigned steps = 1; steps + 1 < ring.size(); ++steps)
     {
-      const VertexIndex a = ring[ring.after(slot, steps)], b = ring[ring.after(slot, steps + 1)];
-      const Vector4 normal = normalOf(kept, a, b);
-      const float toLast =
-        steps == 1 ? cosineBeyond(normal, kept, a, v) : cosineBetween(normal, last);
-      if (std::min(toLast, cosineBeyond(normal, a, b, v)) < CosineOfFanFold)
+      sides_.push_back({ ring[ring.after(slot, steps)], ring[ring.after(slot, steps + 1)], v });
+    }
+  }
+
+  /// Whether triangles turn over at an edge of the vertex that is kept.
+  bool foldsAround(VertexIndex v, VertexIndex kept) const
+  {
+    Vector4 last{};
+    for (const Side& side : sides_)
+    {
+      const Vector4 normal = normalOf(kept, side.first, side.second);
+      const float toLast = &side == &sides_.front() ? cosineBeyond(normal, kept, side.first, v)
+                                                    : cosineBetween(normal, last);
+      if (toLast < CosineOfFanFold)
       {
         return true;
       }
       last = normal;
     }
-    return cosineBeyond(last, ring[ring.before(slot)], kept, v) < CosineOfFanFold;
+    return cosineBeyond(last, sides_.back().second, kept, v) < CosineOfFanFold;
+  }
+
+  bool foldsBeyond(VertexIndex kept, const Side& side) const
+  {
+    return cosineBeyond(normalOf(kept, side.first, side.second), side.first, side.second,
+             side.inner) < CosineOfFanFold;
+  }
+
+  /// Whether what comes out is free of folds, with the flip of one edge if need be: where the only fold is there, two
+  /// triangles lie on each other, and the flip leaves one layer.
+  bool canUnfold(VertexIndex v, Unfolding& unfolding)
+  {
+    const auto folds = [&](const Side& side) { return foldsBeyond(unfolding.kept, side); };
+    const auto folded = std::find_if(sides_.begin(), sides_.end(), folds);
+    if (folded == sides_.end())
+    {
+      return !foldsAround(v, unfolding.kept);
+    }
+    const Side old = *folded;
+    const VertexIndex beyond = vertexBeyond(old.first, old.second, old.inner);
+    const auto isLocked = [&](VertexIndex u) { return isLocked_[u] != 0; };
+    const auto mayLoseEdge = [&](VertexIndex u)
+    { return mesh_.valence(u) > LeastUnfoldedValence && !mesh_.isBoundary(u); };
+    if (mesh_.ring(unfolding.kept).contains(beyond) || mesh_.ring(v).contains(beyond) ||
+      mesh_.valence(beyond) >= MostCollapsedValence || !mayLoseEdge(old.first) ||
+      !mayLoseEdge(old.second) || (isLocked(old.first) && isLocked(old.second) && isLocked(beyond)))
+    {
+      return false;
+    }
+    unfolding.flipped = { old.first, old.second };
+    unfolding.beyond = beyond;
+    *folded = { beyond, old.second, old.first };
+    sides_.insert(folded, { old.first, beyond, old.second });
+    return std::none_of(sides_.begin(), sides_.end(), folds) && !foldsAround(v, unfolding.kept);
   }
 
   bool isAtGap(VertexIndex v) const
@@ -179,8 +246,8 @@ private:
       ring.begin(), ring.end(), [&](VertexIndex neighbor) { return counts_[neighbor] == 0.f; });
   }
 
-  /// The neighbour for which a collapse leaves the smallest area.
-  VertexIndex bestNeighbor(VertexIndex v)
+  /// The one that leaves the smallest area.
+  Unfolding bestUnfolding(VertexIndex v)
   {
     const Ring& ring = mesh_.ring(v);
     onStar_.clear();
@@ -192,41 +259,57 @@ private:
       leastRatio =
         std::min(leastRatio, radiusRatio(mesh_.position(v), mesh_.position(a), mesh_.position(b)));
     }
-    double mostSquares = MostFarther * scale_;
-    for (const std::uint32_t sample : onStar_)
-    {
-      mostSquares += double(samples_.weight(sample)) * double(samples_.squaredDistance(sample));
-    }
-    bundle_.assign(samples_, onStar_);
+    const std::size_t ofStar = onStar_.size();
     double leastArea = double(areas_[v]) - LeastSamplesOfArea / double(densities_[v]);
-    VertexIndex best = NoVertex;
+    Unfolding best;
     for (unsigned slot = 0; slot < ring.size(); ++slot)
     {
-      const VertexIndex kept = ring[slot];
-      if (!mesh_.canCollapse(v, kept) ||
-        mesh_.valence(kept) + mesh_.valence(v) - 4 > MostCollapsedValence)
+      Unfolding unfolding{ ring[slot] };
+      setSides(v, slot);
+      if (!mesh_.canCollapse(v, unfolding.kept) ||
+        mesh_.valence(unfolding.kept) + mesh_.valence(v) - 4 > MostCollapsedValence ||
+        !canUnfold(v, unfolding))
       {
         continue;
       }
+      onStar_.resize(ofStar);
+      const Vector4 kept = mesh_.position(unfolding.kept);
       double area = 0.;
+      if (unfolding.beyond != NoVertex)
+      {
+        const auto& [a, b] = unfolding.flipped;
+        samples_.collect(a, b, unfolding.beyond, onStar_);
+        area -= double(
+          triangleArea(mesh_.position(a), mesh_.position(b), mesh_.position(unfolding.beyond)));
+      }
       float ratio = 1.f;
       distances_.clear();
-      for (unsigned steps = 1; steps + 1 < ring.size(); ++steps)
+      for (const Side& side : sides_)
       {
-        const Vector4 a = mesh_.position(ring[ring.after(slot, steps)]);
-        const Vector4 b = mesh_.position(ring[ring.after(slot, steps + 1)]);
-        area += double(triangleArea(mesh_.position(kept), a, b));
-        ratio = std::min(ratio, radiusRatio(mesh_.position(kept), a, b));
-        distances_.emplace_back(mesh_.position(kept), a, b);
+        const Vector4 a = mesh_.position(side.first), b = mesh_.position(side.second);
+        area += double(triangleArea(kept, a, b));
+        ratio = std::min(ratio, radiusRatio(kept, a, b));
+        distances_.emplace_back(kept, a, b);
       }
-      if (area < leastArea && ratio >= leastRatio && !foldsInto(v, slot) &&
-        bundle_.squares(distances_, mostSquares) <= mostSquares)
+      if (area < leastArea && ratio >= leastRatio && staysNear())
       {
         leastArea = area;
-        best = kept;
+        best = unfolding;
       }
     }
     return best;
+  }
+
+  /// Whether the samples get no farther.
+  bool staysNear()
+  {
+    double most = MostFarther * scale_;
+    for (const std::uint32_t sample : onStar_)
+    {
+      most += double(samples_.weight(sample)) * double(samples_.squaredDistance(sample));
+    }
+    bundle_.assign(samples_, onStar_);
+    return bundle_.squares(distances_, most) <= most;
   }
 
   Mesh& mesh_;
@@ -234,9 +317,11 @@ private:
   TriangleSamples samples_;
   double scale_; ///< mean squared distance of a sample
   ChangedVertices changed_;
-  std::vector<float> counts_;         ///< of the samples on the triangles of each vertex
-  std::vector<float> areas_;          ///< of these
-  std::vector<float> densities_;      ///< usual samples on an area there
+  std::vector<float> counts_;          ///< of the samples on the triangles of each vertex
+  std::vector<float> areas_;           ///< of these
+  std::vector<float> densities_;       ///< usual samples on an area there
+  std::vector<std::uint8_t> isLocked_; ///< of each vertex, whether triangles there have changed
+  std::vector<Side> sides_;
   std::vector<std::uint32_t> onStar_; ///< samples
   SampleBundle bundle_;               ///< of these
   std::vector<TriangleDistances> distances_;

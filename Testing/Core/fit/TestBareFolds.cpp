@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace neuralmesh::testing
@@ -22,12 +23,9 @@ std::vector<Eigen::Vector3d> pointsOn(const TriangleMesh& surface)
   return generateCloud(surface, options);
 }
 
-/// Which vertices of a surface are collapsed, given these points.
-std::vector<VertexIndex> collapsedOf(
-  const TriangleMesh& surface, const std::vector<Eigen::Vector3d>& points)
+/// Which vertices are collapsed, given these points.
+std::vector<VertexIndex> collapsedOf(Mesh& mesh, const PointCloud& cloud)
 {
-  const PointCloud cloud(points);
-  Mesh mesh = buildMesh(surface, cloud);
   const PlacedCloud placed(cloud, mesh);
   const ChangedVertices changed = collapseBareFolds(mesh, placed.samples, 0.);
   EXPECT_EQ(defectOf(mesh), "");
@@ -41,6 +39,21 @@ std::vector<VertexIndex> collapsedOf(
     }
   }
   return collapsed;
+}
+
+std::vector<VertexIndex> collapsedOf(
+  const TriangleMesh& surface, const std::vector<Eigen::Vector3d>& points)
+{
+  const PointCloud cloud(points);
+  Mesh mesh = buildMesh(surface, cloud);
+  return collapsedOf(mesh, cloud);
+}
+
+VertexIndex indexAt(const TriangleMesh& surface, const Eigen::Vector3d& place)
+{
+  const auto found = std::min_element(surface.points.begin(), surface.points.end(),
+    [&](const auto& a, const auto& b) { return (a - place).norm() < (b - place).norm(); });
+  return VertexIndex(found - surface.points.begin());
 }
 }
 
@@ -68,5 +81,31 @@ TEST(BareFolds, LeavesEdgesAndGaps)
     points, [&](const Eigen::Vector3d& point) { return (point - onEdge).norm() < 0.25; });
   EXPECT_GT(erased, 500u);
   EXPECT_TRUE(collapsedOf(cube, points).empty());
+}
+
+// Promise: a fin that spans a notch in a rim goes, though what is left of it would lie upon another triangle unless an
+// edge is flipped.
+TEST(BareFolds, OpensNotches)
+{
+  TriangleMesh cube = makeCube(10);
+  const VertexIndex notch = indexAt(cube, { 0., -0.5, 0.5 });
+  const VertexIndex right = indexAt(cube, { 0.1, -0.5, 0.5 });
+  const VertexIndex behind = indexAt(cube, { 0., -0.4, 0.5 });
+  cube.points[notch].y() += 0.05;
+  const PointCloud cloud(pointsOn(cube));
+  Mesh open = buildMesh(cube, cloud);
+  // Behind the notch there is one edge.
+  open.flip(notch, indexAt(cube, { 0.1, -0.4, 0.5 }));
+  for (const Eigen::Vector3d& place :
+    { Eigen::Vector3d(0., -0.52, 0.48), Eigen::Vector3d(0.05, -0.54, 0.45) })
+  {
+    Mesh mesh = open;
+    mesh.flip(notch, behind);
+    const Ring& ring = mesh.ring(notch);
+    const VertexIndex fin =
+      mesh.split(notch, ring.before(ring.find(right)), 2, cloud.fromInput(place));
+    EXPECT_EQ(collapsedOf(mesh, cloud), std::vector<VertexIndex>{ fin }) << place.transpose();
+    EXPECT_EQ(canonical(trianglesOf(mesh)), canonical(trianglesOf(open))) << place.transpose();
+  }
 }
 }
