@@ -31,18 +31,21 @@ constexpr double LeastSamplesOfArea = 1.5;
 /// Samples may get farther by so many mean squared distances, all together.
 constexpr double MostFarther = 2.;
 constexpr unsigned MostCollapsedValence = 10;
-/// The ends of an edge that is flipped have more edges than that before.
+/// What a collapse leaves is unfolded by so many flips, at most, ...
+constexpr std::size_t MostUnfoldingFlips = 3;
+/// ... of edges at whose ends so many others stay.
 constexpr unsigned LeastUnfoldedValence = 4;
 /// Of the triangles that come out, unless those before were worse.
 constexpr float LeastCollapsedRatio = 0.2f;
 constexpr std::size_t FoldsPerRange = 1024;
 
-/// The collapse of a vertex, and a flip of an edge opposite to it that has to follow.
+/// The collapse of a vertex, and flips that have to follow.
 struct Unfolding
 {
   VertexIndex kept = NoVertex;
-  Edge flipped{ NoVertex, NoVertex };
-  VertexIndex beyond = NoVertex; ///< the other end of that edge afterwards
+  /// The first two corners of each are the ends of an edge before its flip, the third one comes to be a neighbour of
+  /// `kept`.
+  std::vector<Triangle> flipped = {};
 };
 
 class BareFolds
@@ -78,11 +81,11 @@ public:
       changed_.touchAround(mesh_, v);
       mesh_.collapse(v, best.kept);
       changed_.erase(v, best.kept);
-      if (best.beyond != NoVertex)
+      for (const auto& [a, b, beyond] : best.flipped)
       {
-        isLocked_[best.beyond] = 1;
-        changed_.touch(best.beyond);
-        mesh_.flip(best.flipped[0], best.flipped[1]);
+        isLocked_[beyond] = 1;
+        changed_.touch(beyond);
+        mesh_.flip(a, b);
       }
     }
     return std::move(changed_);
@@ -211,32 +214,45 @@ private:
              side.inner) < CosineOfFanFold;
   }
 
-  /// Whether what comes out is free of folds, with the flip of one edge if need be: where the only fold is there, two
-  /// triangles lie on each other, and the flip leaves one layer.
+  /// Whether what comes out is free of folds, if need be by flips: where it folds at an edge, two triangles lie on each
+  /// other, and the flip of that edge leaves one layer.
   bool canUnfold(VertexIndex v, Unfolding& unfolding)
   {
-    const auto folds = [&](const Side& side) { return foldsBeyond(unfolding.kept, side); };
-    const auto folded = std::find_if(sides_.begin(), sides_.end(), folds);
-    if (folded == sides_.end())
+    const auto folded = [&]
     {
-      return !foldsAround(v, unfolding.kept);
+      return std::find_if(sides_.begin(), sides_.end(),
+        [&](const Side& side) { return foldsBeyond(unfolding.kept, side); });
+    };
+    for (auto side = folded(); side != sides_.end(); side = folded())
+    {
+      const auto [first, second, inner] = *side;
+      const VertexIndex beyond = vertexBeyond(first, second, inner);
+      if (unfolding.flipped.size() == MostUnfoldingFlips ||
+        !mayFlip(v, unfolding, { first, second, beyond }))
+      {
+        return false;
+      }
+      unfolding.flipped.push_back({ first, second, beyond });
+      *side = { beyond, second, first };
+      sides_.insert(side, { first, beyond, second });
     }
-    const Side old = *folded;
-    const VertexIndex beyond = vertexBeyond(old.first, old.second, old.inner);
-    const auto isLocked = [&](VertexIndex u) { return isLocked_[u] != 0; };
+    return !foldsAround(v, unfolding.kept);
+  }
+
+  bool mayFlip(VertexIndex v, const Unfolding& unfolding, const Triangle& triangle) const
+  {
+    const auto& [first, second, beyond] = triangle;
+    const auto flips = unsigned(unfolding.flipped.size());
     const auto mayLoseEdge = [&](VertexIndex u)
-    { return mesh_.valence(u) > LeastUnfoldedValence && !mesh_.isBoundary(u); };
-    if (mesh_.ring(unfolding.kept).contains(beyond) || mesh_.ring(v).contains(beyond) ||
-      mesh_.valence(beyond) >= MostCollapsedValence || !mayLoseEdge(old.first) ||
-      !mayLoseEdge(old.second) || (isLocked(old.first) && isLocked(old.second) && isLocked(beyond)))
-    {
-      return false;
-    }
-    unfolding.flipped = { old.first, old.second };
-    unfolding.beyond = beyond;
-    *folded = { beyond, old.second, old.first };
-    sides_.insert(folded, { old.first, beyond, old.second });
-    return std::none_of(sides_.begin(), sides_.end(), folds) && !foldsAround(v, unfolding.kept);
+    { return mesh_.valence(u) > LeastUnfoldedValence + flips && !mesh_.isBoundary(u); };
+    const bool isNew = !mesh_.ring(unfolding.kept).contains(beyond) &&
+      std::none_of(sides_.begin(), sides_.end(),
+        [&, &end = beyond](const Side& side) { return side.first == end || side.second == end; });
+    // Samples of a triangle whose corners are locked may lie elsewhere by now.
+    return isNew &&
+      mesh_.valence(unfolding.kept) + mesh_.valence(v) + flips < MostCollapsedValence + 4 &&
+      mesh_.valence(beyond) < MostCollapsedValence && mayLoseEdge(first) && mayLoseEdge(second) &&
+      !(isLocked_[first] != 0 && isLocked_[second] != 0 && isLocked_[beyond] != 0);
   }
 
   bool isAtGap(VertexIndex v) const
@@ -275,12 +291,10 @@ private:
       onStar_.resize(ofStar);
       const Vector4 kept = mesh_.position(unfolding.kept);
       double area = 0.;
-      if (unfolding.beyond != NoVertex)
+      for (const auto& [a, b, beyond] : unfolding.flipped)
       {
-        const auto& [a, b] = unfolding.flipped;
-        samples_.collect(a, b, unfolding.beyond, onStar_);
-        area -= double(
-          triangleArea(mesh_.position(a), mesh_.position(b), mesh_.position(unfolding.beyond)));
+        samples_.collect(a, b, beyond, onStar_);
+        area -= double(triangleArea(mesh_.position(a), mesh_.position(b), mesh_.position(beyond)));
       }
       float ratio = 1.f;
       distances_.clear();
@@ -294,7 +308,7 @@ private:
       if (area < leastArea && ratio >= leastRatio && staysNear())
       {
         leastArea = area;
-        best = unfolding;
+        best = std::move(unfolding);
       }
     }
     return best;
