@@ -18,6 +18,8 @@ namespace
 {
 /// A part for an executor.
 constexpr std::size_t MeshVerticesPerRange = 4096;
+/// That memory is needed for when gaps are closed.
+constexpr std::size_t VerticesTakenAtOnce = 65536;
 }
 
 Mesh::Mesh(LargeVector<Vector4> positions, LargeVector<Ring> rings)
@@ -376,6 +378,38 @@ std::vector<VertexIndex> Mesh::dropErased(const Executor& executor)
   return alive;
 }
 
+/// No vertex goes to where one lies that was not taken yet. So a few at a time need memory.
+template <typename Take>
+void Mesh::closeGaps(std::size_t count, const Take& take, const Executor& executor)
+{
+  const std::size_t most = std::min(count, VerticesTakenAtOnce);
+  LargeVector<Ring> rings(most);
+  LargeVector<Vector4> positions(most);
+  for (std::size_t first = 0; first < count; first += most)
+  {
+    const std::size_t size = std::min(most, count - first);
+    executor.forEachRange(size, MeshVerticesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          take(first + i, rings[i], positions[i]);
+        }
+      });
+    executor.forEachRange(size, MeshVerticesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        std::copy(rings.begin() + std::ptrdiff_t(begin), rings.begin() + std::ptrdiff_t(end),
+          rings_.begin() + std::ptrdiff_t(first + begin));
+        std::copy(positions.begin() + std::ptrdiff_t(begin),
+          positions.begin() + std::ptrdiff_t(end),
+          positions_.begin() + std::ptrdiff_t(first + begin));
+      });
+  }
+  rings_.resize(count);
+  positions_.resize(count);
+}
+
 void Mesh::renumber(std::span<const VertexIndex> permutation)
 {
   renumber(permutation, Executor::sequential());
@@ -385,23 +419,34 @@ void Mesh::renumber(std::span<const VertexIndex> permutation, const Executor& ex
 {
   assert(permutation.size() == vertexCount());
   const std::vector<VertexIndex> newIndex = newIndices(permutation, indexEnd(), executor);
-  auto rings = touchedVector<LargeVector<Ring>>(permutation.size(), executor);
-  auto positions = touchedVector<LargeVector<Vector4>>(permutation.size(), executor);
-  executor.forEachRange(permutation.size(), MeshVerticesPerRange,
-    [&](std::size_t begin, std::size_t end)
+  const auto take = [&](std::size_t i, Ring& ring, Vector4& position)
+  {
+    ring = rings_[permutation[i]];
+    for (unsigned slot = 0; slot < ring.size(); ++slot)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      ring.replace(slot, newIndex[ring[slot]]);
+    }
+    position = positions_[permutation[i]];
+  };
+  if (std::is_sorted(permutation.begin(), permutation.end()))
+  {
+    closeGaps(permutation.size(), take, executor.uninterrupted());
+  }
+  else
+  {
+    auto rings = touchedVector<LargeVector<Ring>>(permutation.size(), executor);
+    auto positions = touchedVector<LargeVector<Vector4>>(permutation.size(), executor);
+    executor.forEachRange(permutation.size(), MeshVerticesPerRange,
+      [&](std::size_t begin, std::size_t end)
       {
-        rings[i] = rings_[permutation[i]];
-        for (unsigned slot = 0; slot < rings[i].size(); ++slot)
+        for (std::size_t i = begin; i < end; ++i)
         {
-          rings[i].replace(slot, newIndex[rings[i][slot]]);
+          take(i, rings[i], positions[i]);
         }
-        positions[i] = positions_[permutation[i]];
-      }
-    });
-  rings_ = std::move(rings);
-  positions_ = std::move(positions);
+      });
+    rings_ = std::move(rings);
+    positions_ = std::move(positions);
+  }
   properties_.renumber(permutation, executor.uninterrupted());
   erased_.clear();
   reusable_.clear();

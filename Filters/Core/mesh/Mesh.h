@@ -185,6 +185,8 @@ public:
 private:
   friend class StoredMesh;
 
+  template <typename Take>
+  void closeGaps(std::size_t count, const Take& take, const Executor& executor);
   VertexIndex newVertex(Vector4 position);
   void eraseVertex(VertexIndex v);
   bool isSound() const;

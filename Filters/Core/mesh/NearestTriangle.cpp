@@ -132,20 +132,27 @@ private:
 }
 
 NearestTriangle::NearestTriangle(const TriangleMesh& mesh, const Executor& executor)
-  : points_(mesh.points)
-  , triangles_(touchedVector<LargeVector<Triangle>>(mesh.triangles.size(), executor))
-  , nodes_(touchedVector<LargeVector<Node>>(
-      BoxTreeShape::nodeCount(std::uint32_t(mesh.triangles.size())), executor))
+  : NearestTriangle(mesh.points, mesh.triangles, executor)
 {
-  const auto count = std::uint32_t(mesh.triangles.size());
+}
+
+NearestTriangle::NearestTriangle(std::vector<Eigen::Vector3d> points,
+  std::span<const std::array<std::uint32_t, 3>> triangles, const Executor& executor)
+  : points_(std::move(points))
+  , triangles_(touchedVector<LargeVector<Triangle>>(triangles.size(), executor))
+  , nodes_(touchedVector<LargeVector<Node>>(
+      BoxTreeShape::nodeCount(std::uint32_t(triangles.size())), executor))
+{
+  const auto count = std::uint32_t(triangles.size());
   auto items = touchedVector<LargeVector<Item>>(count, executor);
   executor.forEachRange(count, TreeTrianglesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        const auto& [a, b, c] = mesh.triangles[i];
-        items[i] = { centerOfBox({ points_[a], points_[b], points_[c] }), std::uint32_t(i) };
+        const auto& [a, b, c] = triangles[i];
+        const Eigen::Vector3d center = centerOfBox({ points_[a], points_[b], points_[c] });
+        items[i] = { (center - points_.front()).cast<float>(), std::uint32_t(i) };
       }
     });
   // Those of a level are equally large, but for one triangle.
@@ -170,7 +177,7 @@ NearestTriangle::NearestTriangle(const TriangleMesh& mesh, const Executor& execu
       for (std::uint32_t i = branch.begin; i < branch.end; ++i)
       {
         Triangle& triangle = triangles_[i];
-        triangle = { inRisingOrder(mesh.triangles[items[i].index]), items[i].index, false };
+        triangle = { inRisingOrder(triangles[items[i].index]), items[i].index, false };
         triangle.isSliver = heightPart(cornersOf(triangle)) < SliverHeight;
       }
       build(branch);
@@ -186,7 +193,7 @@ NearestTriangle::Branch NearestTriangle::Branch::second() const
 /// Across its longer side.
 void NearestTriangle::halve(std::span<Item> items, const Branch& branch)
 {
-  Eigen::AlignedBox3d centers;
+  Eigen::AlignedBox3f centers;
   for (const Item& item : items.subspan(branch.begin, branch.size()))
   {
     centers.extend(item.center);

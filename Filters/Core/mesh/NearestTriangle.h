@@ -38,6 +38,10 @@ public:
   /// The mesh is copied. Takes O(n log n) for n triangles, of which there may be 4294967295 at most.
   explicit NearestTriangle(
     const TriangleMesh& mesh, const Executor& executor = Executor::sequential());
+  /// Of the points it becomes the owner.
+  NearestTriangle(std::vector<Eigen::Vector3d> points,
+    std::span<const std::array<std::uint32_t, 3>> triangles,
+    const Executor& executor = Executor::sequential());
 
   /// Finds nothing if there are no triangles, if the point is not finite, or if none is nearer than that.
   Found find(const Eigen::Vector3d& point,
@@ -62,10 +66,10 @@ private:
     bool isLeaf() const { return secondChild == 0; }
   };
 
-  /// A triangle of the tree while that is built, by the centre of its box.
+  /// A triangle of the tree while that is built, by the centre of its box, seen from the first point.
   struct Item
   {
-    Eigen::Vector3d center;
+    Eigen::Vector3f center;
     std::uint32_t index;
   };
   /// A node, and its triangles.

@@ -104,10 +104,7 @@ public:
   }
 
 private:
-  float spacingOf(std::size_t i) const
-  {
-    return pointSpacing(nearest_, std::uint32_t(result_.asked.points[i]));
-  }
+  float spacingOf(std::size_t i) const { return pointSpacing(nearest_, result_.asked.points[i]); }
 
   /// Measures the usual spacing and the noise.
   void survey()
@@ -127,7 +124,7 @@ private:
       const std::size_t layers = std::min(all, LayersOfNoise);
       for (std::size_t i = 0; i < layers; ++i)
       {
-        const auto point = std::uint32_t(result_.asked.points[i * all / layers]);
+        const std::uint32_t point = result_.asked.points[i * all / layers];
         if (const auto place = placeInLayer(nearest_, point))
         {
           moves.push_back(std::sqrt(squaredNorm(*place - cloud_.points()[point])));
@@ -195,7 +192,7 @@ private:
 
   Reason reasonOf(std::size_t i)
   {
-    const auto point = std::uint32_t(result_.asked.points[i]);
+    const auto point = result_.asked.points[i];
     const float distance = result_.asked.distances[i];
     if (!(distance > noise_))
     {

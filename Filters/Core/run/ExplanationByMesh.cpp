@@ -124,7 +124,7 @@ std::optional<PointDistances> distancesOfAll(const PointCloud& cloud,
   PointDistances result;
   result.meanEdge = surface.meanEdge();
   result.points.resize(count);
-  std::iota(result.points.begin(), result.points.end(), std::size_t(0));
+  std::iota(result.points.begin(), result.points.end(), std::uint32_t(0));
   result.distances.resize(count);
   result.isBeyondBoundary.resize(count);
   for (std::size_t first = 0; first < count; first += PointsPerLook)

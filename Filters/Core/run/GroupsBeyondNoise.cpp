@@ -77,10 +77,7 @@ public:
 private:
   Vector4 placeOf(std::size_t i) const { return cloud_.points()[distances_.points[i]]; }
 
-  float spacingOf(std::size_t i) const
-  {
-    return pointSpacing(nearest_, std::uint32_t(distances_.points[i]));
-  }
+  float spacingOf(std::size_t i) const { return pointSpacing(nearest_, distances_.points[i]); }
   bool isSparse(std::size_t i) const { return spacingOf(i) > SpacingsOfSparse * usualSpacing_; }
 
   /// Beyond it, points are rarely by noise; nothing where the distances are not those of noise.
@@ -114,7 +111,7 @@ private:
     std::vector<float> parts;
     for (const std::size_t i : points)
     {
-      const auto place = placeInLayer(nearest_, std::uint32_t(distances_.points[i]));
+      const auto place = placeInLayer(nearest_, distances_.points[i]);
       if (place)
       {
         parts.push_back(std::sqrt(squaredNorm(*place - placeOf(i))) / distances_.distances[i]);

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -31,13 +32,13 @@ constexpr std::size_t MedianPoints = 2000;
 /// Of a corner in a place: less is rounding.
 constexpr float LeastWeight = 1e-5f;
 
-std::vector<std::size_t> evenlyPicked(std::size_t all, std::size_t most)
+std::vector<std::uint32_t> evenlyPicked(std::size_t all, std::size_t most)
 {
   const std::size_t count = std::min(all, most);
-  std::vector<std::size_t> points(count);
+  std::vector<std::uint32_t> points(count);
   for (std::size_t i = 0; i < count; ++i)
   {
-    points[i] = i * all / count;
+    points[i] = std::uint32_t(i * all / count);
   }
   return points;
 }
@@ -85,7 +86,7 @@ public:
   }
 
   /// The median distance of some of these points.
-  float medianOfSome(const std::vector<std::size_t>& points, const Executor& executor) const
+  float medianOfSome(const std::vector<std::uint32_t>& points, const Executor& executor) const
   {
     std::vector<float> squared(std::min(points.size(), MedianPoints));
     if (squared.empty())
@@ -148,8 +149,8 @@ void findExactly(const Mesh& mesh, const PointCloud& cloud, float least,
   {
     return;
   }
-  const TriangleMesh triangles = trianglesIn(mesh, executor);
-  const NearestTriangle nearest(triangles, executor);
+  TriangleMesh triangles = trianglesIn(mesh, executor);
+  const NearestTriangle nearest(std::move(triangles.points), triangles.triangles, executor);
   executor.forEachRange(result.points.size(), DistancesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
@@ -226,10 +227,11 @@ private:
   std::vector<double> weights_;
   std::vector<double> squares_; ///< of distances, times weights
 };
-}
 
-std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& cloud,
-  const PointsToMeasure& most, const Progress& progress, const Executor& executor)
+/// As measurePoints() has it, but by the triangles of the closest vertices alone.
+std::optional<MeasuredPoints> measureAtVertices(const Mesh& mesh, const PointCloud& cloud,
+  const PointsToMeasure& most, std::span<const std::uint32_t> pieceOf, const Progress& progress,
+  const Executor& executor)
 {
   const PlacesOfCloud places(mesh, cloud, executor);
   PointDistances result;
@@ -237,7 +239,6 @@ std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& 
   const std::size_t count = result.points.size();
   result.distances.resize(count);
   result.isBeyondBoundary.resize(count);
-  const std::vector<std::uint32_t> pieceOf = piecesOf(mesh, executor);
   result.pieces.resize(pieceOf.empty() ? 0 : count);
   result.meanEdge = mesh.meanEdge(executor);
   const float median = places.medianOfSome(result.points, executor);
@@ -291,15 +292,25 @@ std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& 
   {
     return std::nullopt;
   }
-  if (count > 0)
-  {
-    const float least = MediansToMeasureExactly * medianOf(result.distances, executor);
-    findExactly(mesh, cloud, least, pieceOf, executor, result);
-  }
   const double pointsOfEach =
     double(cloud.points().size()) / double(std::max<std::size_t>(1, ofSupport));
   return MeasuredPoints{ std::move(result), sum.result(pointsOfEach, executor),
     std::move(onTriangles) };
+}
+}
+
+std::optional<MeasuredPoints> measurePoints(const Mesh& mesh, const PointCloud& cloud,
+  const PointsToMeasure& most, const Progress& progress, const Executor& executor)
+{
+  const std::vector<std::uint32_t> pieceOf = piecesOf(mesh, executor);
+  std::optional<MeasuredPoints> result =
+    measureAtVertices(mesh, cloud, most, pieceOf, progress, executor);
+  if (result && !result->distances.points.empty())
+  {
+    const float least = MediansToMeasureExactly * medianOf(result->distances.distances, executor);
+    findExactly(mesh, cloud, least, pieceOf, executor, result->distances);
+  }
+  return result;
 }
 
 PointDistances exactly(

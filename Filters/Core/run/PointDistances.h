@@ -20,7 +20,7 @@ constexpr float MediansAway = 8.f;
 /// The distances of points to a mesh, as users get them.
 struct PointDistances
 {
-  std::vector<std::size_t> points;            ///< which of the cloud, in rising order
+  std::vector<std::uint32_t> points;          ///< which of the cloud, in rising order
   std::vector<float> distances;               ///< of each, in units of the cloud
   std::vector<std::uint8_t> isBeyondBoundary; ///< of each, whether its place is on a boundary
   double meanEdge = 0.;                       ///< of the mesh, in units of the cloud

@@ -396,7 +396,6 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
   result.orientation = orientMesh(learnt.mesh, cloud, hints, executor.uninterrupted());
   goesOn = goesOn && progress(0.);
   result.mesh = trianglesOf(learnt.mesh, cloud, executor.uninterrupted());
-  result.normals = pointNormals(result.mesh);
   const auto activities = learnt.mesh.values(learnt.activity);
   result.activities.assign(activities.begin(), activities.end());
   if (learnt.featureStrength)
@@ -420,6 +419,8 @@ void describe(LearntMesh learnt, const PointCloud& cloud, const PointCloud* all,
           *all, learnt.mesh, result.mesh, executor, DistanceTo::SurfaceAgain, progress);
       });
   }
+  // Measuring takes more memory.
+  result.normals = pointNormals(result.mesh);
   result.surface = std::move(learnt.mesh);
 }
 
