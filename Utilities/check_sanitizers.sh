@@ -38,7 +38,8 @@ check()
 
 # A sanitizer has memory of its own, of which these tests would learn nothing; and a million operations on
 # one thread take long for nothing with that of threads.
-memory='^Filters\.TestNeuralMeshManyRuns$|^Core\.FitMemory\.ALargeFitTakesLittle$' million='^Core\.AnyOperation\.Million'
+memory='^Filters\.TestNeuralMeshManyRuns$|^Core\.FitMemory\.A(LargeFit|SearchForGaps)TakesLittle$'
+million='^Core\.AnyOperation\.Million'
 # What chooses parameters only calls what others test here; and how good a mesh comes out is no matter of memory or
 # threads: the longest tests of that are left to --all.
 choice='Tuning|Automatic'
@@ -46,6 +47,12 @@ quality='\.(CreaseRefinement\.MoreVertices|Fidelity\.(SharpensACube|MoreVertices
 quality+='|SmallMeshes\.KeepA|Levels\.OfThin|Levels\.AreAsGood|Warnings\.LostRod'
 quality+='|SizedReconstruction\.ThinParts|FirstSurface\.HollowBodies'
 quality+='|Uncertainty\.(Grows|IsThere|Knows|Holds|Leaves|IsLargest|Chance))'
+# These tests, of the programs for threads, have one thread.
+alone='\.(RandomRuns\.(Vary|Streams|Ensembles)|EnsembleRun\.(CanBeEnded|PlanesAre|TimeLimit)'
+alone+='|ParallelLearner\.(IsAsGood|Subdivides|Sheets|GoesOn|StaysValid|Weights|Outliers|Wanders|WinnersFace)'
+alone+='|Uncertainty\.(CanBeEnded|SaysWhere))'
+# The thesis's values run the code of the defaults.
+values='GoesOnToTheSameBytes/Thesis'
 programs='NeuralMeshCoreMemoryTests NeuralMeshCoreThreadTests NeuralMeshFilterTests
   NeuralMeshFilterThreadTests NeuralMeshFuzzEngineShortly'
 
@@ -59,7 +66,7 @@ check_address()
   else
     NEURALMESH_RANDOM_RUNS=15 \
       check sanitize "$programs" -R '^(Core|Filters|Fuzzing.Engine)' -L 'fast|sanitized' \
-      -E "$choice|$quality|$memory" "$@"
+      -E "$choice|$quality|$memory|$values" "$@"
   fi
 }
 
@@ -72,7 +79,7 @@ check_thread()
     # This sanitizer takes twenty times as long.
     NEURALMESH_RANDOM_RUNS=8 \
       check sanitize-threads 'NeuralMeshCoreThreadTests NeuralMeshFilterThreadTests' \
-      -R '^(Core|Filters)\.' -L '(fast|sanitized)-threads' -E "$choice|$quality|$memory" "$@"
+      -R '^(Core|Filters)\.' -L '(fast|sanitized)-threads' -E "$choice|$quality|$memory|$alone" "$@"
   fi
 }
 
