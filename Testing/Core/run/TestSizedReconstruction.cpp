@@ -74,7 +74,7 @@ TEST(SizedReconstruction, ThinPartsAreNoNoise)
 {
   constexpr double Thickness = 0.012;
   CloudOptions options;
-  options.count = 60000;
+  options.count = 30000;
   const PointCloud cloud(generateCloud(makePlate(20, Thickness), options));
   const Reconstruction mesh = sized(cloud, percent(0.6, ToleranceMeasure::Largest));
   ASSERT_TRUE(mesh.size);

@@ -98,7 +98,7 @@ TEST(SmallMeshes, KeepAThinPlate)
   constexpr double Thickness = 0.012;
   constexpr std::uint64_t Vertices = 400;
   CloudOptions options;
-  options.count = 100000;
+  options.count = 50000;
   const TriangleMesh plate = makePlate(20, Thickness);
   const Reconstruction run = reconstructed(generateCloud(plate, options), Vertices, 1);
   EXPECT_EQ(run.mesh.points.size(), Vertices);
