@@ -266,7 +266,7 @@ test_progress_on_terminal()
 # Promise: --time-limit ends with status 0 and the mesh learnt so far.
 test_time_limit()
 {
-  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 100000000 --time-limit 0.5
+  expect 0 "$neuralmesh" reconstruct cloud.xyz mesh.ply --vertices 100000000 --time-limit 0.1
   grep -q 'ended by: time limit' out || fail "it was not ended by the time limit"
   [ -s mesh.ply ] || fail "there is no mesh"
 }
@@ -274,7 +274,7 @@ test_time_limit()
 # Promise: Ctrl-C ends the refinement beyond what there is to learn; the mesh so far is written whole.
 test_ctrl_c_while_refining()
 {
-  expect 130 interrupted 150 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
+  expect 130 interrupted 50 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
     --vertices 100000000
   grep -q 'ended by: cancelled' out || fail "the summary does not say why it ended"
   local vertices
@@ -288,7 +288,7 @@ test_ctrl_c_while_refining()
 # the exit status is 130.
 test_ctrl_c()
 {
-  expect 130 interrupted 150 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
+  expect 130 interrupted 50 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
     --vertices 100000000 --set FitRounds=0 --statistics curve.csv
   grep -q 'ended by: cancelled' out || fail "the summary does not say why it ended"
   local vertices
@@ -307,7 +307,7 @@ test_signals()
 {
   local signal
   for signal in TERM HUP; do
-    expect $((128 + $(kill -l $signal))) interrupted 100 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
+    expect $((128 + $(kill -l $signal))) interrupted 50 "$neuralmesh" reconstruct cloud.xyz mesh.ply \
       --vertices 100000000 --set FitRounds=0 --checkpoint state --checkpoint-interval 1000
     grep -q 'ended by: cancelled' out || fail "the summary does not say why it ended"
     grep -q '^checkpoint state: the same command' out || fail "there is no checkpoint"
