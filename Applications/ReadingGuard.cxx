@@ -15,7 +15,7 @@
 namespace
 {
 // The last but one is sent when the time is up.
-constexpr std::array Signals{ SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGPROF, SIGABRT };
+constexpr std::array CaughtSignals{ SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGPROF, SIGABRT };
 
 constexpr std::uintmax_t MegaByte = 1 << 20;
 constexpr std::uintmax_t MemoryForAnyFile = 1024 * MegaByte, MemoryForAByte = 100;
@@ -26,7 +26,7 @@ struct
 {
   std::string Message;
   int Stderr = -1;
-  std::array<struct sigaction, Signals.size()> Actions;
+  std::array<struct sigaction, CaughtSignals.size()> Actions;
   stack_t Stack;
   rlimit Memory;
 } Saved;
@@ -50,9 +50,9 @@ void CatchSignals()
   struct sigaction action = {};
   action.sa_handler = EndWithMessage;
   action.sa_flags = SA_ONSTACK;
-  for (std::size_t i = 0; i < Signals.size(); ++i)
+  for (std::size_t i = 0; i < CaughtSignals.size(); ++i)
   {
-    sigaction(Signals[i], &action, &Saved.Actions[i]);
+    sigaction(CaughtSignals[i], &action, &Saved.Actions[i]);
   }
 }
 
@@ -103,9 +103,9 @@ ReadingGuard::~ReadingGuard()
 {
   LimitSeconds(0);
   setrlimit(RLIMIT_AS, &Saved.Memory);
-  for (std::size_t i = 0; i < Signals.size(); ++i)
+  for (std::size_t i = 0; i < CaughtSignals.size(); ++i)
   {
-    sigaction(Signals[i], &Saved.Actions[i], nullptr);
+    sigaction(CaughtSignals[i], &Saved.Actions[i], nullptr);
   }
   sigaltstack(&Saved.Stack, nullptr);
   dup2(Saved.Stderr, STDERR_FILENO);
