@@ -51,8 +51,6 @@ quality+='|Uncertainty\.(Grows|IsThere|Knows|Holds|Leaves|IsLargest|Chance))'
 alone='\.(RandomRuns\.(Vary|Streams|Ensembles)|EnsembleRun\.(CanBeEnded|PlanesAre|TimeLimit)'
 alone+='|ParallelLearner\.(IsAsGood|Subdivides|Sheets|GoesOn|StaysValid|Weights|Outliers|Wanders|WinnersFace)'
 alone+='|Uncertainty\.(CanBeEnded|SaysWhere))'
-# The thesis's values run the code of the defaults.
-values='GoesOnToTheSameBytes/Thesis'
 programs='NeuralMeshCoreMemoryTests NeuralMeshCoreThreadTests NeuralMeshFilterTests
   NeuralMeshFilterThreadTests NeuralMeshFuzzEngineShortly'
 
@@ -66,7 +64,7 @@ check_address()
   else
     NEURALMESH_RANDOM_RUNS=15 \
       check sanitize "$programs" -R '^(Core|Filters|Fuzzing.Engine)' -L 'fast|sanitized' \
-      -E "$choice|$quality|$memory|$values" "$@"
+      -E "$choice|$quality|$memory" "$@"
   fi
 }
 

@@ -322,12 +322,6 @@ int TestNeuralMeshBadInput(int, char*[])
       {
         for (const int preset : { vtkNeuralMesh::DEFAULT, vtkNeuralMesh::THESIS })
         {
-          // What double changes is the reading alone.
-          if (type == VTK_DOUBLE &&
-            (variant == vtkNeuralMesh::BASIC || preset == vtkNeuralMesh::THESIS))
-          {
-            continue;
-          }
           std::cout << input.Name << (type == VTK_FLOAT ? ", float" : ", double") << ", variant "
                     << variant << ", preset " << preset << std::endl;
           CHECK(CheckCase(input, type, variant, preset) == EXIT_SUCCESS);

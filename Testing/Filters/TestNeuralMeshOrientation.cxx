@@ -32,7 +32,7 @@ const double NotANumber = std::numeric_limits<double>::quiet_NaN();
 vtkNew<vtkPolyData> Sheet(double height = 0.0)
 {
   vtkNew<vtkPoints> points;
-  for (int i = 0; i < 2000; ++i)
+  for (int i = 0; i < 4000; ++i)
   {
     // By a lattice that fills the square evenly.
     const double x = std::fmod(0.7548776662 * i, 1.0), y = std::fmod(0.5698402910 * i, 1.0);

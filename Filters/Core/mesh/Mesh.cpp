@@ -428,7 +428,9 @@ void Mesh::renumber(std::span<const VertexIndex> permutation, const Executor& ex
     }
     position = positions_[permutation[i]];
   };
-  if (std::is_sorted(permutation.begin(), permutation.end()))
+  // Where most vertices go, so does their memory.
+  const bool mostStay = permutation.size() > indexEnd() / 2;
+  if (mostStay && std::is_sorted(permutation.begin(), permutation.end()))
   {
     closeGaps(permutation.size(), take, executor.uninterrupted());
   }

@@ -38,7 +38,7 @@ public:
   /// The mesh is copied. Takes O(n log n) for n triangles, of which there may be 4294967295 at most.
   explicit NearestTriangle(
     const TriangleMesh& mesh, const Executor& executor = Executor::sequential());
-  /// Of the points it becomes the owner.
+  /// It becomes the owner of the points; triangles are copied.
   NearestTriangle(std::vector<Eigen::Vector3d> points,
     std::span<const std::array<std::uint32_t, 3>> triangles,
     const Executor& executor = Executor::sequential());

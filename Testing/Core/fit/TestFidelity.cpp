@@ -89,17 +89,17 @@ Mesh roughSphere(const PointCloud& cloud)
 TEST(Fidelity, SharpensACube)
 {
   const TrueSurface cube = trueCube();
-  const std::vector<Eigen::Vector3d> points = pointsOf(cube, 20000);
+  const std::vector<Eigen::Vector3d> points = pointsOf(cube, 40000);
   double errorOfDraft = 0., errorOfUsual = 0., errorOfHigh = 0.;
   for (const std::uint64_t seed : { 1u, 2u, 3u, 4u, 5u, 6u })
   {
     SCOPED_TRACE(seed);
-    const Reconstruction draft = made(points, 1500, Fidelity::Draft, seed);
-    const Reconstruction usual = made(points, 1500, Fidelity::Default, seed);
-    const Reconstruction high = made(points, 1500, Fidelity::High, seed);
+    const Reconstruction draft = made(points, 3000, Fidelity::Draft, seed);
+    const Reconstruction usual = made(points, 3000, Fidelity::Default, seed);
+    const Reconstruction high = made(points, 3000, Fidelity::High, seed);
     for (const Reconstruction* run : { &usual, &high })
     {
-      EXPECT_EQ(run->mesh.points.size(), 1500u);
+      EXPECT_EQ(run->mesh.points.size(), 3000u);
       EXPECT_EQ(defectOf(run->surface), "");
       const SurfaceReport report = reportSurface(run->mesh);
       EXPECT_EQ(report.genus, 0);
@@ -443,22 +443,22 @@ TEST(Fidelity, MayLeaveWhatIsBrokenToTheEnd)
 TEST(Fidelity, BadInput)
 {
   Random random(3);
-  std::vector<Eigen::Vector3d> few = pointsOf(trueCube(), 1500), pile;
+  std::vector<Eigen::Vector3d> few = pointsOf(trueCube(), 3000), pile;
   for (int cube = 0; cube < 5; ++cube)
   {
-    for (const Eigen::Vector3d& point : pointsOf(trueCube(), 1500))
+    for (const Eigen::Vector3d& point : pointsOf(trueCube(), 3000))
     {
       pile.emplace_back(point + 0.3 * randomPoint(random, 1.f).toDouble());
     }
   }
   std::vector<Eigen::Vector3d> speck = few;
-  for (std::size_t i = 150; i < speck.size(); ++i)
+  for (std::size_t i = 300; i < speck.size(); ++i)
   {
     speck[i] = Eigen::Vector3d(0.5, 0.1, 0.1) + 1e-6 * speck[i];
   }
   for (const auto* points : { &few, &pile, &speck })
   {
-    for (const std::uint64_t vertices : { 500u, 1500u })
+    for (const std::uint64_t vertices : { 1000u, 3000u })
     {
       for (const Fidelity fidelity : { Fidelity::Default, Fidelity::High })
       {

@@ -171,7 +171,7 @@ TEST(Uncertainty, KnowsWhatViewsShareAndWarnsWhereTheyDisagree)
 TEST(Uncertainty, IsTheSameOnAnyNumberOfThreads)
 {
   const PointCloud cloud = sphereWithGap(0.002);
-  Parameters parameters = withBars(500);
+  Parameters parameters = withBars();
   parameters.boundaries = Boundaries::Close;
   const Reconstruction one = runOf(cloud, parameters);
   for (const unsigned threads : { 2u, 7u })

@@ -153,7 +153,7 @@ TEST(NarrowHoles, AbortsAreTold)
   Parameters parameters;
   parameters.numberOfVertices = 3000;
   const double ofFirst = partOfFirstRun(parameters);
-  constexpr int Aborts = 10;
+  constexpr int Aborts = 20;
   for (int i = 1; i < Aborts; ++i)
   {
     const double end = ofFirst + (1. - ofFirst) * double(i) / double(Aborts);
