@@ -39,6 +39,7 @@ check()
 # A sanitizer has memory of its own, of which these tests would learn nothing; and a million operations on
 # one thread take long for nothing with that of threads.
 memory='^Filters\.TestNeuralMeshManyRuns$|^Core\.FitMemory\.A(LargeFit|SearchForGaps)TakesLittle$'
+memory+='|^Core\.TouchedVector\.Takes'
 million='^Core\.AnyOperation\.Million'
 # What chooses parameters only calls what others test here; and how good a mesh comes out is no matter of memory or
 # threads: the longest tests of that are left to --all.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "base/Executor.h"
+#include "base/LargePageAllocator.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -42,17 +44,29 @@ Vector touchedVector(std::size_t count, const Executor& executor)
   return result;
 }
 
-/// As `values.reserve(count)`.
-template <typename Vector>
-void reserveTouched(Vector& values, std::size_t count, const Executor& executor)
+/// As `values.reserve(count)`. What has moved gives its memory back at once, so that there is room for one array, not two.
+template <typename T>
+void reserveTouched(LargeVector<T>& values, std::size_t count, const Executor& executor)
 {
-  if (values.capacity() < count)
+  constexpr std::size_t ValuesAtOnce = 65536;
+  if (values.capacity() >= count)
   {
-    Vector result;
-    result.reserve(count);
-    touchReserved(result, executor);
-    result.assign(values.begin(), values.end());
-    values = std::move(result);
+    return;
   }
+  LargeVector<T> result;
+  result.reserve(count);
+  const std::size_t capacity = values.capacity();
+  for (std::size_t first = 0; first < count; first += ValuesAtOnce)
+  {
+    touchPages(result.data() + first, std::min(ValuesAtOnce, count - first) * sizeof(T), executor);
+    const std::size_t end = std::min(first + ValuesAtOnce, values.size());
+    if (first < end)
+    {
+      result.insert(
+        result.end(), values.begin() + std::ptrdiff_t(first), values.begin() + std::ptrdiff_t(end));
+      LargePageAllocator<T>::releaseFirst(values.data(), capacity, end);
+    }
+  }
+  values = std::move(result);
 }
 }

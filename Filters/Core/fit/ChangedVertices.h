@@ -20,6 +20,12 @@ struct ChangedVertices
     std::iota(heir.begin(), heir.end(), VertexIndex(0));
   }
 
+  /// Memory for so many vertices.
+  void reserve(std::size_t count)
+  {
+    heir.reserve(count);
+    isTouched.reserve(count);
+  }
   /// Notes that triangles at the vertex have changed.
   void touch(VertexIndex v)
   {

@@ -93,51 +93,15 @@ public:
 
   ChangedVertices run(std::size_t most, std::size_t missing)
   {
-    const std::vector<WantedSplit> splits = wantedSplits();
-    const std::vector<CheapRemoval> removals =
-      cheapRemovals(splits.empty() ? 0. : MostRemovalCost * splits.front().gain);
-    std::vector<WantedSplit> chosen;
-    std::vector<CheapRemoval> paid;
-    std::size_t next = 0;
-    for (const WantedSplit& split : splits)
-    {
-      if (chosen.size() >= most + missing)
-      {
-        break;
-      }
-      if (isLocked_[split.v] != 0 || isLocked_[split.neighbor] != 0)
-      {
-        continue;
-      }
-      if (chosen.size() >= missing)
-      {
-        while (next < removals.size() && isLocked_[removals[next].v] != 0)
-        {
-          ++next;
-        }
-        if (next == removals.size() || removals[next].cost > MostRemovalCost * split.gain)
-        {
-          break;
-        }
-        const VertexIndex v = removals[next].v;
-        const VertexIndex kept = bestCollapse(removals, next++, MostRemovalCost * split.gain);
-        if (kept == NoVertex)
-        {
-          continue;
-        }
-        lockAround(v);
-        paid.push_back({ 0., v, kept });
-      }
-      lockDiamond(split);
-      chosen.push_back(split);
-    }
-    mesh_.reserve(mesh_.indexEnd() + chosen.size(), executor_);
+    const Chosen chosen = choose(most, missing);
+    mesh_.reserve(mesh_.indexEnd() + chosen.splits.size(), executor_);
+    changed_.reserve(mesh_.indexEnd() + chosen.splits.size());
     std::size_t left = missing;
-    for (const CheapRemoval& removal : paid)
+    for (const CheapRemoval& removal : chosen.removals)
     {
       left += remove(removal) ? 1 : 0;
     }
-    for (const WantedSplit& split : chosen)
+    for (const WantedSplit& split : chosen.splits)
     {
       if (left == 0)
       {
@@ -169,6 +133,55 @@ public:
   }
 
 private:
+  struct Chosen
+  {
+    std::vector<WantedSplit> splits;
+    std::vector<CheapRemoval> removals;
+  };
+
+  /// Splits that gain most, and where vertices are missing no more, a removal that pays for each.
+  Chosen choose(std::size_t most, std::size_t missing)
+  {
+    const std::vector<WantedSplit> splits = wantedSplits();
+    const std::vector<CheapRemoval> removals =
+      cheapRemovals(splits.empty() ? 0. : MostRemovalCost * splits.front().gain);
+    Chosen chosen;
+    std::size_t next = 0;
+    for (const WantedSplit& split : splits)
+    {
+      if (chosen.splits.size() >= most + missing)
+      {
+        break;
+      }
+      if (isLocked_[split.v] != 0 || isLocked_[split.neighbor] != 0)
+      {
+        continue;
+      }
+      if (chosen.splits.size() >= missing)
+      {
+        while (next < removals.size() && isLocked_[removals[next].v] != 0)
+        {
+          ++next;
+        }
+        if (next == removals.size() || removals[next].cost > MostRemovalCost * split.gain)
+        {
+          break;
+        }
+        const VertexIndex v = removals[next].v;
+        const VertexIndex kept = bestCollapse(removals, next++, MostRemovalCost * split.gain);
+        if (kept == NoVertex)
+        {
+          continue;
+        }
+        lockAround(v);
+        chosen.removals.push_back({ 0., v, kept });
+      }
+      lockDiamond(split);
+      chosen.splits.push_back(split);
+    }
+    return chosen;
+  }
+
   /// What `find(v, found)` finds at each vertex, in the order of the vertices.
   template <typename Found, typename Find>
   std::vector<Found> foundAtVertices(const Find& find) const

@@ -470,12 +470,22 @@ void SurfaceFit::follow(const ChangedVertices& changed)
   forEachVertex(
     mesh_, executor_, VerticesPerRange, [&](VertexIndex v) { newOf[v] = changed.alive(mesh_, v); });
   const std::vector<VertexIndex> oldOf = mesh_.dropErased(executor_);
-  ZeroedArray<VertexIndex> place(newOf.size());
+  {
+    ZeroedArray<VertexIndex> place(newOf.size());
+    forEachVertex(mesh_, executor_, VerticesPerRange, [&](VertexIndex v) { place[oldOf[v]] = v; });
+    executor_.forEachRange(newOf.size(), VerticesPerRange,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t v = begin; v < end; ++v)
+        {
+          newOf[v] = place[newOf[v]];
+        }
+      });
+  }
+  const auto nowOf = [&](VertexIndex old) { return newOf[old]; };
   auto opposite = touchedVector<std::vector<VertexIndex>>(oldOf.size(), executor_);
   const std::vector<std::uint8_t> wasKept = isKept_;
   isKept_.resize(isKept_.empty() ? 0 : oldOf.size());
-  forEachVertex(mesh_, executor_, VerticesPerRange, [&](VertexIndex v) { place[oldOf[v]] = v; });
-  const auto nowOf = [&](VertexIndex old) { return place[newOf[old]]; };
   forEachVertex(mesh_, executor_, VerticesPerRange,
     [&](VertexIndex v)
     {

@@ -16,6 +16,7 @@ namespace
 /// Parts for the executor.
 constexpr std::uint32_t TrianglesOfBranch = 4096;
 constexpr std::size_t TreeTrianglesPerRange = 4096;
+constexpr std::size_t TrianglesTakenAtOnce = 262144;
 /// Halves of 2^32 triangles, one after the other, and a node that waits for each.
 constexpr std::size_t DeepestTree = 40;
 /// A triangle whose height is less than this part of its longest edge is a sliver.
@@ -139,13 +140,21 @@ NearestTriangle::NearestTriangle(const TriangleMesh& mesh, const Executor& execu
 NearestTriangle::NearestTriangle(std::vector<Eigen::Vector3d> points,
   std::span<const std::array<std::uint32_t, 3>> triangles, const Executor& executor)
   : points_(std::move(points))
-  , triangles_(touchedVector<LargeVector<Triangle>>(triangles.size(), executor))
-  , nodes_(touchedVector<LargeVector<Node>>(
-      BoxTreeShape::nodeCount(std::uint32_t(triangles.size())), executor))
 {
   const auto count = std::uint32_t(triangles.size());
-  auto items = touchedVector<LargeVector<Item>>(count, executor);
-  executor.forEachRange(count, TreeTrianglesPerRange,
+  LargeVector<Item> items = itemsOf(triangles, executor);
+  const std::vector<Branch> branches = ordered(items, executor);
+  take(std::move(items), triangles, executor);
+  nodes_ = touchedVector<LargeVector<Node>>(BoxTreeShape::nodeCount(count), executor);
+  executor.forEachPart(branches.size(), [&](std::size_t i) { build(branches[i]); });
+  join({ 0, 0, count });
+}
+
+LargeVector<NearestTriangle::Item> NearestTriangle::itemsOf(
+  std::span<const std::array<std::uint32_t, 3>> triangles, const Executor& executor) const
+{
+  auto items = touchedVector<LargeVector<Item>>(triangles.size(), executor);
+  executor.forEachRange(triangles.size(), TreeTrianglesPerRange,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -155,9 +164,16 @@ NearestTriangle::NearestTriangle(std::vector<Eigen::Vector3d> points,
         items[i] = { (center - points_.front()).cast<float>(), std::uint32_t(i) };
       }
     });
+  return items;
+}
+
+/// Puts those of a leaf beside each other. The branches are those that are built by themselves.
+std::vector<NearestTriangle::Branch> NearestTriangle::ordered(
+  LargeVector<Item>& items, const Executor& executor)
+{
   // Those of a level are equally large, but for one triangle.
   std::vector<Branch> branches;
-  branches.push_back({ 0, 0, count });
+  branches.push_back({ 0, 0, std::uint32_t(items.size()) });
   while (branches.front().size() > TrianglesOfBranch)
   {
     executor.forEachPart(branches.size(), [&](std::size_t i) { halve(items, branches[i]); });
@@ -169,20 +185,30 @@ NearestTriangle::NearestTriangle(std::vector<Eigen::Vector3d> points,
     }
     branches = std::move(halves);
   }
-  executor.forEachPart(branches.size(),
-    [&](std::size_t part)
-    {
-      const Branch& branch = branches[part];
-      order(items, branch);
-      for (std::uint32_t i = branch.begin; i < branch.end; ++i)
+  executor.forEachPart(branches.size(), [&](std::size_t i) { order(items, branches[i]); });
+  return branches;
+}
+
+/// What is taken gives its memory back, so that there is less of both.
+void NearestTriangle::take(LargeVector<Item> items,
+  std::span<const std::array<std::uint32_t, 3>> triangles, const Executor& executor)
+{
+  triangles_.resize(items.size());
+  for (std::size_t first = 0; first < items.size(); first += TrianglesTakenAtOnce)
+  {
+    const std::size_t size = std::min(TrianglesTakenAtOnce, items.size() - first);
+    executor.forEachRange(size, TreeTrianglesPerRange,
+      [&](std::size_t begin, std::size_t end)
       {
-        Triangle& triangle = triangles_[i];
-        triangle = { inRisingOrder(triangles[items[i].index]), items[i].index, false };
-        triangle.isSliver = heightPart(cornersOf(triangle)) < SliverHeight;
-      }
-      build(branch);
-    });
-  join({ 0, 0, count });
+        for (std::size_t i = first + begin; i < first + end; ++i)
+        {
+          Triangle& triangle = triangles_[i];
+          triangle = { inRisingOrder(triangles[items[i].index]), items[i].index, false };
+          triangle.isSliver = heightPart(cornersOf(triangle)) < SliverHeight;
+        }
+      });
+    LargePageAllocator<Item>::releaseFirst(items.data(), items.capacity(), first + size);
+  }
 }
 
 NearestTriangle::Branch NearestTriangle::Branch::second() const
@@ -222,16 +248,15 @@ void NearestTriangle::build(const Branch& branch)
   {
     return;
   }
-  Node& node = nodes_[branch.node];
-  node = { {}, branch.begin, branch.end, 0 };
   if (branch.size() > BoxTreeShape::ItemsOfLeaf)
   {
     build(branch.first());
     build(branch.second());
-    node.secondChild = branch.second().node;
-    node.box = nodes_[branch.first().node].box.merged(nodes_[node.secondChild].box);
+    joinChildren(branch);
     return;
   }
+  Node& node = nodes_[branch.node];
+  node = { {}, branch.begin, branch.size() };
   for (std::uint32_t i = branch.begin; i < branch.end; ++i)
   {
     node.box.extend(boxAround(cornersOf(triangles_[i])));
@@ -245,10 +270,14 @@ void NearestTriangle::join(const Branch& branch)
   {
     join(branch.first());
     join(branch.second());
-    Node& node = nodes_[branch.node];
-    node = { {}, branch.begin, branch.end, branch.second().node };
-    node.box = nodes_[branch.first().node].box.merged(nodes_[node.secondChild].box);
+    joinChildren(branch);
   }
+}
+
+void NearestTriangle::joinChildren(const Branch& branch)
+{
+  const std::uint32_t first = branch.first().node, second = branch.second().node;
+  nodes_[branch.node] = { nodes_[first].box.merged(nodes_[second].box), second, 0 };
 }
 
 NearestTriangle::Found NearestTriangle::find(
@@ -277,14 +306,14 @@ NearestTriangle::Found NearestTriangle::find(
     const Node& node = nodes_[next.node];
     if (node.isLeaf())
     {
-      for (std::uint32_t i = node.begin; i < node.end; ++i)
+      for (std::uint32_t i = node.next; i < node.next + node.count; ++i)
       {
         nearest.lookAt(cornersOf(triangles_[i]), triangles_[i].index, triangles_[i].isSliver);
       }
       continue;
     }
     Waiting near{ nearest.squaredDistanceTo(nodes_[next.node + 1].box), next.node + 1 };
-    Waiting far{ nearest.squaredDistanceTo(nodes_[node.secondChild].box), node.secondChild };
+    Waiting far{ nearest.squaredDistanceTo(nodes_[node.next].box), node.next };
     if (far.squaredDistance < near.squaredDistance)
     {
       std::swap(near, far);

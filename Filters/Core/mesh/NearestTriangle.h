@@ -59,11 +59,10 @@ private:
   struct Node
   {
     Eigen::AlignedBox3d box;
-    std::uint32_t begin; ///< of its triangles
-    std::uint32_t end;
-    std::uint32_t secondChild; ///< 0 for a leaf
+    std::uint32_t next;  ///< the second child; of a leaf, the first triangle
+    std::uint32_t count; ///< of triangles of a leaf; 0 for an inner node
 
-    bool isLeaf() const { return secondChild == 0; }
+    bool isLeaf() const { return count > 0; }
   };
 
   /// A triangle of the tree while that is built, by the centre of its box, seen from the first point.
@@ -85,8 +84,14 @@ private:
 
   static void halve(std::span<Item> items, const Branch& branch);
   static void order(std::span<Item> items, const Branch& branch);
+  LargeVector<Item> itemsOf(
+    std::span<const std::array<std::uint32_t, 3>> triangles, const Executor& executor) const;
+  static std::vector<Branch> ordered(LargeVector<Item>& items, const Executor& executor);
+  void take(LargeVector<Item> items, std::span<const std::array<std::uint32_t, 3>> triangles,
+    const Executor& executor);
   void build(const Branch& branch);
   void join(const Branch& branch);
+  void joinChildren(const Branch& branch);
 
   std::array<Eigen::Vector3d, 3> cornersOf(const Triangle& triangle) const
   {

@@ -230,7 +230,8 @@ std::vector<Triangle> askedTriangles(
     });
   vertices = verticesAlongCurve(mesh, vertices, executor);
   std::vector<Triangle> triangles;
-  reserveTouched(triangles, 2 * mesh.vertexCount(), executor);
+  triangles.reserve(2 * mesh.vertexCount());
+  touchReserved(triangles, executor);
   addFound(vertices.size(), executor, triangles,
     [&](std::size_t i, std::vector<Triangle>& found)
     {

@@ -4,6 +4,7 @@
 #include "fit/StoredPlaces.h"
 #include "fit/SurfaceFit.h"
 
+#include "AnonymousBytes.h"
 #include "base/ThreadPool.h"
 #include "cloud/MeshBuilder.h"
 #include "MeshTools.h"
@@ -11,11 +12,8 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -28,16 +26,6 @@ namespace neuralmesh::testing
 {
 namespace
 {
-#ifdef __linux__
-double anonymousBytes()
-{
-  std::ifstream file("/proc/self/statm");
-  double size = 0., resident = 0., shared = 0.;
-  file >> size >> resident >> shared;
-  return (resident - shared) * double(sysconf(_SC_PAGESIZE));
-}
-#endif
-
 #ifdef TELLS_BYTES_IN_USE
 /// Without what was freed and waits to be used again.
 double bytesInUse()
