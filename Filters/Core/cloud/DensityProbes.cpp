@@ -23,6 +23,18 @@ constexpr double FarthestOff = 2.;
 
 double densityVarianceByChance() { return 2. / double(PointsPerProbe); }
 
+double densityVarianceOfFarOff() { return FarthestOff * FarthestOff; }
+
+Eigen::AlignedBox3d boundsOf(std::span<const DensityProbe> probes)
+{
+  Eigen::AlignedBox3d bounds;
+  for (const DensityProbe& probe : probes)
+  {
+    bounds.extend(probe.place);
+  }
+  return bounds;
+}
+
 double densityVariance(std::vector<double>& values)
 {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);

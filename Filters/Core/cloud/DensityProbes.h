@@ -6,6 +6,7 @@
 #include "mesh/Pieces.h"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <cstddef>
 #include <span>
@@ -28,6 +29,12 @@ double densityVarianceByChance();
 /// Of logarithms of densities: the mean square of what lies off their median. What is far off it lies beside a boundary
 /// or an edge, or across a gap, and counts as much as a limit. The values are reordered.
 double densityVariance(std::vector<double>& values);
+
+/// The limit: of values that all lie as far off as any counts.
+double densityVarianceOfFarOff();
+
+/// Around their places.
+Eigen::AlignedBox3d boundsOf(std::span<const DensityProbe> probes);
 
 /// At most a thousand, spread over all triangles. As many triangles of a learnt mesh have as many points, so where these
 /// are sparse, which tells least, are few probes.

@@ -62,16 +62,6 @@ struct Looks
   double hidden = 0.; ///< part of the probes that none of them sees
 };
 
-Eigen::AlignedBox3d boundsOf(const std::vector<DensityProbe>& probes)
-{
-  Eigen::AlignedBox3d bounds;
-  for (const DensityProbe& probe : probes)
-  {
-    bounds.extend(probe.place);
-  }
-  return bounds;
-}
-
 /// What of a surface is seen from stations.
 class Sight
 {

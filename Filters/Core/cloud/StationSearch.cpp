@@ -6,6 +6,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace neuralmesh
@@ -14,27 +15,32 @@ namespace
 {
 /// Of the angle between look and normal: noise and curvature show more of what is seen along the surface.
 constexpr double LeastCosineOfLook = 0.1;
-/// Of the square of what lies off: what looks away from all stations is as far off as anything.
-constexpr double OffAtBacks = 4.;
 /// What a further station may leave of the variance.
 constexpr double MostBesideFurther = 0.95;
-/// Places of the first look, along each axis: around what was scanned, and among it, where most stations are.
-constexpr int PlacesAround = 7;
-constexpr int PlacesAmong = 9;
+/// Places of the first look: around what was scanned, and among it, where most stations are.
+constexpr int PlacesAround = 343;
+constexpr int PlacesAmong = 729;
+constexpr int PlacesOfPairsAround = 125;
+constexpr int PlacesOfPairsAmong = 216;
+constexpr std::size_t ProbesPerOneOfPairs = 8;
+/// Of the longest one.
+constexpr double LeastBoxSide = 0.01;
 /// The best so many are improved, by steps of these fractions of the diagonal.
 constexpr std::size_t PlacesImproved = 8;
 constexpr double FirstStride = 1. / 8.;
 constexpr double LastStride = 1. / 128.;
 
-void addGrid(
-  const Eigen::AlignedBox3d& box, int placesPerAxis, std::vector<Eigen::Vector3d>& places)
+/// In cells that are as long as wide, however long the box is.
+void addGrid(const Eigen::AlignedBox3d& box, int count, std::vector<Eigen::Vector3d>& places)
 {
-  for (int i = 0; i < placesPerAxis * placesPerAxis * placesPerAxis; ++i)
+  const Eigen::Array3d sizes = box.sizes().cwiseMax(LeastBoxSide * box.sizes().maxCoeff());
+  const double cell = std::cbrt(sizes.prod() / count);
+  const Eigen::Array3i cells = (sizes / cell).round().cast<int>().max(1);
+  for (int i = 0; i < cells.prod(); ++i)
   {
-    const Eigen::Array3i along(
-      i % placesPerAxis, i / placesPerAxis % placesPerAxis, i / placesPerAxis / placesPerAxis);
+    const Eigen::Array3i along(i % cells.x(), i / cells.x() % cells.y(), i / cells.x() / cells.y());
     places.emplace_back(box.min() +
-      ((along.cast<double>() + 0.5) / double(placesPerAxis)).matrix().cwiseProduct(box.sizes()));
+      ((along.cast<double>() + 0.5) / cells.cast<double>()).matrix().cwiseProduct(box.sizes()));
   }
 }
 
@@ -50,32 +56,36 @@ StationSearch::StationSearch(const std::vector<DensityProbe>& probes,
   : probes_(probes)
   , hull_(hull)
   , box_(box)
+  , bounds_(boundsOf(probes))
   , isAsked_(std::move(isAsked))
   , executor_(executor)
+  , diagonal_(bounds_.diagonal().norm())
   , stations_{ {}, std::numeric_limits<double>::infinity() }
 {
-  Eigen::AlignedBox3d bounds;
-  for (const DensityProbe& probe : probes_)
+  grid_ = gridOf(PlacesAmong, PlacesAround);
+}
+
+std::vector<Eigen::Vector3d> StationSearch::gridOf(int placesAmong, int placesAround) const
+{
+  std::vector<Eigen::Vector3d> places;
+  addGrid(box_.intersection(bounds_), placesAmong, places);
+  if (!bounds_.contains(box_))
   {
-    bounds.extend(probe.place);
-  }
-  diagonal_ = bounds.diagonal().norm();
-  addGrid(box.intersection(bounds), PlacesAmong, grid_);
-  if (!bounds.contains(box))
-  {
-    addGrid(box, PlacesAround, grid_);
+    addGrid(box_, placesAround, places);
   }
   if (isAsked_)
   {
-    std::erase_if(grid_, [&](const Eigen::Vector3d& place) { return !isAsked_(place); });
+    std::erase_if(places, [&](const Eigen::Vector3d& place) { return !isAsked_(place); });
   }
+  return places;
 }
 
-StationSearch::Densities StationSearch::densitiesFrom(const Eigen::Vector3d& station) const
+StationSearch::Densities StationSearch::densitiesFrom(
+  const Eigen::Vector3d& station, std::span<const DensityProbe> probes) const
 {
-  Densities result(probes_.size());
+  Densities result(probes.size());
   const double nearest = 1e-6 * diagonal_ * diagonal_;
-  std::transform(probes_.begin(), probes_.end(), result.begin(),
+  std::transform(probes.begin(), probes.end(), result.begin(),
     [&](const DensityProbe& probe)
     {
       const Eigen::Vector3d look = station - probe.place;
@@ -87,50 +97,38 @@ StationSearch::Densities StationSearch::densitiesFrom(const Eigen::Vector3d& sta
   return result;
 }
 
-double StationSearch::varianceBeside(const Densities& densities) const
+/// What looks away from all stations is as far off as anything.
+double StationSearch::varianceBeside(
+  const Densities& densities, std::span<const DensityProbe> probes) const
 {
   std::vector<double> values;
-  values.reserve(probes_.size());
-  for (std::size_t i = 0; i < probes_.size(); ++i)
+  values.reserve(probes.size());
+  for (std::size_t i = 0; i < probes.size(); ++i)
   {
     if (densities[i] > 0.)
     {
-      values.push_back(probes_[i].logDensity - std::log(densities[i]));
+      values.push_back(probes[i].logDensity - std::log(densities[i]));
     }
   }
-  const double part = double(values.size()) / double(probes_.size());
-  return (values.empty() ? 0. : part * densityVariance(values)) + (1. - part) * OffAtBacks;
+  const double part = double(values.size()) / double(probes.size());
+  return (values.empty() ? 0. : part * densityVariance(values)) +
+    (1. - part) * densityVarianceOfFarOff();
 }
 
 bool StationSearch::add()
 {
-  Densities known(probes_.size(), 0.);
-  for (const Eigen::Vector3d& place : stations_.places)
+  std::vector<Stations> found = withOneMore();
+  if (stations_.places.size() == 1)
   {
-    addTo(known, densitiesFrom(place));
+    // The best place of one may be between those of two, from where no step leads there.
+    const std::vector<Stations> pairs = bestPairs();
+    found.insert(found.end(), pairs.begin(), pairs.end());
   }
-  std::vector<std::pair<double, std::size_t>> further(grid_.size());
-  executor_.forEachPart(grid_.size(),
-    [&](std::size_t i)
-    {
-      Densities all = known;
-      addTo(all, densitiesFrom(grid_[i]));
-      further[i] = { varianceBeside(all), i };
-    });
-  std::sort(further.begin(), further.end());
-  std::vector<Stations> found(std::min(further.size(), PlacesImproved));
-  executor_.forEachPart(found.size(),
-    [&](std::size_t i)
-    {
-      const auto& [variance, place] = further[i];
-      found[i] = { stations_.places, variance };
-      found[i].places.push_back(grid_[place]);
-      improve(found[i]);
-    });
   if (found.empty())
   {
     return false;
   }
+  executor_.forEachPart(found.size(), [&](std::size_t i) { improve(found[i]); });
   Stations& best = *std::min_element(found.begin(), found.end(),
     [](const Stations& a, const Stations& b) { return a.variance < b.variance; });
   const bool isBetter = best.variance <= MostBesideFurther * stations_.variance;
@@ -138,11 +136,87 @@ bool StationSearch::add()
   return isBetter;
 }
 
+/// Those that there are, with the best further places.
+std::vector<Stations> StationSearch::withOneMore() const
+{
+  Densities known(probes_.size(), 0.);
+  for (const Eigen::Vector3d& place : stations_.places)
+  {
+    addTo(known, densitiesFrom(place, probes_));
+  }
+  std::vector<std::pair<double, std::size_t>> further(grid_.size());
+  executor_.forEachPart(grid_.size(),
+    [&](std::size_t i)
+    {
+      Densities all = known;
+      addTo(all, densitiesFrom(grid_[i], probes_));
+      further[i] = { varianceBeside(all, probes_), i };
+    });
+  std::sort(further.begin(), further.end());
+  further.resize(std::min(further.size(), PlacesImproved));
+  std::vector<Stations> found;
+  for (const auto& [variance, place] : further)
+  {
+    found.push_back({ stations_.places, variance });
+    found.back().places.push_back(grid_[place]);
+  }
+  return found;
+}
+
+/// Of a coarser grid, by some of the probes.
+std::vector<Stations> StationSearch::bestPairs() const
+{
+  std::vector<DensityProbe> some;
+  for (std::size_t i = 0; i < probes_.size(); i += ProbesPerOneOfPairs)
+  {
+    some.push_back(probes_[i]);
+  }
+  const std::vector<Eigen::Vector3d> places = gridOf(PlacesOfPairsAmong, PlacesOfPairsAround);
+  std::vector<Densities> from(places.size());
+  executor_.forEachPart(
+    places.size(), [&](std::size_t i) { from[i] = densitiesFrom(places[i], some); });
+  struct Pair
+  {
+    double variance = std::numeric_limits<double>::infinity();
+    std::size_t first = 0, second = 0;
+  };
+  std::vector<Pair> best(places.size());
+  executor_.forEachPart(places.size(),
+    [&](std::size_t i)
+    {
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        Densities all = from[i];
+        addTo(all, from[j]);
+        const double variance = varianceBeside(all, some);
+        if (variance < best[i].variance)
+        {
+          best[i] = { variance, i, j };
+        }
+      }
+    });
+  std::sort(best.begin(), best.end(),
+    [](const Pair& a, const Pair& b)
+    { return std::tie(a.variance, a.first) < std::tie(b.variance, b.first); });
+  std::vector<Stations> found;
+  for (std::size_t i = 0; i < best.size() && i < PlacesImproved; ++i)
+  {
+    if (std::isfinite(best[i].variance))
+    {
+      Densities all = densitiesFrom(places[best[i].first], probes_);
+      addTo(all, densitiesFrom(places[best[i].second], probes_));
+      found.push_back(
+        { { places[best[i].first], places[best[i].second] }, varianceBeside(all, probes_) });
+    }
+  }
+  return found;
+}
+
 void StationSearch::improve(Stations& stations) const
 {
   std::vector<Densities> from;
   std::transform(stations.places.begin(), stations.places.end(), std::back_inserter(from),
-    [&](const Eigen::Vector3d& place) { return densitiesFrom(place); });
+    [&](const Eigen::Vector3d& place) { return densitiesFrom(place, probes_); });
   for (double stride = FirstStride; stride >= LastStride;)
   {
     bool isBetter = false;
@@ -165,9 +239,9 @@ void StationSearch::improve(Stations& stations) const
         {
           continue;
         }
-        Densities there = densitiesFrom(place), all = others;
+        Densities there = densitiesFrom(place, probes_), all = others;
         addTo(all, there);
-        const double variance = varianceBeside(all);
+        const double variance = varianceBeside(all, probes_);
         if (variance < stations.variance)
         {
           stations.variance = variance;

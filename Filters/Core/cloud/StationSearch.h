@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -47,16 +48,20 @@ public:
 private:
   using Densities = std::vector<double>;
 
-  Densities densitiesFrom(const Eigen::Vector3d& station) const;
-  double varianceBeside(const Densities& densities) const;
+  std::vector<Eigen::Vector3d> gridOf(int placesAmong, int placesAround) const;
+  Densities densitiesFrom(
+    const Eigen::Vector3d& station, std::span<const DensityProbe> probes) const;
+  double varianceBeside(const Densities& densities, std::span<const DensityProbe> probes) const;
+  std::vector<Stations> withOneMore() const;
+  std::vector<Stations> bestPairs() const;
   void improve(Stations& stations) const;
 
   const std::vector<DensityProbe>& probes_;
   std::optional<FacingPiece> hull_;
-  Eigen::AlignedBox3d box_;
+  Eigen::AlignedBox3d box_, bounds_;
   std::function<bool(const Eigen::Vector3d&)> isAsked_;
   const Executor& executor_;
-  double diagonal_ = 0.;
+  double diagonal_;
   std::vector<Eigen::Vector3d> grid_;
   Stations stations_;
 };

@@ -23,7 +23,8 @@ const Eigen::Vector3d PlaceOfScanner(0.6, -0.3, 0.1);
 
 /// What scanners see in even angles within a room.
 std::vector<Eigen::Vector3d> scanOfRoom(
-  const std::vector<Eigen::Vector3d>& stations = { PlaceOfScanner })
+  const std::vector<Eigen::Vector3d>& stations = { PlaceOfScanner },
+  const Eigen::Vector3d& size = RoomSize)
 {
   Random random(1);
   std::vector<Eigen::Vector3d> points;
@@ -38,7 +39,7 @@ std::vector<Eigen::Vector3d> scanOfRoom(
     double way = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i)
     {
-      way = std::min(way, (std::copysign(RoomSize[i], look[i]) - station[i]) / look[i]);
+      way = std::min(way, (std::copysign(size[i], look[i]) - station[i]) / look[i]);
     }
     points.push_back(station + way * look);
   }
@@ -148,6 +149,25 @@ TEST(DensitySides, ARoomOfSeveralStationsLooksInwards)
     roomAlone(), scanOfRoom({ { 1.2, 0.6, 0.1 }, { -1.2, -0.6, 0. }, { -0.9, 0.7, 0.1 } }));
   EXPECT_EQ(scene.facing(), 1.);
   EXPECT_EQ(scene.report.main(), SideEvidence::Density);
+}
+
+// A corridor too: the best place of one station is between two, from where neither is found.
+TEST(DensitySides, ACorridorOfTwoStationsLooksInwards)
+{
+  const Eigen::Vector3d size(10., 1., 1.25);
+  const auto isWall = [&](const Eigen::Vector3d& at) { return std::abs(at.x()) < size.x() - 1e-9; };
+  const TriangleMesh corridor =
+    partOf(placed(makeCube(96), 2. * size.asDiagonal(), Eigen::Vector3d::Zero()), isWall);
+  std::vector<Eigen::Vector3d> points = scanOfRoom({ { -5., 0., 0.25 }, { 5., 0., 0.25 } }, size);
+  std::erase_if(points, [&](const Eigen::Vector3d& at) { return !isWall(at); });
+  const ScannedScene scene(corridor, points);
+  EXPECT_EQ(scene.report.main(), SideEvidence::Density);
+  const TriangleMesh result = trianglesOf(scene.mesh, scene.cloud);
+  for (const auto& [a, b, c] : result.triangles)
+  {
+    const Eigen::Vector3d &p = result.points[a], &q = result.points[b], &r = result.points[c];
+    ASSERT_LT((q - p).cross(r - p).dot(Eigen::Vector3d(0., p.y(), p.z())), 0.);
+  }
 }
 
 // A body that was scanned from some places around it looks outwards.
