@@ -22,7 +22,8 @@
  *     farther than usual and in no layer with them;
  *   - 2, small piece: away, with less than the part SmallestPiece of all points;
  *   - 3, unreachable: away, with as many points or more;
- *   - 4, dropped: NaN, infinite, or farther from the bulk of the cloud than 10^6 times its size.
+ *   - 4, dropped: NaN, infinite, farther from the bulk of the cloud than 10^6 times its size, or at
+ *     one place with more than 100 others, see vtkNeuralMesh.
  *
  * Points that are away form one piece if they are closer than two mean edges of the mesh, or two and a
  * half of their distances to their neighbours.

@@ -92,6 +92,11 @@ const std::vector<Case>& Cases()
         return i % 6 != 0 ? p : i % 12 != 0 ? Point{ NaN, 0, p[2] } : Point{ p[0], -Infinity, 0 };
       },
       Outcome::Mesh, 0, 200 },
+    { "a fifth on one spot", 1000,
+      [](int i, const Point& p) {
+        return i % 5 != 0 ? p : Point{ 0, 0, 3 };
+      },
+      Outcome::Mesh, 1, 199 },
     { "all NaN", 1000,
       [](int, const Point& p) {
         return Point{ p[0], p[1], NaN };

@@ -47,6 +47,19 @@ class Explain(unittest.TestCase):
         self.assertEqual(array(mesh, "Boundary").max(), 0)
         self.assertEqual(len(array(mesh, "Residual")), 300)
 
+    # Promise: of points that a depth camera has not seen, one counts; the others are dropped, and there is a warning.
+    def test_unseen_points(self):
+        points = support.sphere(4000) + (3, 0, 0)
+        points[::8] = 0
+        with self.assertWarnsRegex(RuntimeWarning, r"499 points were dropped.*\[points-coincide\]"):
+            mesh, explained = neuralmesh.reconstruct(points, 300, explain=True)
+        self.assertEqual(field(mesh, "DroppedPoints"), 499)
+        for found in (explained, neuralmesh.explain(points, mesh)):
+            reasons = array(found, "Reason")
+            np.testing.assert_array_equal(np.unique(reasons, return_counts=True), ([0, 1, 4], [3500, 1, 499]))
+            self.assertEqual(set(reasons[8::8]), {4})
+            np.testing.assert_array_equal(np.isnan(array(found, "Distance")), reasons == 4)
+
     # Promise: warnings are Python's, and those of the field data.
     def test_warnings(self):
         with warnings.catch_warnings(record=True) as warned:

@@ -12,6 +12,7 @@ namespace neuralmesh
 /// names the causes and the cures.
 enum class WarningTopic
 {
+  PointsCoincide,
   PartIsMissing,
   MeshIsCoarse,
   PointsAreUnexplained,

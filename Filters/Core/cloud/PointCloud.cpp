@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace neuralmesh
 {
@@ -98,9 +99,10 @@ struct PointCloud::Input
   std::span<const double> weights;
   const Executor& executor;
 
-  bool hasWeight(std::size_t index) const
+  bool isThere(std::size_t index) const
   {
-    return weights.empty() || (weights[index] > 0. && std::isfinite(weights[index]));
+    return (weights.empty() || (weights[index] > 0. && std::isfinite(weights[index]))) &&
+      (isOfPile_.empty() || !isOfPile_[index]);
   }
 
   /// Calls `use(index, point)` for the points of a range that are finite, have a weight, and are not
@@ -111,7 +113,7 @@ struct PointCloud::Input
     points.forEach(begin, end,
       [&](std::size_t index, const Eigen::Vector3d& point)
       {
-        if (hasWeight(index) && point.allFinite() && isInReach(point))
+        if (isThere(index) && point.allFinite() && isInReach(point))
         {
           use(index, point);
         }
@@ -136,12 +138,12 @@ struct PointCloud::Input
     return count;
   }
 
-  std::size_t weightCount() const
+  std::size_t thereCount() const
   {
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-      count += hasWeight(i) ? 1 : 0;
+      count += isThere(i) ? 1 : 0;
     }
     return count;
   }
@@ -226,12 +228,34 @@ struct PointCloud::Input
     for (std::size_t i = 0; i < points.size(); ++i)
     {
       const Eigen::Vector3d point = points[i];
-      if (hasWeight(i) && point.allFinite() && !isInReach(point))
+      if (isThere(i) && point.allFinite() && !isInReach(point))
       {
         result.push_back(std::uint32_t(i));
       }
     }
     return result;
+  }
+
+  /// From now on, of each pile only the first point is there. Tells how many are not. What was far may be near
+  /// without them.
+  std::size_t leaveOut(std::span<const Pile> piles)
+  {
+    reach_ = Everywhere;
+    std::vector<bool> isOfPile(points.size(), false), isFound(piles.size(), false);
+    std::size_t count = 0;
+    forEachFinite(
+      [&](std::size_t index, const Eigen::Vector3d& point)
+      {
+        const std::size_t pile = pileAt(point, piles);
+        if (pile < piles.size())
+        {
+          isOfPile[index] = isFound[pile];
+          count += isFound[pile] ? 1 : 0;
+          isFound[pile] = true;
+        }
+      });
+    isOfPile_ = std::move(isOfPile);
+    return count;
   }
 
 private:
@@ -313,14 +337,43 @@ private:
   static constexpr double Everywhere = std::numeric_limits<double>::infinity();
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double reach_ = Everywhere;
+  std::vector<bool> isOfPile_; ///< and left out; empty if none is
 };
 
 PointCloud::PointCloud(const PointSpans& points, std::span<const double> weights, bool keepsOrigins,
   const Executor& executor)
 {
   Input input(points, weights, executor);
+  const bool needsOrigins = keepsOrigins || !weights.empty();
+  PileSearch search;
+  arrange(input, needsOrigins, search);
+  if (const std::vector<Pile> piles = search.find(); !piles.empty())
+  {
+    *this = PointCloud(PointSpans());
+    coincidingCount_ = input.leaveOut(piles);
+    pileCount_ = piles.size();
+    largestPile_ = *std::max_element(
+      piles.begin(), piles.end(), [](const Pile& a, const Pile& b) { return a.count < b.count; });
+    PileSearch ofRest;
+    arrange(input, needsOrigins, ofRest);
+    droppedCount_ += coincidingCount_;
+  }
+  countDifferent(executor);
+  if (!weights.empty())
+  {
+    takeWeights(input);
+  }
+  if (!keepsOrigins)
+  {
+    std::vector<std::uint32_t>().swap(origins_);
+  }
+}
+
+/// All but the weights.
+void PointCloud::arrange(Input& input, bool keepsOrigins, PileSearch& piles)
+{
   std::size_t finite = input.finiteCount();
-  droppedCount_ = input.weightCount() - finite;
+  droppedCount_ = input.thereCount() - finite;
   if (finite == 0)
   {
     return;
@@ -347,17 +400,8 @@ PointCloud::PointCloud(const PointSpans& points, std::span<const double> weights
   size_ = size > 0. && std::isfinite(size) ? size : 1.;
   findBoxes(input, bulk);
   findFloatStep(input, bulk);
-  takePoints(input, keepsOrigins || !weights.empty(), executor);
+  takePoints(input, keepsOrigins, piles);
   droppedCount_ += finite - points_.size();
-  countDifferent(executor);
-  if (!weights.empty())
-  {
-    takeWeights(input);
-  }
-  if (!keepsOrigins)
-  {
-    std::vector<std::uint32_t>().swap(origins_);
-  }
 }
 
 /// Diagonal and box of the bulk.
@@ -395,8 +439,9 @@ void PointCloud::findFloatStep(const Input& input, const Eigen::AlignedBox3d& bu
 
 /// The points in Morton order, and where they come from: first by buckets that follow each other along
 /// the curve, then in order within each.
-void PointCloud::takePoints(const Input& input, bool keepsOrigins, const Executor& executor)
+void PointCloud::takePoints(const Input& input, bool keepsOrigins, PileSearch& piles)
 {
+  const Executor& executor = input.executor;
   const MortonCurve curve(bulkMin_, bulkMax_);
   const int bits = bucketBits(input.points.size());
   const auto forEachNear = [&](std::size_t begin, std::size_t end, const auto& use)
@@ -433,6 +478,11 @@ void PointCloud::takePoints(const Input& input, bool keepsOrigins, const Executo
         order.emplace_back(curve.key(points.back()), std::uint32_t(order.size()));
       }
       sortAlongCurve(order, points);
+      piles.add(
+        order.size(),
+        [&](std::size_t i)
+        { return !isApart(points[order[i].second], points[order[i - 1].second]); },
+        [&](std::size_t i) { return input.points[items[order[i].second]]; });
       std::size_t next = buckets.begin(bucket);
       for (const auto& [key, place] : order)
       {

@@ -4,6 +4,7 @@
 #include "base/Executor.h"
 #include "base/LargePageAllocator.h"
 #include "base/Vector4.h"
+#include "cloud/Piles.h"
 #include "cloud/PointSpans.h"
 
 #include <Eigen/Geometry>
@@ -16,14 +17,16 @@
 
 namespace neuralmesh
 {
-/// The point cloud P, made ready for learning: without points that are not finite, and without a few
-/// that lie very far from all others, whatever their number is; moved and scaled
+/// The point cloud P, made ready for learning: without points that are not finite, without a few
+/// that lie very far from all others, whatever their number is, and with one point of each pile, the
+/// first one of the input; moved and scaled
 /// so that its bulk has about unit size around the origin (whatever the units and the offset of the
 /// input are, single precision then resolves 10^-7 of the object), in Morton order.
 ///
 /// Beside the points that it is given it writes and reads 40 bytes a point while it is made, and has
 /// 20 of them in memory at most: what it needs to know of all points is found by going over them again.
 /// Origins take 4 more, weights 8. What lies on one spot takes up to 32 more, as it is sorted at once.
+/// A cloud with piles is made twice, as they have a part in its size.
 class PointCloud
 {
 public:
@@ -47,7 +50,13 @@ public:
   float weight(std::size_t point) const { return weights_.empty() ? 1.f : weights_[point]; }
   /// For each point, its index in the input; empty unless it was asked for.
   std::span<const std::uint32_t> origins() const { return origins_; }
+  /// How many are not there though they have a weight: not finite, too far off, or of a pile.
   std::size_t droppedCount() const { return droppedCount_; }
+  /// Those of piles.
+  std::size_t coincidingCount() const { return coincidingCount_; }
+  std::size_t pileCount() const { return pileCount_; }
+  /// The one with most points, in the coordinates of the input, if there is one.
+  const Pile& largestPile() const { return largestPile_; }
   /// Indices of points in the input, in their order, that were left out as outliers: a few that lie at
   /// least four times as far from the middle as all others.
   std::span<const std::uint32_t> farPoints() const { return farPoints_; }
@@ -88,9 +97,10 @@ private:
   {
     return scaled.cwiseAbs().maxCoeff() <= FarthestPoint;
   }
+  void arrange(Input& input, bool keepsOrigins, PileSearch& piles);
   void findBoxes(const Input& input, const Eigen::AlignedBox3d& bulk);
   void findFloatStep(const Input& input, const Eigen::AlignedBox3d& bulk);
-  void takePoints(const Input& input, bool keepsOrigins, const Executor& executor);
+  void takePoints(const Input& input, bool keepsOrigins, PileSearch& piles);
   void takeWeights(const Input& input);
   void countDifferent(const Executor& executor);
   static bool isApart(Vector4 a, Vector4 b) { return squaredNorm(a - b) > 0.f; }
@@ -100,6 +110,9 @@ private:
   std::vector<std::uint32_t> origins_;
   std::vector<std::uint32_t> farPoints_;
   std::size_t droppedCount_ = 0;
+  std::size_t coincidingCount_ = 0;
+  std::size_t pileCount_ = 0;
+  Pile largestPile_;
   std::size_t differentCount_ = 0;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double size_ = 1.;

@@ -25,7 +25,7 @@ enum class Reason : std::uint8_t
              ///< or very far from all others (PointCloud::farPoints())
   SmallPiece,  ///< away from the mesh, with few other points, and not beside explained ones
   Unreachable, ///< away from the mesh, with many other points: the surface is missing there
-  Dropped      ///< no coordinates, no weight, or too far off
+  Dropped      ///< no coordinates, no weight, too far off, or of a pile
 };
 constexpr std::size_t Reasons = 5;
 

@@ -189,6 +189,23 @@ void warnOfTornParts(const TornParts& torn, const PointCloud& cloud, WarningList
 }
 }
 
+void warnOfPiles(const PointCloud& cloud, WarningList& warnings)
+{
+  if (cloud.pileCount() > 0)
+  {
+    const Pile& largest = cloud.largestPile();
+    warnings.add(WarningTopic::PointsCoincide,
+      counted(cloud.coincidingCount(), "point was", "points were") +
+        " dropped, as they lie exactly where others do: " + std::to_string(largest.count) +
+        " points are at " + placeText(largest.place, cloud) +
+        (cloud.pileCount() > 1
+            ? ", others at " + counted(cloud.pileCount() - 1, "other place", "other places")
+            : "") +
+        ". Depth cameras write (0, 0, 0) for pixels without a measurement. Remove such points. One "
+        "of each place has stayed.");
+  }
+}
+
 void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
 {
   // The noise is unknown where the mesh misses the cloud.

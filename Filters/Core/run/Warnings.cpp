@@ -405,6 +405,7 @@ std::vector<std::string> warningsOf(
     // First, as others may follow from it.
     warnOfEarlyEnd(result, warnings);
   }
+  warnOfPiles(cloud, warnings);
   if (result.explanation)
   {
     warnOfPoints(*result.explanation, cloud, warnings);

@@ -11,7 +11,8 @@ namespace neuralmesh
 {
 /// What a user must know of a mesh before using it: what is wrong, where, why, and what to do. Each warning
 /// ends with its tag; Documentation/Guide/Failures.md has a section for each tag. The list is empty for a
-/// mesh that fits its cloud. After a cancelled run it has only what is known of the sides. Limits:
+/// mesh that fits its cloud. After a cancelled run it has only what is known of piles and of the sides. Limits:
+/// - points coincide: any pile;
 /// - points are unexplained: more than 3 % of them;
 /// - coarse: the mesh cuts off more than 0.035 % of the points at narrow rims, or five within two edges of one of them;
 /// - open where points are: the mesh ends before six of the asked points where points are sparse;

@@ -2,6 +2,7 @@
 // Promise: clouds that are no surface give a manifold of as many vertices as asked for, near the points, and the
 // warning that Documentation/Guide/Failures.md explains ('Bad input' has some of these clouds).
 #include "base/Random.h"
+#include "base/ThreadPool.h"
 #include "ManifoldCheck.h"
 #include "run/Reconstruction.h"
 #include "SphereRuns.h"
@@ -67,15 +68,14 @@ bool warnsOfMissedPoints(const OddRun& run)
 }
 
 /// Expects a manifold of that size in the box of the points and a quarter of its diagonal more.
-OddRun runOn(
-  const Points& points, std::uint64_t vertices = Vertices, const OrientationHints& hints = {})
+OddRun runOn(const Points& points, std::uint64_t vertices = Vertices,
+  const OrientationHints& hints = {}, const Executor& executor = Executor::sequential())
 {
   Parameters parameters;
   parameters.numberOfVertices = vertices;
-  const PointCloud cloud(points, {}, hints.needOrigins());
+  const PointCloud cloud(points, {}, hints.needOrigins(), executor);
   OddRun run;
-  run.result =
-    reconstruct(cloud, parameters, goOn, {}, {}, {}, Executor::sequential(), hints, false);
+  run.result = reconstruct(cloud, parameters, goOn, {}, {}, {}, executor, hints, false);
   const TriangleMesh& mesh = run.result.mesh;
   run.report = checkManifold(mesh.points.size(), mesh.triangles);
   EXPECT_EQ(run.report.defect, "");
@@ -317,6 +317,40 @@ TEST(OddClouds, IslandsBesideABody)
   }
   EXPECT_GT(count, 8. * 4.);
   EXPECT_NEAR(sum / count, Radius, 0.1 * Radius);
+}
+
+// Points that a depth camera has not seen lie at one place, beside a sphere or within it: one sphere comes, without
+// anything at that place, on any number of threads, and the one warning tells how many they are and where.
+TEST(OddClouds, UnseenPoints)
+{
+  for (const double distance : { 4., 0. })
+  {
+    SCOPED_TRACE(distance);
+    const Eigen::Vector3d center(distance, 0., 0.);
+    Random random(12);
+    Points points;
+    for (std::size_t i = 0; i < Many; ++i)
+    {
+      points.push_back(i % 20 < 3 ? Eigen::Vector3d::Zero() : center + onSphere(random));
+    }
+    const OddRun run = runOn(points);
+    EXPECT_TRUE(run.report.isClosed());
+    EXPECT_EQ(run.report.components, 1u);
+    EXPECT_EQ(run.report.genus(), 0);
+    for (const Eigen::Vector3d& point : run.result.mesh.points)
+    {
+      ASSERT_NEAR((point - center).norm(), 1., 0.05);
+    }
+    ASSERT_EQ(run.result.warnings.size(), 1u);
+    EXPECT_TRUE(run.warnsOf("1499 points were dropped"));
+    EXPECT_TRUE(run.warnsOf("1500 points are at (0, 0, 0)."));
+    EXPECT_TRUE(run.warnsOf("[points-coincide]"));
+    EXPECT_EQ(run.result.explanation->count(Reason::Dropped), 1499.);
+    EXPECT_EQ(run.result.explanation->unexplained(), 0.);
+    const OddRun threaded = runOn(points, Vertices, {}, ThreadPool(7));
+    EXPECT_EQ(run.result.mesh.points, threaded.result.mesh.points);
+    EXPECT_EQ(run.result.mesh.triangles, threaded.result.mesh.triangles);
+  }
 }
 
 // With nine of ten points in one place of a sphere, or within it, a manifold comes, and the warning that it is

@@ -238,6 +238,20 @@ TEST(StreamingReconstruction, BadPointsAndFewPoints)
   EXPECT_EQ(stream.mesh(true, [](double) { return false; }).stopReason, StopReason::Cancelled);
 }
 
+// Points that were not seen, all at one place, are left out of what a stream learns from, and there is a warning.
+TEST(StreamingReconstruction, UnseenPoints)
+{
+  StreamingReconstruction stream(wanted(500), 10000);
+  stream.addPoints(torusCloud(20000));
+  stream.addPoints(Points(5000, Eigen::Vector3d(0., 0., -3.)));
+  stream.learn(100000, goOn);
+  const Reconstruction result = stream.mesh(true, goOn);
+  EXPECT_LT(distanceToTorus(result.mesh), 0.03);
+  EXPECT_TRUE(std::ranges::any_of(result.warnings,
+    [](const std::string& warning)
+    { return warning.find("at (0, 0, -3). ") != std::string::npos; }));
+}
+
 // Hints of what is added turn the mesh as directions of the points do: a viewpoint, views of each point, normals.
 TEST(StreamingReconstruction, HintsAreDirections)
 {

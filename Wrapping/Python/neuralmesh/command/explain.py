@@ -21,7 +21,7 @@ _FOOTER = (
     "distance to its six nearest neighbours, and eight times the median distance of all points.\n"
     "Reason is 0 (explained: not away), 1 (outlier: away, and apart from other points), 2 (small\n"
     "piece: away, with few others), 3 (unreachable: away, with many others) or 4 (dropped: no\n"
-    "finite coordinates).\n"
+    "finite coordinates, or one of very many points at one place).\n"
     "\nExit status: 0 done, 1 failed (the message is on stderr), 2 wrong use."
 )
 
