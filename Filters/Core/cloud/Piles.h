@@ -38,7 +38,7 @@ public:
   template <typename IsLikeLast, typename PlaceOf>
   void add(std::size_t count, const IsLikeLast& isLikeLast, const PlaceOf& placeOf)
   {
-    std::size_t places = 0;
+    std::size_t places = 0, different = 0;
     for (std::size_t begin = 0, end = 0; begin < count; begin = end)
     {
       do
@@ -46,10 +46,15 @@ public:
         ++end;
       } while (end < count && isLikeLast(end));
       places += end - begin > 1 ? addAlike(begin, end, placeOf) : 1;
+      ++different;
     }
     points_.fetch_add(count, std::memory_order_relaxed);
     places_.fetch_add(places, std::memory_order_relaxed);
+    different_.fetch_add(different, std::memory_order_relaxed);
   }
+
+  /// How many are unlike the one before.
+  std::size_t differentCount() const { return different_; }
 
   /// The piles, in the order of their places; the same whatever the parts are.
   std::vector<Pile> find() const;
@@ -93,6 +98,7 @@ private:
 
   std::atomic<std::size_t> points_ = 0;
   std::atomic<std::size_t> places_ = 0;
+  std::atomic<std::size_t> different_ = 0;
   std::mutex mutex_;
   std::vector<Pile> crowded_; ///< of more than MostAtPlace
 };

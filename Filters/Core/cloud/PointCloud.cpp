@@ -19,7 +19,6 @@ namespace
 {
 /// Points of a part for the executor.
 constexpr std::size_t PointsPerRange = std::size_t(1) << 18;
-constexpr std::size_t PointsPerCount = std::size_t(1) << 14;
 /// Brought into the cache before its turn: the points of a bucket lie anywhere in the input.
 constexpr std::size_t PointsAhead = 24;
 /// So many points of a surface are in a bucket, about: few enough to be sorted in the cache.
@@ -358,7 +357,6 @@ PointCloud::PointCloud(const PointSpans& points, std::span<const double> weights
     arrange(input, needsOrigins, ofRest);
     droppedCount_ += coincidingCount_;
   }
-  countDifferent(executor);
   if (!weights.empty())
   {
     takeWeights(input);
@@ -401,6 +399,7 @@ void PointCloud::arrange(Input& input, bool keepsOrigins, PileSearch& piles)
   findBoxes(input, bulk);
   findFloatStep(input, bulk);
   takePoints(input, keepsOrigins, piles);
+  differentCount_ = piles.differentCount();
   droppedCount_ += finite - points_.size();
 }
 
@@ -478,11 +477,6 @@ void PointCloud::takePoints(const Input& input, bool keepsOrigins, PileSearch& p
         order.emplace_back(curve.key(points.back()), std::uint32_t(order.size()));
       }
       sortAlongCurve(order, points);
-      piles.add(
-        order.size(),
-        [&](std::size_t i)
-        { return !isApart(points[order[i].second], points[order[i - 1].second]); },
-        [&](std::size_t i) { return input.points[items[order[i].second]]; });
       std::size_t next = buckets.begin(bucket);
       for (const auto& [key, place] : order)
       {
@@ -493,6 +487,12 @@ void PointCloud::takePoints(const Input& input, bool keepsOrigins, PileSearch& p
         }
         ++next;
       }
+      // In Morton order, equal ones are neighbours.
+      const auto taken =
+        std::span<const Vector4>(points_).subspan(buckets.begin(bucket), order.size());
+      piles.add(
+        taken.size(), [&](std::size_t i) { return !isApart(taken[i], taken[i - 1]); },
+        [&](std::size_t i) { return input.points[items[order[i].second]]; });
     });
 }
 
@@ -519,12 +519,5 @@ void PointCloud::takeWeights(const Input& input)
   {
     weights_.push_back(float(input.weights[origin] / largest / mean));
   }
-}
-
-void PointCloud::countDifferent(const Executor& executor)
-{
-  // In Morton order, equal ones are neighbours.
-  differentCount_ = std::size_t(executor.sum(points_.size(), PointsPerCount,
-    [this](std::size_t i) { return i == 0 || isApart(points_[i], points_[i - 1]) ? 1. : 0.; }));
 }
 }

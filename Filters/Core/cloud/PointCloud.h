@@ -102,7 +102,6 @@ private:
   void findFloatStep(const Input& input, const Eigen::AlignedBox3d& bulk);
   void takePoints(const Input& input, bool keepsOrigins, PileSearch& piles);
   void takeWeights(const Input& input);
-  void countDifferent(const Executor& executor);
   static bool isApart(Vector4 a, Vector4 b) { return squaredNorm(a - b) > 0.f; }
 
   LargeVector<Vector4> points_;

@@ -331,7 +331,8 @@ TEST(OddClouds, UnseenPoints)
     Points points;
     for (std::size_t i = 0; i < Many; ++i)
     {
-      points.push_back(i % 20 < 3 ? Eigen::Vector3d::Zero() : center + onSphere(random));
+      points.push_back(
+        i % 20 < 3 ? Eigen::Vector3d(0., 0., 0.) : Eigen::Vector3d(center + onSphere(random)));
     }
     const OddRun run = runOn(points);
     EXPECT_TRUE(run.report.isClosed());
@@ -353,18 +354,27 @@ TEST(OddClouds, UnseenPoints)
   }
 }
 
-// With nine of ten points in one place of a sphere, or within it, a manifold comes, and the warning that it is
-// finer than its data.
+// With nine of ten points in one place of a sphere, or within it, a sphere of the others comes, and the warnings
+// that points coincide, and that it is finer than its data. Whoever asks for more vertices than there are then points
+// is told so before the run.
 TEST(OddClouds, NearlyAllOnOneSpot)
 {
   for (const Eigen::Vector3d& place : Places)
   {
-    Random random(8);
-    EXPECT_TRUE(runOn(crowdedSphere(place, 0., random)).warnsOf("finer than its data"));
+    for (const std::uint64_t vertices : { std::uint64_t(Many / 12), Vertices })
+    {
+      Random random(8);
+      const OddRun run = runOn(crowdedSphere(place, 0., random), vertices);
+      EXPECT_TRUE(run.warnsOf("[points-coincide]"));
+      EXPECT_EQ(run.warnsOf("finer than its data"), vertices < Many / 10);
+      EXPECT_TRUE(run.report.isClosed());
+      EXPECT_EQ(run.report.genus(), 0);
+      EXPECT_FALSE(run.warnsOf("triangles intersect"));
+    }
   }
 }
 
-// So it does, and there is a warning, where they are no farther from each other than a millionth of the diagonal.
+// Where they are no farther from each other than a millionth of the diagonal, a manifold and a warning come.
 TEST(OddClouds, NearlyAllInOnePlace)
 {
   for (const Eigen::Vector3d& place : Places)
