@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -113,13 +114,14 @@ TEST(Piles, Several)
 {
   Points all = cubeAt({ 1., 1., 1. }, 3000);
   all.insert(all.end(), 150, Eigen::Vector3d(1.5, 2., 1.));
-  all.insert(all.end(), 90000, Eigen::Vector3d(-9999., 0., -9999.));
   all.insert(all.end(), 90000, Eigen::Vector3d(-9999., -0., -9999.));
+  all.insert(all.end(), 90000, Eigen::Vector3d(-9999., 0., -9999.));
   const PointCloud cloud(all);
   EXPECT_EQ(cloud.pileCount(), 2u);
   EXPECT_EQ(cloud.coincidingCount(), 149u + 179999u);
   EXPECT_EQ(cloud.largestPile().count, 180000u);
   EXPECT_EQ(cloud.largestPile().place, Eigen::Vector3d(-9999., 0., -9999.));
+  EXPECT_FALSE(std::signbit(cloud.largestPile().place.y()));
 }
 
 // A hundred points, or ten times what is usual, are no pile; nor is a cloud of which each point is there many times,
@@ -158,6 +160,21 @@ TEST(Piles, NearPlacesAreNone)
   EXPECT_EQ(PointCloud(all).pileCount(), 0u);
   all.insert(all.end(), 200, all.back());
   EXPECT_EQ(PointCloud(all).coincidingCount(), 200u);
+}
+
+// Points that only a pile makes few, and far from all others, are of the cloud.
+TEST(Piles, WhatIsFarFromAPileStays)
+{
+  Points all = cubeAt({ 1., 1., 1. }, 30);
+  for (const Eigen::Vector3d& point : cubeAt({ 0., 0., 0. }, 20))
+  {
+    all.emplace_back(0.01 * point);
+  }
+  all.insert(all.end(), 1000, Eigen::Vector3d::Zero());
+  const PointCloud cloud(all);
+  EXPECT_EQ(cloud.pileCount(), 1u);
+  EXPECT_EQ(cloud.points().size(), 51u);
+  EXPECT_TRUE(cloud.farPoints().empty());
 }
 
 // Of a pile, the first point with a weight stays, and keeps it; those without are not there, as ever.
