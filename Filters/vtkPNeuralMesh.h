@@ -25,7 +25,8 @@
  * where points coincide. An error on one process ends the run on all, with a message on each.
  * SetAbortExecute(1) on any process, for example from an observer of ProgressEvent, ends the run on
  * all, and the mesh learnt so far is on process 0. The selection of points is not interrupted.
- * DroppedPoints has all points that are not finite, but only those selected of the ones too far off.
+ * DroppedPoints has all points that are not finite, but only those selected of the ones too far off
+ * or of many at one place.
  *
  * With one process it does the same without communication.
  *
