@@ -374,6 +374,14 @@ void warnOfSides(
       "The normals of the input determine no side of the surface: they are zero, not finite, or "
       "point to both sides. Check them.");
   }
+  // Where the side is certain, nothing is missed.
+  if (sides.hasToldNothing(SideEvidence::UpDirection) && sides.guessedShare > 0.)
+  {
+    warnings.add(WarningTopic::SideIsUnknown,
+      "The up direction determines no side of the surface: as much of it looks down as up. The "
+      "side is a guess. Give viewpoints (--viewpoint, where the scanner stood), or points with "
+      "normals.");
+  }
   // A single piece has two sides that are equally right, and the pieces that follow it agree with
   // it. A user can turn the whole mesh.
   const bool isOne = sides.unknownPieces == 1 &&

@@ -443,4 +443,26 @@ TEST(OddClouds, NormalsThatTellNothing)
     EXPECT_EQ(run.result.mesh.points, without.result.mesh.points);
   }
 }
+
+// An up direction along a bent wall leaves its side a guess, and there is a warning; that of a body is certain.
+TEST(OddClouds, UpDirectionsThatTellNothing)
+{
+  Random random(12);
+  Points wall, body;
+  while (wall.size() < Many)
+  {
+    const double angle = 2. * random.uniform() - 1., z = 2. * random.uniform();
+    wall.emplace_back(std::cos(angle), std::sin(angle), z);
+    body.push_back(onSphere(random));
+  }
+  const auto warns = [](const Points& points, const Eigen::Vector3d& up)
+  {
+    OrientationHints hints;
+    hints.up = up;
+    return runOn(points, 500, hints).warnsOf("up direction determines no side");
+  };
+  EXPECT_TRUE(warns(wall, Eigen::Vector3d::UnitZ()));
+  EXPECT_FALSE(warns(wall, Eigen::Vector3d::UnitX()));
+  EXPECT_FALSE(warns(body, Eigen::Vector3d::UnitZ()));
+}
 }
