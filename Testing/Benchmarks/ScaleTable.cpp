@@ -2,13 +2,12 @@
 // Prints what it takes to make a cloud ready and, as a table in Markdown, whole runs of up to a million
 // vertices: what a sample costs, how much memory a vertex takes beyond the cloud, and how good the mesh
 // is. Sizes in thousands of vertices are arguments.
+#include "AnonymousBytes.h"
 #include "base/FreedArrays.h"
 #include "base/ThreadPool.h"
 #include "cloud/CloudGenerator.h"
 #include "run/Reconstruction.h"
 #include "Shapes.h"
-
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -20,20 +19,12 @@
 namespace
 {
 using namespace neuralmesh;
+using neuralmesh::testing::anonymousBytes;
 
 constexpr std::size_t PointCount = 5'000'000;
 /// The thesis's largest mesh took so long, on a Pentium 4 of 1.7 GHz.
 constexpr double AtlasVertices = 270'000.;
 constexpr double AtlasSeconds = (3. * 60. + 46.) * 60.;
-
-/// Bytes of memory in use that no file stands behind.
-double anonymousBytes()
-{
-  std::ifstream file("/proc/self/statm");
-  double size = 0., resident = 0., shared = 0.;
-  file >> size >> resident >> shared;
-  return (resident - shared) * double(sysconf(_SC_PAGESIZE));
-}
 
 /// The most memory that a part of a run has used.
 class Peak

@@ -48,7 +48,8 @@ Vector touchedVector(std::size_t count, const Executor& executor)
 template <typename T>
 void reserveTouched(LargeVector<T>& values, std::size_t count, const Executor& executor)
 {
-  constexpr std::size_t ValuesAtOnce = 65536;
+  // Pages of so many come on several threads.
+  constexpr std::size_t ValuesAtOnce = (std::size_t(8) << 20) / sizeof(T);
   if (values.capacity() >= count)
   {
     return;

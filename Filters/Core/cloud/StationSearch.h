@@ -29,7 +29,8 @@ struct FacingPiece
   int facing;
 };
 
-/// Searches them in a box, one after the other, and moves all to where they explain most each time.
+/// Searches them in a box, one after the other, and moves all to where they explain most each time. With the second one,
+/// pairs are tried, too.
 class StationSearch
 {
 public:

@@ -193,7 +193,7 @@ std::vector<NearestTriangle::Branch> NearestTriangle::ordered(
 void NearestTriangle::take(LargeVector<Item> items,
   std::span<const std::array<std::uint32_t, 3>> triangles, const Executor& executor)
 {
-  triangles_.resize(items.size());
+  triangles_ = ZeroedArray<Triangle>(items.size());
   for (std::size_t first = 0; first < items.size(); first += TrianglesTakenAtOnce)
   {
     const std::size_t size = std::min(TrianglesTakenAtOnce, items.size() - first);

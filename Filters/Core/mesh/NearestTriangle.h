@@ -3,6 +3,7 @@
 
 #include "base/Executor.h"
 #include "base/LargePageAllocator.h"
+#include "base/ZeroedArray.h"
 #include "mesh/Mesh.h"
 #include "mesh/TriangleMesh.h"
 
@@ -100,7 +101,7 @@ private:
   }
 
   std::vector<Eigen::Vector3d> points_;
-  LargeVector<Triangle> triangles_; ///< those of a leaf beside each other
+  ZeroedArray<Triangle> triangles_; ///< those of a leaf beside each other
   LargeVector<Node> nodes_;
 };
 

@@ -375,7 +375,7 @@ void warnOfSides(
       "point to both sides. Check them.");
   }
   // Where the side is certain, nothing is missed.
-  if (sides.hasToldNothing(SideEvidence::UpDirection) && sides.guessedShare > 0.)
+  if (sides.hasToldNothing(SideEvidence::UpDirection) && sides.guessedShare > LeastUnknownSide)
   {
     warnings.add(WarningTopic::SideIsUnknown,
       "The up direction determines no side of the surface: as much of it looks down as up. The "

@@ -52,7 +52,7 @@ TEST(TouchedVector, TakesTheMemoryOfOneArrayAsItGrows)
 TEST(TouchedVector, KeepsItsValuesAsItGrows)
 {
   // Less than a page, and several parts, whole ones and not.
-  for (const std::size_t count : { 0u, 1u, 65536u, 1048576u, 1200001u })
+  for (const std::size_t count : { 0u, 1u, 65536u, 1048576u, 2500001u })
   {
     LargeVector<std::uint64_t> values(count);
     std::iota(values.begin(), values.end(), std::uint64_t(7));
