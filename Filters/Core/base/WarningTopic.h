@@ -13,6 +13,7 @@ namespace neuralmesh
 enum class WarningTopic
 {
   PointsCoincide,
+  NoDataValue,
   PartIsMissing,
   MeshIsCoarse,
   PointsAreUnexplained,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/PointWarnings.h"
 
+#include "cloud/NoDataValue.h"
 #include "run/WarningTexts.h"
 
 #include <algorithm>
@@ -187,6 +188,19 @@ void warnOfTornParts(const TornParts& torn, const PointCloud& cloud, WarningList
         "vertices, more points, or another seed.");
   }
 }
+}
+
+void warnOfNoDataValue(const PointCloud& cloud, WarningList& warnings)
+{
+  if (const auto found = findNoDataValue(cloud))
+  {
+    std::ostringstream text;
+    text << found->count << " points have the same "
+         << "xyz"[found->axis] << ", about " << found->value
+         << ", far from all others. Such a number often stands for \"not measured\". If it does, "
+            "remove these points.";
+    warnings.add(WarningTopic::NoDataValue, text.str());
+  }
 }
 
 void warnOfPiles(const PointCloud& cloud, WarningList& warnings)

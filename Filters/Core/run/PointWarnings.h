@@ -8,6 +8,8 @@
 namespace neuralmesh
 {
 /// Warns of points that are not in the cloud, as they lie where others do.
+void warnOfNoDataValue(const PointCloud& cloud, WarningList& warnings);
+
 void warnOfPiles(const PointCloud& cloud, WarningList& warnings);
 
 /// Warns of the points that a mesh misses: how many, where, why, and what to do. The limits stand at warningsOf().

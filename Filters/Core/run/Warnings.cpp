@@ -401,6 +401,8 @@ std::vector<std::string> warningsOf(
   const Reconstruction& result, const PointCloud& cloud, const Parameters& parameters)
 {
   WarningList warnings;
+  // With such points the others may seem to lie on a line.
+  warnOfNoDataValue(cloud, warnings);
   if (areOnLine(cloud))
   {
     // All else follows from it.
