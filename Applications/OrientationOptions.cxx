@@ -130,13 +130,13 @@ void PrintSides(vtkPolyData* mesh)
   {
     std::printf(", a guess");
   }
-  if (unknown > 0.0 && unknown <= 50.0)
+  if (unknown > 0.01 && unknown <= 50.0)
   {
     std::printf(", %.2g %% of the area unknown", unknown);
   }
   if (unknown > 50.0 || guessed > 50.0)
   {
-    std::printf("%s --viewpoint or --up determines them",
+    std::printf("%s --viewpoint or --up may determine them",
       unknown > 50.0 ? ", most looks up, along z, or to what stands on it;" : ";");
   }
   std::printf("\n");

@@ -184,10 +184,13 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   };
   const auto refineAll = [&](double at)
   {
-    const bool isDone = refine(mesh_, plan_.vertexCount, partOf(progress, at, at));
-    // What was refined until a run ends is kept.
-    flipEdges(mesh_, EdgesToFlip::All, isDone ? executor_ : executor_.uninterrupted());
-    return isDone;
+    if (!refine(mesh_, plan_.vertexCount, partOf(progress, at, at)))
+    {
+      // What was refined until a run ends is kept.
+      return false;
+    }
+    flipEdges(mesh_, EdgesToFlip::All, executor_);
+    return true;
   };
   if (rounds == 0 && mesh_.vertexCount() < plan_.vertexCount && !refineAll(0.))
   {

@@ -20,8 +20,9 @@ constexpr float CosineOfRim = -0.5f;
 /// Triangles lower than a thousandth of their edge have no normal to speak of.
 constexpr float SquaredHeightOfSliver = 1e-6f;
 constexpr int MaximumPasses = 4;
-/// A part for the executor.
+/// Parts for the executor.
 constexpr std::size_t VerticesAskedPerRange = 1024;
+constexpr std::size_t VerticesFlippedPerRange = 65536;
 /// Of an edge: what lies between it and the one that it is flipped to, if it is flat. Triangles that come to be there
 /// are no slivers.
 constexpr float MostHeightOfFlat = 0.002f;
@@ -237,14 +238,23 @@ void flipEdges(Mesh& mesh, EdgesToFlip which, const Executor& executor)
       }
     }
   };
-  for (VertexIndex v = 0; v < mesh.indexEnd(); ++v)
+  const auto flipBetween = [&](std::size_t begin, std::size_t end)
   {
-    if (isToBeAsked[v] == 0)
+    for (auto v = VertexIndex(begin); v < end; ++v)
     {
-      continue;
+      if (isToBeAsked[v] == 0)
+      {
+        continue;
+      }
+      asksAhead ? flipBetterAround(mesh, v, which, any, askAround)
+                : flipBetterAround(mesh, v, which, any, ignore);
     }
-    asksAhead ? flipBetterAround(mesh, v, which, any, askAround)
-              : flipBetterAround(mesh, v, which, any, ignore);
+  };
+  // One range after another: between them a run may end.
+  for (std::size_t begin = 0; begin < isToBeAsked.size(); begin += VerticesFlippedPerRange)
+  {
+    const std::size_t end = std::min(isToBeAsked.size(), begin + VerticesFlippedPerRange);
+    executor.forEachPart(1, [&](std::size_t) { flipBetween(begin, end); });
   }
 }
 }

@@ -112,11 +112,11 @@ def _print_sides(fields: dict[str, Any]) -> None:
     text = "unknown" if unknown > 50.0 else f"by {fields['OrientedBy']}"
     if guessed > 50.0:
         text += ", a guess"
-    if 0.0 < unknown <= 50.0:
+    if 0.01 < unknown <= 50.0:
         text += f", {unknown:.2g} % of the area unknown"
     if unknown > 50.0 or guessed > 50.0:
         text += ", most looks up, along z, or to what stands on it;" if unknown > 50.0 else ";"
-        text += " --viewpoint or --up determines them"
+        text += " --viewpoint or --up may determine them"
     print(f"sides      {text}")
 
 
