@@ -35,4 +35,6 @@ show()
 show kitten demo/kitten.xyz 2000 --up y --azimuth 200
 show bunny /usr/share/glmark2/models/bunny.obj 5000 --up y --azimuth 30
 # A scene: open, in pieces, and much sparser here than there.
+echo
+echo "The next scan has gaps and parts with few points: warnings tell where its mesh is a guess."
 show building demo/building.ply 20000 --up z --azimuth 30

@@ -88,7 +88,7 @@ std::string UnknownSubcommand(const CLI::App& application, const std::string& wo
   if (word == "batch" || word == "paraview")
   {
     return word + ": the Python package has this subcommand: use python3 -m neuralmesh " + word +
-      " ...\n";
+      " ..., as Documentation/Guide/CommandLine.md shows\n";
   }
   Names names;
   for (const CLI::App* subcommand :

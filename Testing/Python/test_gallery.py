@@ -104,6 +104,8 @@ class Views(BatchTest):
         ball = support.sphere(4000)
         np.savetxt(cls.folder / "bowl.xyz", ball[ball[:, 2] < 0])
         write_scan(cls.folder / "few.xyz", 300)
+        x, y = np.meshgrid(np.linspace(0, 8, 60), np.linspace(0, 8, 60))
+        np.savetxt(cls.folder / "waves.xyz", np.stack([x, y, np.sin(x) * np.cos(y)], -1).reshape(-1, 3))
         cls.write_recipe(
             scans=["*.xyz"], matrix={"vertices": 200}, gallery=True, view={"up": "z", "elevation": 30}
         )
@@ -141,9 +143,16 @@ class Views(BatchTest):
     # Promise: the page counts the jobs with warnings, and has each warning behind its heading.
     def test_warnings(self):
         page = Page(self.results / "index.html")
-        self.assertIn("3 jobs: 3 done, 0 failed, 1 with warnings", page.text)
+        self.assertIn("4 jobs: 4 done, 0 failed, 1 with warnings", page.text)
         self.assertIn("Finer than data: ", page.text)
         self.assertNotIn("[finer-than-data]", page.text)
+
+    # Promise: the page tells what determines the outer side, and where nothing does.
+    def test_sides(self):
+        cards = Page(self.results / "index.html").text.split("sides")[1:]
+        sides = [card.split("time")[0].strip() for card in cards]
+        self.assertEqual(sides.count("by volume"), 3)
+        self.assertEqual(len([side for side in sides if side.startswith("unknown, most looks up")]), 1)
 
 
 class NoScreen(BatchTest):

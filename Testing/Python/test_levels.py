@@ -39,6 +39,7 @@ class Levels(unittest.TestCase):
             ((3, 100), {}, "from 4 to"),
             ((100.5, 200), {}, "whole number"),
             (("many",), {}, "whole number"),
+            (500, {}, "levels must be several numbers"),
             ((100, 200), {"time_limit": 5}, "stopping rule"),
             ((100, 200), {"ensemble": 2}, "ensemble"),
             ((100, 200), {"automatic": True}, "automatic"),

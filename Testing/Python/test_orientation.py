@@ -123,6 +123,7 @@ class Sides(unittest.TestCase):
             ({"up": (0, 0, 0)}, "up must have a length"),
             ({"up": [(0, 0, 1)] * 2}, "up must be three numbers"),
             ({"up": (0, np.inf, 0)}, "up must be three numbers"),
+            ({"up": "z"}, "up must be three numbers, not 'z'"),
             ({"normals": np.zeros((2999, 3))}, r"normals must be numbers of shape \(3000, 3\)"),
             ({"views": np.zeros(3000)}, "views tell nothing without viewpoints"),
             ({"viewpoints": (0, 0, 1), "views": np.zeros(5)}, r"views must be .* \(3000,\)"),

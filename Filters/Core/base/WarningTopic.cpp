@@ -10,7 +10,7 @@ namespace
 {
 /// In the order of the topics.
 constexpr std::array WarningTags{ std::string_view("points-coincide"),
-  std::string_view("no-data-value"),
+  std::string_view("unmeasured-points"),
   std::string_view("part-is-missing"), std::string_view("mesh-is-coarse"),
   std::string_view("points-are-unexplained"), std::string_view("no-surface"),
   std::string_view("open-where-points-are"), std::string_view("surface-without-points"),

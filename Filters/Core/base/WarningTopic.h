@@ -13,7 +13,7 @@ namespace neuralmesh
 enum class WarningTopic
 {
   PointsCoincide,
-  NoDataValue,
+  UnmeasuredPoints,
   PartIsMissing,
   MeshIsCoarse,
   PointsAreUnexplained,

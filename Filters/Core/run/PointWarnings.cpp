@@ -199,7 +199,7 @@ void warnOfNoDataValue(const PointCloud& cloud, WarningList& warnings)
          << "xyz"[found->axis] << ", about " << found->value
          << ", far from all others. Such a number often stands for \"not measured\". If it does, "
             "remove these points.";
-    warnings.add(WarningTopic::NoDataValue, text.str());
+    warnings.add(WarningTopic::UnmeasuredPoints, text.str());
   }
 }
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numbers
 import os
-from typing import Any, Literal, Sequence, overload
+from typing import Any, Iterable, Literal, Sequence, overload
 
 from . import _world
 from ._parameters import assign, parameters_of, refuse_unknown, with_table
@@ -268,6 +268,8 @@ def make_filter(
     if parameters.get("tolerance") == 0:
         raise ValueError("tolerance must be larger than 0; without it the number of vertices counts.")
     set_outer_side(mesh, viewpoints, up)
+    if levels is not None and not isinstance(levels, Iterable):
+        raise ValueError(f"levels must be several numbers of vertices, not {levels!r}")
     for level in () if levels is None else levels:
         _add_level(mesh, level)
     return mesh

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Iterable, Iterator
 from urllib.parse import quote
 
+from .._sides import sides_text
 from .meshes import read_points
 from .page_mesh import page_mesh
 from .pictures import draw_pictures
@@ -167,7 +168,12 @@ def _figures(report: dict[str, Any]) -> Iterator[tuple[str, str]]:
 def _figures_of_mesh(told: dict[str, Any]) -> Iterator[tuple[str, str]]:
     yield "vertices", f"{told['result']['vertices']:,}"
     yield "triangles", f"{told['result']['triangles']:,}"
-    yield from _chosen(told["quality"], _FIGURES)
+    quality = told["quality"]
+    yield from _chosen(quality, _FIGURES)
+    if "oriented_by" in quality:
+        yield "sides", sides_text(
+            quality["oriented_by"], quality["unoriented_share"], quality["guessed_share"]
+        )
 
 
 def _chosen(quality: dict[str, Any], labels: dict[str, str]) -> Iterator[tuple[str, str]]:

@@ -8,6 +8,7 @@ import os
 from dataclasses import dataclass
 from typing import Any
 
+from .._sides import sides_text
 from ..engine.mesh import Mesh
 
 
@@ -107,16 +108,7 @@ def _print_phases(run: Any, drawn: Drawn | None) -> None:
 
 
 def _print_sides(fields: dict[str, Any]) -> None:
-    unknown = 100.0 * fields["UnorientedShare"]
-    guessed = 100.0 * fields["GuessedShare"]
-    text = "unknown" if unknown > 50.0 else f"by {fields['OrientedBy']}"
-    if guessed > 50.0:
-        text += ", a guess"
-    if 0.01 < unknown <= 50.0:
-        text += f", {unknown:.2g} % of the area unknown"
-    if unknown > 50.0 or guessed > 50.0:
-        text += ", most looks up, along z, or to what stands on it;" if unknown > 50.0 else ";"
-        text += " --viewpoint or --up may determine them"
+    text = sides_text(fields["OrientedBy"], fields["UnorientedShare"], fields["GuessedShare"])
     print(f"sides      {text}")
 
 
