@@ -12,8 +12,8 @@ namespace neuralmesh
 {
 namespace
 {
-/// Fewer points may share a coordinate by chance.
-constexpr std::size_t LeastWithValue = 100;
+/// Fewer points may share a coordinate by chance, or lie apart from others that do.
+constexpr std::size_t MostByChance = 100;
 /// The others are so many times as far away as they extend.
 constexpr float LeastDistance = 2.f;
 /// Two flat sheets are measured, unless they are so many times as far apart as they are wide.
@@ -63,13 +63,16 @@ std::array<Ends, 3> endsOf(const PointCloud& cloud)
   return axes;
 }
 
-/// Whether the coordinate of an end was not measured; `width` is the extent of the cloud along other axes.
-bool isNoData(const End& end, const End& opposite, float width)
+/// Whether the coordinate of an end was not measured. The cloud has `count` points, and `width` along other axes.
+bool isNoData(const End& end, const End& opposite, std::size_t count, float width)
 {
+  if (end.count <= MostByChance || count - end.count <= MostByChance)
+  {
+    return false;
+  }
   const float gap = std::abs(end.next - end.value);
   const float rest = std::abs(opposite.value - end.next);
-  return end.count > LeastWithValue && gap > LeastDistance * rest &&
-    (rest > 0.f || gap > FarthestSheet * width);
+  return gap > LeastDistance * rest && (rest > 0.f || (width > 0.f && gap > FarthestSheet * width));
 }
 }
 
@@ -84,7 +87,7 @@ std::optional<NoDataValue> findNoDataValue(const PointCloud& cloud)
   const auto consider = [&](int axis, const End& end, const End& opposite)
   {
     const float width = std::max(axes[(axis + 1) % 3].extent(), axes[(axis + 2) % 3].extent());
-    if (isNoData(end, opposite, width))
+    if (isNoData(end, opposite, cloud.points().size(), width))
     {
       Eigen::Vector3d place = Eigen::Vector3d::Zero();
       place[axis] = end.value;

@@ -90,4 +90,20 @@ TEST(NoDataValue, FlatPartsHaveNone)
   EXPECT_FALSE(findIn(plates));
   EXPECT_FALSE(findIn({}));
 }
+
+TEST(NoDataValue, AFewPointsApartAreMeasured)
+{
+  EXPECT_FALSE(findIn(heightField(9900, -9999.)));
+  EXPECT_TRUE(findIn(heightField(9899, -9999.)));
+}
+
+TEST(NoDataValue, LinesHaveNone)
+{
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 500; ++i)
+  {
+    points.emplace_back(0., 0., i % 2);
+  }
+  EXPECT_FALSE(findIn(points));
+}
 }
