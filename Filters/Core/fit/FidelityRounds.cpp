@@ -56,6 +56,9 @@ constexpr double MostFollowed = 60.;
 /// that it follows them again. So lambda is larger there, up to that limit: the square of the noise in such parts of an
 /// edge ...
 constexpr double MostFirstBend = 0.03;
+/// ... and the limit is larger where the mesh would bend over fewer deviations of the noise than in the first rounds. No
+/// mesh bends over fewer than so many in the end: samples would have their places on the wrong side of a bend.
+constexpr double LeastDeviationsOfBend = 1.2;
 /// ... and so much smoother than the one that comes out, later.
 constexpr double TimesSmoother = 2.;
 }
@@ -209,8 +212,9 @@ double FidelityRounds::firstLambda() const
 {
   const double perVertex = double(fit_.placedSamples().points.size()) / double(mesh_.vertexCount());
   const double bend = fit_.noise() / (MostFirstBend * mesh_.meanEdge(executor_));
-  return std::min(FitSystem::smoothnessThatFollows(MostFollowed, perVertex),
-    std::max({ FirstTimesSmoother * lambda_, LeastFirstLambda, bend * bend }));
+  const double most = std::max(FitSystem::smoothnessThatFollows(MostFollowed, perVertex),
+    fit_.smoothnessOver(SurfaceFit::FirstDeviationsOfBend, fit_.noise()));
+  return std::min(most, std::max({ FirstTimesSmoother * lambda_, LeastFirstLambda, bend * bend }));
 }
 
 bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress)
@@ -239,7 +243,7 @@ bool FidelityRounds::smooth(bool isFirst, bool isFixed, const Progress& progress
   {
     return false;
   }
-  lambda_ = fit_.smoothness();
+  lambda_ = std::max(fit_.smoothness(), fit_.smoothnessOver(LeastDeviationsOfBend, fit_.noise()));
   fit_.relaxCreases(DeviationsOfCreaseIfNoisy);
   return true;
 }

@@ -10,6 +10,7 @@
 #include "mesh/BoundaryFilling.h"
 #include "mesh/BrokenMoves.h"
 #include "mesh/CrossingRemoval.h"
+#include "mesh/Crumples.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/Refinement.h"
 #include "mesh/SelfIntersections.h"
@@ -195,6 +196,11 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   if (rounds == 0 && mesh_.vertexCount() < plan_.vertexCount && !refineAll(0.))
   {
     return false;
+  }
+  if (firstRounds > 0)
+  {
+    // On a crumpled mesh, noise looks like shape.
+    smoothIfCrumpled(mesh_, executor_);
   }
   beginAnew();
   double smoothness = plan_.smoothness;

@@ -45,6 +45,9 @@ public:
   static constexpr double LeastSmoothness = 0.03;
   /// A cloud is clean if the lambda that was chosen for it is smaller.
   static constexpr double CleanSmoothness = 0.2;
+  /// Where noise is large against edges, the search for lambda begins with a surface that bends over so many of its
+  /// deviations. Over fewer, samples pull a mesh that was learnt from noise back into it.
+  static constexpr double FirstDeviationsOfBend = 2.;
 
   /// Picks so many samples evenly from the points of the cloud that are not held out. No vertex may
   /// be erased. `normalOf` returns the given normal of a point of the cloud, `viewOf` its view;
@@ -115,6 +118,8 @@ public:
   void tellSmoothness(VertexProperty<float> property) { smoothnessOfVertices_ = property; }
   /// The lambda of the last moveVertices().
   double smoothness() const { return smoothness_; }
+  /// The lambda with which the surface bends over so many deviations of this noise, and no less.
+  double smoothnessOver(double deviations, double noise) const;
   /// The lambda for the next moveVertices() of a clean cloud, once the mesh has settled.
   double settledSmoothness() const;
   /// Whether the last lambda is one of a clean cloud.

@@ -64,8 +64,13 @@ constexpr int RingsOfShifts = 2;
 /// begins with a smooth surface: on a rough one, noise looks like shape.
 bool SurfaceFit::chooseSmoothness(const Progress& progress)
 {
+  const double widest = smoothnessOver(FirstDeviationsOfBend, std::sqrt(meanSquaredDistance()));
   smoothness_ = firstSmoothness();
-  double most = MostSmoothness;
+  if (smoothness_ >= FirstSmoothness)
+  {
+    smoothness_ = std::max(FirstSmoothness, widest);
+  }
+  double most = std::max(MostSmoothness, widest);
   const double points = double(cloud_.points().size()) / double(mesh_.vertexCount());
   const double growth = std::max(LeastMostGrowth, MarginOfGrowth * (1. + PointsOfHalf / points));
   const double mostVariance = growth * meanSquaredDistance();
@@ -122,6 +127,12 @@ double SurfaceFit::firstSmoothness() const
     points >= LeastPointsIfClean && squared < MostPartIfClean * rough;
   // The solution is smoother than the learnt mesh, and closer to the points, too: lambda becomes less.
   return isClean ? std::max(LeastSmoothness, squared / rough) : FirstSmoothness;
+}
+
+double SurfaceFit::smoothnessOver(double deviations, double noise) const
+{
+  const double perVertex = double(samples_.size()) / double(mesh_.vertexCount());
+  return perVertex * std::pow(deviations * noise / mesh_.meanEdge(executor_), 4);
 }
 
 /// The number of samples per vertex over the usual one, at most 1.

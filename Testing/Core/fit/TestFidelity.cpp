@@ -8,6 +8,7 @@
 #include "fit/HeldOutPoints.h"
 #include "fit/Redistribution.h"
 #include "fit/SmoothnessByRisk.h"
+#include "mesh/Pieces.h"
 #include "mesh/Refinement.h"
 #include "mesh/SurfaceReport.h"
 #include "MeshTools.h"
@@ -21,8 +22,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace neuralmesh::testing
 {
@@ -202,6 +205,29 @@ TEST(Fidelity, DoesNotFollowNoiseOfThinParts)
       squares += off * off;
     }
     EXPECT_LT(std::sqrt(squares / double(run.mesh.points.size())), Noise / 7.) << seed;
+  }
+}
+
+// Where noise is several times as large as edges, the learnt mesh fills its layer: it had five times the area of the
+// surface, and so it stayed, at any fidelity. Now it leads through the middle.
+TEST(Fidelity, LeadsThroughTheMiddleOfWideNoise)
+{
+  constexpr double NoiseOfDiagonal = 0.02;
+  const std::vector<Eigen::Vector3d> points = pointsOf(trueSphere(), 60000, NoiseOfDiagonal);
+  const double noise = NoiseOfDiagonal * trueSphere().diagonal, unit = PointCloud(points).unit();
+  for (const auto& [vertices, fidelity] : { std::pair(12000u, Fidelity::Default),
+         std::pair(20000u, Fidelity::Default), std::pair(12000u, Fidelity::Draft) })
+  {
+    SCOPED_TRACE(vertices);
+    const Reconstruction run = made(points, vertices, fidelity);
+    EXPECT_NEAR(areaOf(run.surface) * unit * unit / (4. * std::numbers::pi), 1., 0.05);
+    double squares = 0.;
+    for (const Eigen::Vector3d& point : run.mesh.points)
+    {
+      squares += std::pow(point.norm() - 1., 2);
+    }
+    EXPECT_LT(std::sqrt(squares / double(run.mesh.points.size())), noise / 5.);
+    EXPECT_NEAR(run.finish->noise * unit / noise, 1., 0.1);
   }
 }
 
