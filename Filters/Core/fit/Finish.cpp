@@ -2,6 +2,7 @@
 #include "fit/Finish.h"
 
 #include "base/InterruptibleExecutor.h"
+#include "fit/CrumpledMesh.h"
 #include "fit/FidelityRounds.h"
 #include "fit/NarrowBridges.h"
 #include "fit/SheetJoints.h"
@@ -10,7 +11,6 @@
 #include "mesh/BoundaryFilling.h"
 #include "mesh/BrokenMoves.h"
 #include "mesh/CrossingRemoval.h"
-#include "mesh/Crumples.h"
 #include "mesh/EdgeFlips.h"
 #include "mesh/Refinement.h"
 #include "mesh/SelfIntersections.h"
@@ -200,7 +200,7 @@ bool Finish::runRounds(int rounds, FitGuard& guard, const Progress& report)
   if (firstRounds > 0)
   {
     // On a crumpled mesh, noise looks like shape.
-    smoothIfCrumpled(mesh_, executor_);
+    smoothCrumpledMesh(mesh_, cloud_, executor_);
   }
   beginAnew();
   double smoothness = plan_.smoothness;

@@ -57,6 +57,7 @@ public:
   }
 
   void restore() { put(first_); }
+  std::vector<Vector4> takeFirst() { return std::move(first_); }
 
 private:
   void put(std::span<const Vector4> positions)
@@ -67,7 +68,7 @@ private:
 
   Mesh& mesh_;
   const Executor& executor_;
-  const std::vector<Vector4> first_;
+  std::vector<Vector4> first_;
   std::vector<Vector4> next_;
 };
 
@@ -103,14 +104,14 @@ bool wasCrumpled(const Mesh& mesh, Smoother& smoother, const Executor& executor)
 }
 }
 
-bool smoothIfCrumpled(Mesh& mesh, const Executor& executor)
+std::vector<Vector4> smoothCrumples(Mesh& mesh, const Executor& executor)
 {
   Smoother smoother(mesh, executor);
-  const bool was = wasCrumpled(mesh, smoother, executor);
-  if (!was)
+  if (wasCrumpled(mesh, smoother, executor))
   {
-    smoother.restore();
+    return smoother.takeFirst();
   }
-  return was;
+  smoother.restore();
+  return {};
 }
 }
