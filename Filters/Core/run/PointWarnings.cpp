@@ -24,6 +24,8 @@ constexpr std::size_t FewestAtRims = 4;
 constexpr std::size_t FewestBeyondEnds = 6;
 /// Single points lie about a cluster, too.
 constexpr std::size_t FewestLeftOut = 32;
+/// Of the most vertices that are not finer than the data.
+constexpr double MostOfUseful = 0.8;
 constexpr std::string_view HowToSee = "ExplainPoints (--explain) marks these points.";
 
 /// What has become of a piece of the cloud.
@@ -77,9 +79,18 @@ std::string cutOffText(
   return text.str();
 }
 
+/// A mesh of nearly as many vertices as the cloud shows needs more points to have more.
+std::string howToResolve(const PointCloud& cloud, std::size_t vertices)
+{
+  const bool mayHaveMore =
+    double(vertices * LeastPointsPerVertex) < MostOfUseful * double(cloud.differentCount());
+  return mayHaveMore ? "Use more vertices." : "Scan more points, and use more vertices then.";
+}
+
 /// Warns of single points that the mesh cuts off. A piece of the same fate has its own warning, with the same
 /// tag: then this one is left out.
-void warnOfCutOff(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
+void warnOfCutOff(const Explanation& explanation, const PointCloud& cloud, std::size_t vertices,
+  WarningList& warnings)
 {
   const std::size_t atRims = explanation.atRims.count;
   const bool areMany =
@@ -93,7 +104,7 @@ void warnOfCutOff(const Explanation& explanation, const PointCloud& cloud, Warni
         (areMany ? cutOffText(explanation.atRims, explanation, cloud)
                  : "points that lie together, as around " +
               placeText(*explanation.atRims.together, cloud) + ". ") +
-        "The surface is narrower there than edges are long. Use more vertices.");
+        "The surface is narrower there than edges are long. " + howToResolve(cloud, vertices));
   }
   if (!explanation.passedBy.empty() && !isCutOff && !hasCoarsePiece)
   {
@@ -112,8 +123,8 @@ void warnOfCutOff(const Explanation& explanation, const PointCloud& cloud, Warni
   }
 }
 
-void warnOfPieces(
-  Fate fate, const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
+void warnOfPieces(Fate fate, const Explanation& explanation, const PointCloud& cloud,
+  std::size_t vertices, WarningList& warnings)
 {
   const std::vector<MissedPiece> pieces = piecesOf(fate, explanation, cloud);
   if (pieces.empty())
@@ -140,9 +151,8 @@ void warnOfPieces(
     case Fate::Coarse:
       warnings.add(WarningTopic::MeshIsCoarse,
         "The mesh is coarser than its cloud: " + where +
-          "They lie up to half an edge from the mesh. Use more vertices to resolve narrow or bent "
-          "parts. " +
-          how);
+          "They lie up to half an edge from the mesh, at narrow or bent parts. " +
+          howToResolve(cloud, vertices) + " " + how);
       return;
   }
 }
@@ -220,7 +230,8 @@ void warnOfPiles(const PointCloud& cloud, WarningList& warnings)
   }
 }
 
-void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings)
+void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, std::size_t vertices,
+  WarningList& warnings)
 {
   // The noise is unknown where the mesh misses the cloud.
   if (explanation.scatteredShare > MostScattered && explanation.unexplainedShare() < MostScattered)
@@ -241,11 +252,11 @@ void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, Warni
   }
   for (const Fate fate : { Fate::Missing, Fate::BeyondBoundary, Fate::Coarse })
   {
-    warnOfPieces(fate, explanation, cloud, warnings);
+    warnOfPieces(fate, explanation, cloud, vertices, warnings);
   }
   warnOfSmallParts(explanation, cloud, warnings);
   warnOfLeftOut(explanation, cloud, warnings);
-  warnOfCutOff(explanation, cloud, warnings);
+  warnOfCutOff(explanation, cloud, vertices, warnings);
   warnOfTornParts(explanation.torn, cloud, warnings);
 }
 }

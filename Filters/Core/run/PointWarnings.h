@@ -5,6 +5,8 @@
 #include "cloud/PointCloud.h"
 #include "run/Explanation.h"
 
+#include <cstddef>
+
 namespace neuralmesh
 {
 /// Warns of points that are not in the cloud, as they lie where others do.
@@ -13,5 +15,7 @@ void warnOfNoDataValue(const PointCloud& cloud, WarningList& warnings);
 void warnOfPiles(const PointCloud& cloud, WarningList& warnings);
 
 /// Warns of the points that a mesh misses: how many, where, why, and what to do. The limits stand at warningsOf().
-void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, WarningList& warnings);
+/// The mesh has so many vertices.
+void warnOfPoints(const Explanation& explanation, const PointCloud& cloud, std::size_t vertices,
+  WarningList& warnings);
 }

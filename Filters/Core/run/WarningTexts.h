@@ -16,6 +16,9 @@ namespace neuralmesh
 /// So many places are named in one sentence; the others are counted.
 inline constexpr std::size_t MostPlacesNamed = 2;
 
+/// With less points a vertex, the mesh follows single points.
+inline constexpr std::size_t LeastPointsPerVertex = 2;
+
 /// "1 piece", "2 pieces".
 std::string counted(std::size_t count, std::string_view one, std::string_view several);
 std::string percent(double share);

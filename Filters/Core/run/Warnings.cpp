@@ -36,8 +36,6 @@ constexpr double MostSlivers = 0.002;
 constexpr double WholeArea = 0.999;
 /// Of the vertices.
 constexpr double MostDisagreeing = 0.02;
-/// With less points a vertex, the mesh follows single points.
-constexpr std::size_t LeastPointsPerVertex = 2;
 /// On both sides of noise webs: less is chance.
 constexpr std::size_t FewestOnWebs = 2;
 /// A closed mesh needs at least four vertices.
@@ -418,7 +416,7 @@ std::vector<std::string> warningsOf(
   warnOfPiles(cloud, warnings);
   if (result.explanation)
   {
-    warnOfPoints(*result.explanation, cloud, warnings);
+    warnOfPoints(*result.explanation, cloud, result.mesh.points.size(), warnings);
   }
   if (parameters.boundaries == Boundaries::Keep && parameters.closeHolesBelow == 0.)
   {

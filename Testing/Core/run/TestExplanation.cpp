@@ -412,6 +412,11 @@ TEST(Warnings, CoarseIsNotMissing)
   result.warnings = warningsOf(result, cloud);
   EXPECT_TRUE(hasWarning(result, "coarser than its cloud: about 120 points"));
   EXPECT_FALSE(hasWarning(result, "missing"));
+  EXPECT_TRUE(hasWarning(result, "Use more vertices."));
+  // More would be finer than the data.
+  result.mesh.points.resize(410);
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_TRUE(hasWarning(result, "Scan more points, and use more vertices then."));
   result.explanation->pieces[0].farthest = 0.06 * cloud.unit();
   result.warnings = warningsOf(result, cloud);
   EXPECT_FALSE(hasWarning(result, "coarser"));
@@ -449,6 +454,11 @@ TEST(Warnings, RimsThatAreCutOff)
   EXPECT_GT(cut.explanation->atRims.farthest, 0.8 * CutOff);
   EXPECT_LT(cut.explanation->atRims.farthest, 1.5 * CutOff);
   EXPECT_GT(cut.explanation->atRims.count, 200u);
+  EXPECT_TRUE(hasWarning(cut, "Use more vertices."));
+  Reconstruction fine = cut;
+  fine.mesh.points.resize(8100);
+  fine.warnings = warningsOf(fine, cloud);
+  EXPECT_TRUE(hasWarning(fine, "Scan more points"));
   // It is told once.
   Reconstruction named = cut;
   named.explanation->pieces.emplace_back().farthest = 0.4 * named.explanation->asked.meanEdge;
