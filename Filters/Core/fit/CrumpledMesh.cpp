@@ -15,15 +15,15 @@ namespace neuralmesh
 namespace
 {
 /// For the executor.
-constexpr std::size_t VerticesPerRange = 4096;
+constexpr std::size_t VerticesOfCrumpledPart = 4096;
 /// Points that measure the noise.
-constexpr std::size_t MostPoints = 3000;
+constexpr std::size_t PointsForNoise = 3000;
 /// A body is at least so many deviations thick, as twice its volume over its area tells.
 constexpr double LeastThickness = 2.;
 
 double volumeOf(const Mesh& mesh, const Executor& executor)
 {
-  return executor.sum(mesh.indexEnd(), VerticesPerRange,
+  return executor.sum(mesh.indexEnd(), VerticesOfCrumpledPart,
     [&](std::size_t v)
     {
       double volume = 0.;
@@ -38,7 +38,7 @@ double volumeOf(const Mesh& mesh, const Executor& executor)
 double noiseAround(const Mesh& mesh, const PointCloud& cloud, const Executor& executor)
 {
   const std::vector<float> squared =
-    squaredDistances(cloud, heldOutPoints(cloud, MostPoints), mesh, executor);
+    squaredDistances(cloud, heldOutPoints(cloud, PointsForNoise), mesh, executor);
   const double sum = std::accumulate(squared.begin(), squared.end(), 0.);
   return std::sqrt(sum / double(std::max<std::size_t>(1, squared.size())));
 }
@@ -54,8 +54,8 @@ void smoothCrumpledMesh(Mesh& mesh, const PointCloud& cloud, const Executor& exe
   const double thickness = 2. * std::abs(volumeOf(mesh, executor)) / areaOf(mesh, executor);
   if (thickness < LeastThickness * noiseAround(mesh, cloud, executor))
   {
-    forEachVertex(
-      mesh, executor, VerticesPerRange, [&](VertexIndex v) { mesh.setPosition(v, before[v]); });
+    forEachVertex(mesh, executor, VerticesOfCrumpledPart,
+      [&](VertexIndex v) { mesh.setPosition(v, before[v]); });
   }
 }
 }

@@ -16,7 +16,7 @@ namespace neuralmesh
 namespace
 {
 /// For the executor.
-constexpr std::size_t VerticesPerRange = 4096;
+constexpr std::size_t VerticesSmoothedPerRange = 4096;
 /// A vertex moves by this part of L x in each step.
 constexpr float Rate = 0.5f;
 
@@ -50,7 +50,7 @@ public:
     for (; count > 0; --count)
     {
       const std::span<const Vector4> now = mesh_.positions();
-      forEachVertex(mesh_, executor_, VerticesPerRange,
+      forEachVertex(mesh_, executor_, VerticesSmoothedPerRange,
         [&](VertexIndex v) { next_[v] = now[v] + Rate * umbrella<float>(mesh_, now, v); });
       put(next_);
     }
@@ -62,7 +62,7 @@ public:
 private:
   void put(std::span<const Vector4> positions)
   {
-    forEachVertex(mesh_, executor_, VerticesPerRange,
+    forEachVertex(mesh_, executor_, VerticesSmoothedPerRange,
       [&](VertexIndex v) { mesh_.setPosition(v, positions[v]); });
   }
 
