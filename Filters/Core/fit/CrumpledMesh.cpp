@@ -21,18 +21,16 @@ constexpr std::size_t PointsForNoise = 3000;
 /// A body is at least so many deviations thick, as twice its volume over its area tells.
 constexpr double LeastThickness = 2.;
 
-double volumeOf(const Mesh& mesh, const Executor& executor)
+/// Of all pieces together.
+double thicknessOf(const Mesh& mesh, const Executor& executor)
 {
-  return executor.sum(mesh.indexEnd(), VerticesOfCrumpledPart,
-    [&](std::size_t v)
-    {
-      double volume = 0.;
-      mesh.forEachTriangleFrom(VertexIndex(v),
-        [&](VertexIndex a, VertexIndex b, VertexIndex c) {
-          volume += double(dot(mesh.position(a), cross(mesh.position(b), mesh.position(c)))) / 6.;
-        });
-      return volume;
-    });
+  double volume = 0., area = 0.;
+  for (const Piece& piece : findPieces(mesh, executor))
+  {
+    volume += std::abs(piece.volume);
+    area += piece.area;
+  }
+  return area > 0. ? 2. * volume / area : 0.;
 }
 
 double noiseAround(const Mesh& mesh, const PointCloud& cloud, const Executor& executor)
@@ -51,8 +49,7 @@ void smoothCrumpledMesh(Mesh& mesh, const PointCloud& cloud, const Executor& exe
   {
     return;
   }
-  const double thickness = 2. * std::abs(volumeOf(mesh, executor)) / areaOf(mesh, executor);
-  if (thickness < LeastThickness * noiseAround(mesh, cloud, executor))
+  if (thicknessOf(mesh, executor) < LeastThickness * noiseAround(mesh, cloud, executor))
   {
     forEachVertex(mesh, executor, VerticesOfCrumpledPart,
       [&](VertexIndex v) { mesh.setPosition(v, before[v]); });

@@ -56,11 +56,10 @@ constexpr double MostFollowed = 60.;
 /// that it follows them again. So lambda is larger there, up to that limit: the square of the noise in such parts of an
 /// edge ...
 constexpr double MostFirstBend = 0.03;
-/// ... and the limit is larger where the mesh would bend over fewer deviations of the noise than in the first rounds. No
-/// mesh bends over fewer than so many in the end: samples would have their places on the wrong side of a bend.
-constexpr double LeastDeviationsOfBend = 1.2;
 /// ... and so much smoother than the one that comes out, later.
 constexpr double TimesSmoother = 2.;
+/// What comes out bends over no fewer deviations of the noise: samples would have their places on the wrong side of a bend.
+constexpr double LeastDeviationsOfBend = 1.2;
 }
 
 int FidelityRounds::count(Fidelity fidelity, bool isClean)

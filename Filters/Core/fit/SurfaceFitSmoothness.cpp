@@ -64,16 +64,17 @@ constexpr int RingsOfShifts = 2;
 /// begins with a smooth surface: on a rough one, noise looks like shape.
 bool SurfaceFit::chooseSmoothness(const Progress& progress)
 {
-  const double widest = smoothnessOver(FirstDeviationsOfBend, std::sqrt(meanSquaredDistance()));
+  const double squared = meanSquaredDistance();
   smoothness_ = firstSmoothness();
   if (smoothness_ >= FirstSmoothness)
   {
-    smoothness_ = std::max(FirstSmoothness, widest);
+    smoothness_ =
+      std::max(FirstSmoothness, smoothnessOver(FirstDeviationsOfBend, std::sqrt(squared)));
   }
-  double most = std::max(MostSmoothness, widest);
+  double most = std::max(MostSmoothness, smoothness_);
   const double points = double(cloud_.points().size()) / double(mesh_.vertexCount());
   const double growth = std::max(LeastMostGrowth, MarginOfGrowth * (1. + PointsOfHalf / points));
-  const double mostVariance = growth * meanSquaredDistance();
+  const double mostVariance = growth * squared;
   const double factor = SmoothnessFactor * partOfUsualSamples();
   std::vector<Vector4> positions(mesh_.positions().begin(), mesh_.positions().end());
   for (int i = 0; i < MostChoices; ++i)

@@ -423,6 +423,25 @@ TEST(Warnings, CoarseIsNotMissing)
   EXPECT_TRUE(hasWarning(result, "missing in the mesh: about 120 points"));
 }
 
+// Promise: heights that were not measured are told before all that follows from them, such as that the others seem to lie
+// on a line.
+TEST(Warnings, UnmeasuredPoints)
+{
+  for (const double height : { -9999., 1e20 })
+  {
+    std::vector<Eigen::Vector3d> points = sphere(2000);
+    for (std::size_t i = 0; i < 200; ++i)
+    {
+      points[i].z() = height;
+    }
+    Reconstruction result;
+    result.warnings = warningsOf(result, PointCloud(points));
+    ASSERT_FALSE(result.warnings.empty());
+    EXPECT_TRUE(result.warnings[0].starts_with("200 points have the same z, about "));
+    EXPECT_TRUE(result.warnings[0].ends_with("[unmeasured-points]"));
+  }
+}
+
 // Promise: a rim that is cut off is told, by how much and how many points have it, though no point is farther away than
 // three of its distances to others; but none of a mesh that reaches its points.
 TEST(Warnings, RimsThatAreCutOff)
