@@ -84,6 +84,12 @@ public:
   /// variance: at a bend, more of it lies on the outer side. The bends are those of the mesh as it
   /// is now.
   void shiftAgainstNoise(double variance);
+  /// A sample, as it was shifted.
+  Vector4 shifted(std::size_t sample) const
+  {
+    return shifts_.empty() ? samples_[sample]
+                           : samples_[sample] + pointAt(places_[sample], shifts_);
+  }
   /// From the next moveVertices() on, L x is smoothed towards what it is expected to be instead of to 0, by the mesh as
   /// it is now: see ExpectedBends.h. Beyond so many `deviations` of the usual bend is a crease.
   void expectBends(double deviations);
@@ -243,12 +249,6 @@ private:
   std::vector<float> squaredBends(std::span<const Vector4> positions) const;
   std::vector<float> supports() const;
   std::vector<float> creaseParts(double deviations) const;
-  /// A sample, shifted against the bias of the noise.
-  Vector4 shifted(std::size_t sample) const
-  {
-    return shifts_.empty() ? samples_[sample]
-                           : samples_[sample] + pointAt(places_[sample], shifts_);
-  }
   double partOfUsualSamples() const;
   double meanSquaredDistance() const;
   double residualVariance(std::span<const Vector4> positions, double lambda) const;

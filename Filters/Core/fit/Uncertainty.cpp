@@ -31,18 +31,23 @@ constexpr int RingsOfVariance = 1;
 /// That of the samples in so many rings, and of so many of all the cloud.
 constexpr int RingsOfNoise = 4;
 constexpr double SamplesOfAll = 1.;
+/// What smoothness takes once more holds the rest of its variance: the surface follows noise.
+constexpr float PartOfVariance = 0.9f;
 
 // What smoothness takes
-/// Where a vertex has this part of the usual samples, they tell how the surface bends: bends have so much left of the
-/// variance by lambda. Where it has none they have more than that: bends of a gap are alike.
+/// Where a vertex has this part of the usual samples, they tell how the surface bends. Where it has none, bends scatter
+/// by more than the variance by lambda: those of a gap are alike.
 constexpr float EnoughSamples = 0.5f;
-constexpr float PartOfBendsTold = 0.05f;
 constexpr float TimesOfBendsUntold = 2.f;
 /// What smoothness would take once more is less than what it took, and is a mean over so many rings.
-constexpr float TimesOfBias = 2.75f;
-/// Bends beside those that are expected were smoothed with a larger lambda.
-constexpr float TimesOfBiasIfExpected = 3.1f;
-constexpr int RingsOfBias = 3;
+constexpr float TimesOfTakenOnceMore = 1.8f;
+constexpr int RingsOfTakenOnceMore = 3;
+/// What it took altogether is still in the residuals. This part of lambda brings out more of it than lambda, and more
+/// noise, which so many draws tell. The rest is a mean over so many rings.
+constexpr double PartOfLambdaForResiduals = 1. / 3.;
+constexpr int SolutionsOfResiduals = 3;
+constexpr float TimesOfResiduals = 1.2f;
+constexpr int RingsOfResiduals = 6;
 
 /// Vertices on a clean cloud lie outside of a bend, so that triangles lie on either side of it, by this part of L x:
 /// exactly that where six equal triangles lie in a sphere.
@@ -103,7 +108,8 @@ bool Uncertainty::run(const Progress& progress)
   measureNoise();
   measureBends();
   const Progress solving = partOf(progress, PartOfUncertainPlaces, 1.);
-  constexpr double EndOfDraws = double(Solutions) / (Solutions + 1);
+  constexpr double EndOfDraws =
+    double(Solutions + SolutionsOfResiduals) / (Solutions + SolutionsOfResiduals + 2);
   FitSystem system = systemOfFit();
   if (!addDraws(system, partOf(solving, 0., EndOfDraws)) ||
     !addBias(system, partOf(solving, EndOfDraws, 1.)))
@@ -198,7 +204,7 @@ void Uncertainty::measureBends()
   for (std::size_t v = 0; v < bends_.size(); ++v)
   {
     const float told = enough > 0.f ? std::min(1.f, loads[v] / enough) : 0.f;
-    const float part = told * PartOfBendsTold + (1.f - told) * TimesOfBendsUntold;
+    const float part = (1.f - told) * TimesOfBendsUntold;
     const float longer = usual > 0.f ? edges[v] / usual : 1.f;
     bends_[v] = smoothness[v] > 0.f ? std::sqrt(part / smoothness[v]) * noise_[v] * longer : 0.f;
   }
@@ -227,33 +233,53 @@ FitSystem Uncertainty::systemOfFit()
 bool Uncertainty::addDraws(FitSystem& system, const Progress& progress)
 {
   variances_.assign(mesh_.indexEnd(), 0.f);
-  double scale = 0.;
+  squaredResiduals_.assign(mesh_.indexEnd(), 0.f);
+  constexpr double Steps = Solutions + SolutionsOfResiduals;
+  double scale = 0., step = 0.;
   for (int draw = 0; draw < Solutions; ++draw)
   {
-    system.clearPulls();
-    drawPulls(system, std::uint64_t(draw));
+    const std::vector<Vector4> errors = drawErrors(std::uint64_t(draw));
+    addPulls(system, [&](std::size_t i, const PlaceOnMesh&) { return errors[i]; });
+    drawBends(system, std::uint64_t(draw));
     std::vector<Vector4> drawn(mesh_.indexEnd());
     if (!system.solve(report_.smoothness, ToleranceOfDraws, scale, drawn,
-          partOf(progress, double(draw) / Solutions, double(draw + 1) / Solutions)))
+          partOf(progress, step / Steps, (step + 1.) / Steps)))
     {
       return false;
     }
+    step += 1.;
     for (std::size_t v = 0; v < drawn.size(); ++v)
     {
-      variances_[v] += squaredNorm(drawn[v]) / float(3 * Solutions);
+      variances_[v] += PartOfVariance * squaredNorm(drawn[v]) / float(3 * Solutions);
+    }
+    if (draw >= SolutionsOfResiduals)
+    {
+      continue;
+    }
+    addPulls(system,
+      [&](std::size_t i, const PlaceOnMesh& place) { return errors[i] - pointAt(place, drawn); });
+    std::vector<Vector4> left;
+    if (!solveResiduals(system, left, partOf(progress, step / Steps, (step + 1.) / Steps)))
+    {
+      return false;
+    }
+    step += 1.;
+    for (std::size_t v = 0; v < left.size(); ++v)
+    {
+      squaredResiduals_[v] -= squaredNorm(left[v]) / float(3 * SolutionsOfResiduals);
     }
   }
   averageOverRings(mesh_, variances_, RingsOfVariance, executor_);
   return true;
 }
 
-/// What samples and bends are off by chance.
-void Uncertainty::drawPulls(FitSystem& system, std::uint64_t draw) const
+/// What samples are off by chance.
+std::vector<Vector4> Uncertainty::drawErrors(std::uint64_t draw) const
 {
   const PlacedSamples samples = fit_.placedSamples();
-  const Random ofSamples(plan_.seed, StreamOfSamples + 2 * draw);
-  const Random ofBends(plan_.seed, StreamOfBends + 2 * draw);
-  for (std::size_t i = 0; i < samples.points.size(); ++i)
+  const Random random(plan_.seed, StreamOfSamples + 2 * draw);
+  std::vector<Vector4> errors(samples.points.size());
+  for (std::size_t i = 0; i < errors.size(); ++i)
   {
     if (samples.isUsed[i] != 0)
     {
@@ -261,22 +287,87 @@ void Uncertainty::drawPulls(FitSystem& system, std::uint64_t draw) const
       const float noise = place.weights()[0] * noise_[place.triangle[0]] +
         place.weights()[1] * noise_[place.triangle[1]] +
         place.weights()[2] * noise_[place.triangle[2]];
-      system.addPull(place, std::sqrt(samples.weight(i)) * noise * signsOf(ofSamples, i));
+      errors[i] = noise / std::sqrt(samples.weight(i)) * signsOf(random, i);
     }
   }
+  return errors;
+}
+
+/// What bends are off by chance.
+void Uncertainty::drawBends(FitSystem& system, std::uint64_t draw) const
+{
+  const Random random(plan_.seed, StreamOfBends + 2 * draw);
   std::vector<Vector4> bends(mesh_.indexEnd());
   for (std::size_t v = 0; v < bends.size(); ++v)
   {
-    bends[v] = bends_[v] * signsOf(ofBends, v);
+    bends[v] = bends_[v] * signsOf(random, v);
   }
   system.addBends(report_.smoothness, bends);
 }
 
-/// What the equations would take from the surface once more, if it were the samples. They do not take the bends that
-/// they expect.
+/// Pulls by `pullOf(sample, place)` alone.
+template <typename Pull>
+void Uncertainty::addPulls(FitSystem& system, const Pull& pullOf) const
+{
+  system.clearPulls();
+  const PlacedSamples samples = fit_.placedSamples();
+  for (std::size_t i = 0; i < samples.points.size(); ++i)
+  {
+    if (samples.isUsed[i] != 0)
+    {
+      system.addPull(samples.places[i], samples.weight(i) * pullOf(i, samples.places[i]));
+    }
+  }
+}
+
+bool Uncertainty::solveResiduals(
+  FitSystem& system, std::vector<Vector4>& left, const Progress& progress) const
+{
+  left.assign(mesh_.indexEnd(), Vector4());
+  double scale = 0.;
+  return system.solve(
+    PartOfLambdaForResiduals * report_.smoothness, ToleranceOfDraws, scale, left, progress);
+}
+
+/// What smoothness took from the surface.
 bool Uncertainty::addBias(FitSystem& system, const Progress& progress)
 {
-  std::vector<Vector4> laplacian(mesh_.indexEnd()), taken(mesh_.indexEnd());
+  std::vector<Vector4> taken, left;
+  if (!takeOnceMore(system, taken, partOf(progress, 0., 0.5)))
+  {
+    return false;
+  }
+  fit_.shiftAgainstNoise(report_.noise * report_.noise);
+  addPulls(system,
+    [&](std::size_t i, const PlaceOnMesh& place)
+    { return fit_.shifted(i) - pointAt(place, mesh_.positions()); });
+  if (!solveResiduals(system, left, partOf(progress, 0.5, 1.)))
+  {
+    return false;
+  }
+  std::vector<float> squares(mesh_.indexEnd());
+  for (VertexIndex v = 0; v < squares.size(); ++v)
+  {
+    const float takenAcross = acrossAt(v, taken[v]), leftAcross = acrossAt(v, left[v]);
+    squares[v] = takenAcross * takenAcross;
+    squaredResiduals_[v] += leftAcross * leftAcross;
+  }
+  averageOverRings(mesh_, squares, RingsOfTakenOnceMore, executor_);
+  averageOverRings(mesh_, squaredResiduals_, RingsOfResiduals, executor_);
+  for (std::size_t v = 0; v < squares.size(); ++v)
+  {
+    variances_[v] +=
+      TimesOfTakenOnceMore * squares[v] + TimesOfResiduals * std::max(0.f, squaredResiduals_[v]);
+  }
+  return true;
+}
+
+/// What the equations would take from the surface, if it were the samples. They do not take the bends that they
+/// expect.
+bool Uncertainty::takeOnceMore(
+  FitSystem& system, std::vector<Vector4>& taken, const Progress& progress)
+{
+  std::vector<Vector4> laplacian(mesh_.indexEnd());
   applyUmbrella<float>(mesh_, mesh_.positions(), std::span(laplacian), 0, laplacian.size());
   if (!report_.isClean && report_.fidelityRounds > 0)
   {
@@ -288,24 +379,9 @@ bool Uncertainty::addBias(FitSystem& system, const Progress& progress)
   }
   system.clearPulls();
   system.addBends(report_.smoothness, laplacian);
+  taken.assign(mesh_.indexEnd(), Vector4());
   double scale = 0.;
-  if (!system.solve(report_.smoothness, ToleranceOfDraws, scale, taken, progress))
-  {
-    return false;
-  }
-  std::vector<float> squares(mesh_.indexEnd());
-  for (VertexIndex v = 0; v < squares.size(); ++v)
-  {
-    const float across = acrossAt(v, taken[v]);
-    squares[v] = across * across;
-  }
-  averageOverRings(mesh_, squares, RingsOfBias, executor_);
-  const float times = fit_.expectedBends().empty() ? TimesOfBias : TimesOfBiasIfExpected;
-  for (std::size_t v = 0; v < squares.size(); ++v)
-  {
-    variances_[v] += times * squares[v];
-  }
-  return true;
+  return system.solve(report_.smoothness, ToleranceOfDraws, scale, taken, progress);
 }
 
 /// Under noise what smoothness takes has that already, unless bends are expected.

@@ -35,8 +35,10 @@ struct ViewDisagreement
 /// solved for them. What these vertices scatter by is told.
 ///
 /// How much samples scatter is measured around each vertex. Where samples tell how the surface bends, what smoothness
-/// takes from it is told by the surface itself: by what the equations would take from it once more. What all points of
-/// a view are off together does not average out, and is added; of a clean cloud so is what triangles are too coarse for.
+/// takes from it is told by the surface and by the residuals: the equations would take less from the surface once more,
+/// and with less smoothness they find in the residuals what they took, beside noise. What noise leaves there is told by
+/// the draws, and taken off. What all points of a view are off together does not average out, and is added; of a clean
+/// cloud so is what triangles are too coarse for.
 ///
 /// The same to the bit with any number of threads.
 class Uncertainty
@@ -63,8 +65,14 @@ private:
   void measureBends();
   FitSystem systemOfFit();
   bool addDraws(FitSystem& system, const Progress& progress);
-  void drawPulls(FitSystem& system, std::uint64_t draw) const;
+  std::vector<Vector4> drawErrors(std::uint64_t draw) const;
+  void drawBends(FitSystem& system, std::uint64_t draw) const;
+  template <typename Pull>
+  void addPulls(FitSystem& system, const Pull& pullOf) const;
+  bool solveResiduals(
+    FitSystem& system, std::vector<Vector4>& left, const Progress& progress) const;
   bool addBias(FitSystem& system, const Progress& progress);
+  bool takeOnceMore(FitSystem& system, std::vector<Vector4>& taken, const Progress& progress);
   void addCoarseness();
   void addSharedNoise();
   float acrossAt(VertexIndex v, Vector4 vector) const;
@@ -81,6 +89,8 @@ private:
   std::vector<float> bends_; ///< by how much they may scatter at each vertex, likewise
   std::vector<float> smoothnessParts_; ///< of lambda, at each vertex; the equations look there
   std::vector<float> variances_;       ///< of each vertex
+  std::vector<float>
+    squaredResiduals_; ///< what is left in them at each vertex, less what noise leaves there
   std::vector<float> deviations_;
   ViewDisagreement disagreement_;
 };
