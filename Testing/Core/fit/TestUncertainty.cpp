@@ -119,6 +119,29 @@ TEST(Uncertainty, HoldsTheTruthAsOftenAsItShould)
   }
 }
 
+// The smooth surface alone does not show that it has lost the tops of narrow ripples.
+TEST(Uncertainty, HoldsWhatSmoothnessTook)
+{
+  constexpr double Height = 0.04, PerRadian = 20.;
+  const auto radiusAt = [](const Eigen::Vector3d& direction)
+  { return 1. + Height * std::sin(PerRadian * direction.z()); };
+  std::vector<Eigen::Vector3d> points = sphereWith(0.);
+  const std::vector<Eigen::Vector3d> noisy = sphereWith(0.02);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[i] = noisy[i] + (radiusAt(points[i]) - 1.) * points[i];
+  }
+  const Reconstruction run = runOf(PointCloud(points));
+  double within = 0.;
+  for (std::size_t v = 0; v < run.mesh.points.size(); ++v)
+  {
+    const Eigen::Vector3d& point = run.mesh.points[v];
+    const double error = std::abs(point.norm() - radiusAt(point.normalized()));
+    within += error <= 2. * double(run.uncertainties[v]) ? 1. : 0.;
+  }
+  EXPECT_GT(within / double(run.mesh.points.size()), 0.88);
+}
+
 // Noise that differs from place to place is that of the place.
 TEST(Uncertainty, KnowsTheNoiseOfEachPlace)
 {
