@@ -19,6 +19,7 @@ enum class WarningTopic
   PointsAreUnexplained,
   NoSurface,
   OpenWherePointsAre,
+  StaysOpen,
   SurfaceWithoutPoints,
   GapIsSpanned,
   FallsIntoPieces,

@@ -41,14 +41,6 @@ constexpr double NearerPart = 0.9;
 /// round.
 constexpr double Tolerance = 1e-3;
 
-// A vertex between two layers
-/// It has so many samples or more. Their mean distance over the root mean square is 0.80 for noise,
-/// 0.87 for an even distribution, and 0.95 for two layers that are six deviations of the noise
-/// apart. Each side has at least this part of them.
-constexpr float LeastSamplesOfLayers = 20.f;
-constexpr float LeastEvennessOfLayers = 0.92f;
-constexpr float LeastPartOfLayer = 0.2f;
-
 // The pull at boundaries
 /// The probability that a strip along a boundary has no sample although the surface continues
 /// there.
@@ -528,68 +520,6 @@ void SurfaceFit::follow(const ChangedVertices& changed)
 double SurfaceFit::variance() const
 {
   return double(medianDistance_) * double(medianDistance_) / MedianOfSquares;
-}
-
-double SurfaceFit::distanceEvenness() const
-{
-  double sum = 0., squares = 0., count = 0.;
-  for (std::size_t i = 0; i < places_.size(); ++i)
-  {
-    const PlaceOnMesh& place = places_[i];
-    if (isUsed(i) && !isOnBoundary(place, mesh_))
-    {
-      sum += std::sqrt(double(place.squaredDistance));
-      squares += double(place.squaredDistance);
-      count += 1.;
-    }
-  }
-  return squares > 0. ? sum / std::sqrt(count * squares) : 0.;
-}
-
-double SurfaceFit::shareBetweenLayers() const
-{
-  struct Distances
-  {
-    float count = 0.f;
-    float above = 0.f;
-    float sum = 0.f;
-    float squares = 0.f;
-  };
-  ZeroedArray<Distances> distances(mesh_.indexEnd());
-  forEachUsed(
-    [&](const VertexRows& rows, std::size_t i)
-    {
-      const PlaceOnMesh& place = places_[i];
-      const Vector4 normal = normalAt(place, mesh_.positions());
-      const float length = std::sqrt(squaredNorm(normal));
-      if (isOnBoundary(place, mesh_) || !(length > 0.f))
-      {
-        return;
-      }
-      const float across = dot(samples_[i] - mesh_.position(place.triangle[0]), normal) / length;
-      for (const VertexIndex v : place.triangle)
-      {
-        if (rows.has(v))
-        {
-          distances[v].count += 1.f;
-          distances[v].above += across > 0.f ? 1.f : 0.f;
-          distances[v].sum += std::abs(across);
-          distances[v].squares += across * across;
-        }
-      }
-    });
-  double asked = 0., between = 0.;
-  for (const Distances& at : distances)
-  {
-    if (at.count >= LeastSamplesOfLayers)
-    {
-      const float least = LeastPartOfLayer * at.count;
-      const bool isEven = at.sum > LeastEvennessOfLayers * std::sqrt(at.count * at.squares);
-      asked += 1.;
-      between += isEven && at.above > least && at.count - at.above > least ? 1. : 0.;
-    }
-  }
-  return asked > 0. ? between / asked : 0.;
 }
 
 double SurfaceFit::outlierShare() const

@@ -11,6 +11,8 @@ namespace
 /// F^1.5 over the volume.
 constexpr double FlattestThatTells = 60.;
 constexpr double FlattestThatIsCertain = 5.;
+/// Of the area of a piece, what closes the loops of a body that is not taken for a vessel.
+constexpr double WidestOfBodies = 0.1;
 
 /// How wrong the volume may be.
 double uncertaintyOfVolume(const Piece& piece)
@@ -45,6 +47,11 @@ bool isGuessByVolume(const Piece& piece)
   return uncertaintyOfVolume(piece) > FlattestThatIsCertain * std::abs(piece.volume);
 }
 
+bool mayBeVessel(const Piece& piece)
+{
+  return !piece.isClosed && piece.closingArea > WidestOfBodies * piece.area;
+}
+
 OrientationReport turn(Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> sides)
 {
   OrientationReport report;
@@ -58,7 +65,9 @@ OrientationReport turn(Mesh& mesh, std::span<const Piece> pieces, std::span<cons
     }
     report.unknownPieces += sides[i].isKnown() ? 0 : 1;
     report.shares[std::size_t(sides[i].evidence)] += pieces[i].area;
-    report.guessedShare += sides[i].isGuess ? pieces[i].area : 0.;
+    const bool isGuess =
+      sides[i].isGuess || (sides[i].evidence == SideEvidence::Volume && mayBeVessel(pieces[i]));
+    report.guessedShare += isGuess ? pieces[i].area : 0.;
     area += pieces[i].area;
   }
   for (double& share : report.shares)

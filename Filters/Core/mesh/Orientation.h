@@ -49,7 +49,7 @@ struct OrientationReport
   std::size_t unknownPieces = 0;
   /// Of the area, by what told its side; they add up to 1 where there is an area.
   std::array<double, SideEvidences> shares{};
-  double guessedShare = 0.; ///< of the area, see Side::isGuess
+  double guessedShare = 0.; ///< of the area, see Side::isGuess and mayBeVessel()
   /// By kind: whether it was given, and told nothing of any piece.
   std::array<bool, SideEvidences> toldNothing{};
   /// Where parts look to opposite sides though they face each other, if they do: see FacingBoundaries.h.
@@ -81,6 +81,11 @@ Side sideByVolume(const Piece& piece);
 /// Whether the volume of a piece makes its side likely at best. A wall with a corner, a street with its houses and a
 /// bowl enclose something on their outer side, as they were scanned; half of a sphere has 2.7 of what is 5 here.
 bool isGuessByVolume(const Piece& piece);
+
+/// Whether a piece is so wide open that its points may be those of the inside of a vessel, which the volume does not
+/// tell from a body scanned on a table. Other evidence than the volume is not better there, but such a side is reported
+/// as a guess.
+bool mayBeVessel(const Piece& piece);
 
 /// Turns the pieces that are to be turned, and reports by what.
 OrientationReport turn(Mesh& mesh, std::span<const Piece> pieces, std::span<const Side> sides);

@@ -178,6 +178,17 @@ void warnOfSharedNoise(const FinishReport& finish, double unit, WarningList& war
   }
 }
 
+void warnOfOutlines(std::size_t loops, WarningList& warnings)
+{
+  if (loops > 0)
+  {
+    warnings.add(WarningTopic::StaysOpen,
+      "The mesh is not watertight: " + counted(loops, "boundary", "boundaries") +
+        " could not be closed. What closes a sheet would lie on it. Scan its other side, or keep "
+        "the sheet open (--boundaries keep).");
+  }
+}
+
 void warnOfMissingBars(const Reconstruction& result, WarningList& warnings)
 {
   if (result.uncertainties.empty())
@@ -426,6 +437,10 @@ std::vector<std::string> warningsOf(
   }
   if (result.quality)
   {
+    if (parameters.boundaries == Boundaries::Close)
+    {
+      warnOfOutlines(result.quality->surface.boundaryLoops, warnings);
+    }
     warnOfDefects(result, CutsOfCloud, warnings);
     warnOfSlivers(result.quality->surface, warnings);
     warnOfTurnedParts(result.quality->turnedShare, result.orientation.areViewsKnown, warnings);
