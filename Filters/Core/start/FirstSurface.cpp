@@ -270,10 +270,31 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud, std::vector<S
     best.components, false, isCertain, best.bridgeWidth, isLeaky };
 }
 
+/// The outlines of almost flat sheets stay: what closes them would lie on the sheet.
 void closeBoundaries(Mesh& mesh)
 {
+  constexpr float CosineOfOutline = -0.95f;
+  constexpr double PartOfFlatSheet = 0.9;
+  constexpr double Any = std::numeric_limits<double>::max();
   BoundaryManager boundaries(mesh);
-  fillBoundaries(mesh, boundaries, std::numeric_limits<double>::max());
+  fillBoundaries(
+    mesh, boundaries, Any, nullptr, std::numeric_limits<std::size_t>::max(), CosineOfOutline);
+  std::vector<std::uint8_t> isBent(mesh.indexEnd());
+  for (const Piece& piece : findPieces(mesh))
+  {
+    for (const VertexIndex v : piece.vertices)
+    {
+      isBent[v] = piece.closingArea < PartOfFlatSheet * piece.area ? 1 : 0;
+    }
+  }
+  for (BoundaryManager::LoopIndex index = 0; index < boundaries.loops().size(); ++index)
+  {
+    const BoundaryManager::Loop loop = boundaries.loops()[index];
+    if (loop.size > 0 && isBent[loop.first] != 0)
+    {
+      fillBoundary(mesh, boundaries, index, -1.f, Any);
+    }
+  }
 }
 
 /// Fits a mesh to the cloud and opens it, or closes it. Returns false if it was ended before.
