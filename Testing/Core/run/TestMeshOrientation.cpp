@@ -24,6 +24,8 @@ TEST(MeshOrientation, SpheresWithoutACap)
       EXPECT_EQ(report.unknownPieces, 0u);
       EXPECT_EQ(report.main(), SideEvidence::Volume);
       EXPECT_DOUBLE_EQ(report.share(SideEvidence::Volume), 1.);
+      // A bowl that is scanned from above is as wide open.
+      EXPECT_DOUBLE_EQ(report.guessedShare, degrees > 40. ? 1. : 0.);
       EXPECT_EQ(defectOf(scene.mesh), "");
     }
   }
