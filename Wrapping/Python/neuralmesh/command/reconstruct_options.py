@@ -23,7 +23,10 @@ _PRESETS = {
     "thesis": "the values of Saleem's thesis, without later additions",
 }
 _ORDERS = {"exact": "counters", "list": "the activity list"}
-_BOUNDARIES = {"keep": "the mesh ends where the points end", "close": "the mesh is watertight"}
+_BOUNDARIES = {
+    "keep": "the mesh ends where the points end",
+    "close": "the mesh is watertight, unless it is an almost flat sheet",
+}
 _FIDELITIES = {
     "draft": "only the first rounds of the fit",
     "default": "also creases, tips and noise",
