@@ -458,9 +458,10 @@ std::function<int()> AddReconstructCommand(CLI::App& application)
     { "thesis", vtkNeuralMesh::THESIS, "the values of Saleem's thesis, without later additions" } };
   const std::vector<PropertyWord> orders{ { "exact", vtkNeuralMesh::EXACT, "counters" },
     { "list", vtkNeuralMesh::LIST, "the activity list" } };
-  const std::vector<PropertyWord> boundaries{ { "keep", vtkNeuralMesh::KEEP,
-                                                "the mesh ends where the points end" },
-    { "close", vtkNeuralMesh::CLOSE, "the mesh is watertight, unless it is an almost flat sheet" } };
+  const std::vector<PropertyWord> boundaries{
+    { "keep", vtkNeuralMesh::KEEP, "the mesh ends where the points end" },
+    { "close", vtkNeuralMesh::CLOSE, "the mesh is watertight, unless it is an almost flat sheet" }
+  };
   const std::vector<PropertyWord> fidelities{ { "draft", vtkNeuralMesh::DRAFT_FIDELITY,
                                                 "only the first rounds of the fit" },
     { "default", vtkNeuralMesh::DEFAULT_FIDELITY, "also creases, tips and noise" },
