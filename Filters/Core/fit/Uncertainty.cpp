@@ -281,7 +281,8 @@ std::vector<Vector4> Uncertainty::drawErrors(std::uint64_t draw) const
   std::vector<Vector4> errors(samples.points.size());
   for (std::size_t i = 0; i < errors.size(); ++i)
   {
-    if (samples.isUsed[i] != 0)
+    // Weights that are far below the others are 0 in single precision.
+    if (samples.isUsed[i] != 0 && samples.weight(i) > 0.f)
     {
       const PlaceOnMesh& place = samples.places[i];
       const float noise = place.weights()[0] * noise_[place.triangle[0]] +
