@@ -8,7 +8,8 @@ namespace neuralmesh
 {
 namespace
 {
-/// On the triangles of a vertex between two layers there are so many samples or more, or else on those of its neighbors.
+/// On the triangles of a vertex between two layers there are so many samples or more, or else on those of its neighbors,
+/// where a sample counts for each corner of its triangle.
 /// Their mean distance over the root mean square is 0.80 for noise, 0.87 for an even distribution, and 0.95 for two
 /// layers that are six deviations of the noise apart. Each side has at least this part of them.
 constexpr float LeastSamplesOfLayers = 20.f;

@@ -338,6 +338,7 @@ bool Uncertainty::addBias(FitSystem& system, const Progress& progress)
   {
     return false;
   }
+  // The fit of a draft does not shift them: what that costs it is found, too.
   fit_.shiftAgainstNoise(report_.noise * report_.noise);
   addPulls(system,
     [&](std::size_t i, const PlaceOnMesh& place)

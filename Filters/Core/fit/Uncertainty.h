@@ -35,10 +35,10 @@ struct ViewDisagreement
 /// solved for them. What these vertices scatter by is told.
 ///
 /// How much samples scatter is measured around each vertex. Where samples tell how the surface bends, what smoothness
-/// takes from it is told by the surface and by the residuals: the equations would take less from the surface once more,
-/// and with less smoothness they find in the residuals what they took, beside noise. What noise leaves there is told by
-/// the draws, and taken off. What all points of a view are off together does not average out, and is added; of a clean
-/// cloud so is what triangles are too coarse for.
+/// takes from it is told by the surface and by the residuals. From the surface, the equations would take something once
+/// more. In the residuals is what they took; with less smoothness they find some of it, beside noise. What noise leaves
+/// there is told by the draws, and taken off. What all points of a view are off together does not average out, and is
+/// added; of a clean cloud so is what triangles are too coarse for.
 ///
 /// The same to the bit with any number of threads.
 class Uncertainty

@@ -178,14 +178,14 @@ void warnOfSharedNoise(const FinishReport& finish, double unit, WarningList& war
   }
 }
 
-void warnOfOutlines(std::size_t loops, WarningList& warnings)
+void warnOfOpenBoundaries(std::size_t loops, WarningList& warnings)
 {
   if (loops > 0)
   {
     warnings.add(WarningTopic::StaysOpen,
-      "The mesh is not watertight: " + counted(loops, "boundary", "boundaries") +
-        " could not be closed. What closes a sheet would lie on it. Scan its other side, or keep "
-        "the sheet open (--boundaries keep).");
+      "The mesh is not watertight: it has " + counted(loops, "boundary", "boundaries") +
+        ". Almost flat sheets, and the openings of a first mesh, stay open. Scan the other side of "
+        "a sheet. Otherwise use another number of vertices.");
   }
 }
 
@@ -439,7 +439,7 @@ std::vector<std::string> warningsOf(
   {
     if (parameters.boundaries == Boundaries::Close)
     {
-      warnOfOutlines(result.quality->surface.boundaryLoops, warnings);
+      warnOfOpenBoundaries(result.quality->surface.boundaryLoops, warnings);
     }
     warnOfDefects(result, CutsOfCloud, warnings);
     warnOfSlivers(result.quality->surface, warnings);

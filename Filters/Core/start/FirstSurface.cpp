@@ -270,11 +270,24 @@ std::optional<FirstSurface> closedSurface(const PointCloud& cloud, std::vector<S
     best.components, false, isCertain, best.bridgeWidth, isLeaky };
 }
 
+/// Whether the normals of a piece are nearly alike: its area with a direction is nearly its area.
+bool isFlat(const Mesh& mesh, const Piece& piece)
+{
+  constexpr double PartOfFlatSheet = 0.95;
+  constexpr double NormalsOfDirectedArea = 6.;
+  Eigen::Vector3d normals = Eigen::Vector3d::Zero();
+  for (const VertexIndex v : piece.vertices)
+  {
+    const Vector4 normal = mesh.normal(v);
+    normals += Eigen::Vector3d(double(normal[0]), double(normal[1]), double(normal[2]));
+  }
+  return normals.norm() > PartOfFlatSheet * NormalsOfDirectedArea * piece.area;
+}
+
 /// The outlines of almost flat sheets stay: what closes them would lie on the sheet.
 void closeBoundaries(Mesh& mesh)
 {
   constexpr float CosineOfOutline = -0.95f;
-  constexpr double PartOfFlatSheet = 0.9;
   constexpr double Any = std::numeric_limits<double>::max();
   BoundaryManager boundaries(mesh);
   fillBoundaries(
@@ -282,9 +295,10 @@ void closeBoundaries(Mesh& mesh)
   std::vector<std::uint8_t> isBent(mesh.indexEnd());
   for (const Piece& piece : findPieces(mesh))
   {
+    const std::uint8_t value = isFlat(mesh, piece) ? 0 : 1;
     for (const VertexIndex v : piece.vertices)
     {
-      isBent[v] = piece.closingArea < PartOfFlatSheet * piece.area ? 1 : 0;
+      isBent[v] = value;
     }
   }
   for (BoundaryManager::LoopIndex index = 0; index < boundaries.loops().size(); ++index)
