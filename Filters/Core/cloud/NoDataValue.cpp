@@ -16,8 +16,6 @@ namespace
 constexpr std::size_t MostByChance = 100;
 /// The others are so many times as far away as they extend.
 constexpr float LeastDistance = 2.f;
-/// ... and so many times, unless they are farther away than the cloud is wide: an object stands before a wall.
-constexpr float LeastDistanceInWidth = 4.f;
 /// Two flat sheets are measured, unless they are so many times as far apart as they are wide.
 constexpr float FarthestSheet = 1e4f;
 
@@ -74,11 +72,7 @@ bool isNoData(const End& end, const End& opposite, std::size_t count, float widt
   }
   const float gap = std::abs(end.next - end.value);
   const float rest = std::abs(opposite.value - end.next);
-  if (rest > 0.f)
-  {
-    return gap > (gap > width ? LeastDistance : LeastDistanceInWidth) * rest;
-  }
-  return width > 0.f && gap > FarthestSheet * width;
+  return gap > LeastDistance * rest && (rest > 0.f || (width > 0.f && gap > FarthestSheet * width));
 }
 }
 

@@ -17,6 +17,6 @@ struct NoDataValue
 };
 
 /// Finds a coordinate that many points share exactly, while all others are on one side of it and farther away
-/// than they extend along the axis, and much farther where a wall could be behind an object. Takes O(n).
+/// than they extend along the axis. Takes O(n).
 std::optional<NoDataValue> findNoDataValue(const PointCloud& cloud);
 }

@@ -87,10 +87,9 @@ private:
   SurfaceFit fit_;
   std::vector<float> noise_; ///< of the samples around each vertex, as a standard deviation
   std::vector<float> bends_; ///< by how much they may scatter at each vertex, likewise
-  std::vector<float> smoothnessParts_; ///< of lambda, at each vertex; the equations look there
-  std::vector<float> variances_;       ///< of each vertex
-  std::vector<float>
-    squaredResiduals_; ///< what is left in them at each vertex, less what noise leaves there
+  std::vector<float> smoothnessParts_;  ///< of lambda, at each vertex; the equations look there
+  std::vector<float> variances_;        ///< of each vertex
+  std::vector<float> squaredResiduals_; ///< what smoothness left in them, without noise
   std::vector<float> deviations_;
   ViewDisagreement disagreement_;
 };

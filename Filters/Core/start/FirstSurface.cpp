@@ -292,6 +292,10 @@ void closeBoundaries(Mesh& mesh)
   BoundaryManager boundaries(mesh);
   fillBoundaries(
     mesh, boundaries, Any, nullptr, std::numeric_limits<std::size_t>::max(), CosineOfOutline);
+  if (boundaries.loopCount() == 0)
+  {
+    return;
+  }
   std::vector<std::uint8_t> isBent(mesh.indexEnd());
   for (const Piece& piece : findPieces(mesh))
   {

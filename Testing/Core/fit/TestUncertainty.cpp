@@ -67,13 +67,18 @@ double meanBar(
   return sum / count;
 }
 
-/// Part of the vertices that are no farther from the unit sphere than so many error bars.
-double partWithin(const Reconstruction& run, double bars)
+using Radius = std::function<double(const Eigen::Vector3d&)>;
+
+/// Part of the vertices that are no farther from the surface with this radius in each direction than so many error bars.
+double partWithin(
+  const Reconstruction& run, double bars,
+  const Radius& radiusAt = [](const Eigen::Vector3d&) { return 1.; })
 {
   double within = 0.;
   for (std::size_t v = 0; v < run.mesh.points.size(); ++v)
   {
-    const double error = std::abs(run.mesh.points[v].norm() - 1.);
+    const Eigen::Vector3d& point = run.mesh.points[v];
+    const double error = std::abs(point.norm() - radiusAt(point.normalized()));
     within += error <= bars * double(run.uncertainties[v]) ? 1. : 0.;
   }
   return within / double(run.mesh.points.size());
@@ -131,15 +136,7 @@ TEST(Uncertainty, HoldsWhatSmoothnessTook)
   {
     points[i] = noisy[i] + (radiusAt(points[i]) - 1.) * points[i];
   }
-  const Reconstruction run = runOf(PointCloud(points));
-  double within = 0.;
-  for (std::size_t v = 0; v < run.mesh.points.size(); ++v)
-  {
-    const Eigen::Vector3d& point = run.mesh.points[v];
-    const double error = std::abs(point.norm() - radiusAt(point.normalized()));
-    within += error <= 2. * double(run.uncertainties[v]) ? 1. : 0.;
-  }
-  EXPECT_GT(within / double(run.mesh.points.size()), 0.88);
+  EXPECT_GT(partWithin(runOf(PointCloud(points)), 2., radiusAt), 0.88);
 }
 
 // Noise that differs from place to place is that of the place.

@@ -5,6 +5,7 @@
 
 #include "cloud/CloudGenerator.h"
 #include "cloud/MeshBuilder.h"
+#include "HasWarning.h"
 #include "PointMeasures.h"
 #include "run/Reconstruction.h"
 #include "run/Warnings.h"
@@ -271,11 +272,6 @@ Reconstruction reconstructed(const PointCloud& cloud, std::uint64_t vertices)
   return reconstruct(cloud, parameters, [](double) { return true; });
 }
 
-bool hasWarning(const Reconstruction& result, const std::string& text)
-{
-  return std::any_of(result.warnings.begin(), result.warnings.end(),
-    [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
-}
 }
 
 // Promise: nothing is warned of where the mesh is what the cloud is.
@@ -346,56 +342,6 @@ TEST(Warnings, LostRod)
   EXPECT_TRUE(reconstructed(PointCloud(points), 2000).warnings.empty());
   append(points, rod(80, 0.004));
   EXPECT_TRUE(hasWarning(reconstructed(PointCloud(points), 2000), "missing in the mesh"));
-}
-
-// Promise: parts that seem to be turned are told, unless the points know from where they were seen: a room and what is
-// seen from outside may hang together.
-TEST(Warnings, TurnedPartsThatWereSeen)
-{
-  Reconstruction result;
-  result.quality = MeshQuality{};
-  result.quality->turnedShare = 0.3;
-  const PointCloud cloud(sphere(1000));
-  result.warnings = warningsOf(result, cloud);
-  EXPECT_TRUE(hasWarning(result, "30 % of the surface is inside out"));
-  result.orientation.areViewsKnown = true;
-  result.warnings = warningsOf(result, cloud);
-  EXPECT_FALSE(hasWarning(result, "inside out"));
-}
-
-// Promise: parts that look to opposite sides where they face each other are told, with the place; but not before the
-// fit, which opens gaps that are still spanned.
-TEST(Warnings, PartsThatContradictEachOther)
-{
-  Reconstruction result;
-  const PointCloud cloud(sphere(1000));
-  EXPECT_TRUE(warningsOf(result, cloud).empty());
-  result.orientation.contradiction = cloud.fromInput({ 0.5, 0.25, 0.125 });
-  EXPECT_TRUE(warningsOf(result, cloud).empty());
-  result.finish.emplace();
-  result.warnings = warningsOf(result, cloud);
-  EXPECT_TRUE(hasWarning(result, "look to opposite sides, as around (0.5, 0.25, 0.125)"));
-}
-
-// Promise: slivers are told where they are more than a rounding of all triangles, however few these are.
-TEST(Warnings, Slivers)
-{
-  Reconstruction result;
-  result.quality = MeshQuality{};
-  const PointCloud cloud(sphere(1000));
-  const auto isWarnedOf = [&](std::size_t slivers, std::size_t triangles)
-  {
-    result.quality->surface.slivers = slivers;
-    result.quality->surface.triangles = triangles;
-    result.warnings = warningsOf(result, cloud);
-    return hasWarning(result, "of the triangles (" + std::to_string(slivers) + ") are slivers");
-  };
-  EXPECT_FALSE(isWarnedOf(0, 0));
-  EXPECT_FALSE(isWarnedOf(0, 1000));
-  EXPECT_FALSE(isWarnedOf(2, 1000));
-  EXPECT_TRUE(isWarnedOf(3, 1000));
-  EXPECT_TRUE(hasWarning(result, "0.3 % of"));
-  EXPECT_TRUE(isWarnedOf(1, 400));
 }
 
 // Promise: what is no farther away than half an edge is called coarse, not missing.
@@ -518,41 +464,6 @@ TEST(Warnings, EndsBeforeSparsePoints)
   EXPECT_GE(ended.explanation->beyondEnds.count, 15u);
   EXPECT_LE(ended.explanation->beyondEnds.count, 21u);
   EXPECT_NEAR(ended.explanation->beyondEnds.farthest, 0.12, 1e-3);
-}
-
-// Promise: views that lie farther apart than their points scatter are told.
-TEST(Warnings, SharedNoise)
-{
-  Reconstruction result;
-  result.quality = MeshQuality{};
-  result.finish = FinishReport{};
-  const PointCloud cloud(sphere(1000));
-  result.finish->ownNoise = 0.01 / cloud.unit();
-  result.finish->sharedNoise = 0.02 / cloud.unit();
-  result.warnings = warningsOf(result, cloud);
-  EXPECT_TRUE(hasWarning(result, "share an error of about 0.02, more than"));
-  result.finish->shareBetweenLayers = 0.4;
-  result.warnings = warningsOf(result, cloud);
-  EXPECT_FALSE(hasWarning(result, "share an error"));
-  result.finish->shareBetweenLayers = 0.;
-  result.finish->sharedNoise = 0.009 / cloud.unit();
-  result.warnings = warningsOf(result, cloud);
-  EXPECT_FALSE(hasWarning(result, "share an error"));
-}
-
-// Promise: a mesh between two layers of points is told.
-TEST(Warnings, BetweenLayers)
-{
-  Reconstruction result;
-  result.quality = MeshQuality{};
-  result.finish = FinishReport{};
-  result.finish->shareBetweenLayers = 0.4;
-  const PointCloud cloud(sphere(1000));
-  result.warnings = warningsOf(result, cloud);
-  EXPECT_TRUE(hasWarning(result, "between two layers of points at 40 % of its vertices"));
-  result.finish->shareBetweenLayers = 0.05;
-  result.warnings = warningsOf(result, cloud);
-  EXPECT_FALSE(hasWarning(result, "between two layers"));
 }
 
 // Promise: surface without points is told, with how much of it there is; where the cloud is sparse there are

@@ -2,6 +2,7 @@
 #include "run/Warnings.h"
 
 #include "base/WarningTopic.h"
+#include "HasWarning.h"
 #include "MeshTools.h"
 #include "OpenShapes.h"
 #include "ThinPlate.h"
@@ -28,6 +29,7 @@ TEST(Warnings, DoubtfulSidesAreTold)
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(warnings[0].ends_with("[side-is-unknown]"));
 }
+
 // What closes a flat sheet would lie on it: its outline stays, and that is told. What bulges is closed.
 TEST(Warnings, OutlinesThatStay)
 {
@@ -51,5 +53,89 @@ TEST(Warnings, OutlinesThatStay)
                 [](const std::string& text) { return isAbout(text, WarningTopic::StaysOpen); }),
       bulge == 0.);
   }
+}
+// Promise: parts that seem to be turned are told, unless the points know from where they were seen: a room and what is
+// seen from outside may hang together.
+TEST(Warnings, TurnedPartsThatWereSeen)
+{
+  Reconstruction result;
+  result.quality = MeshQuality{};
+  result.quality->turnedShare = 0.3;
+  const PointCloud cloud(makeGrid(8).points);
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_TRUE(hasWarning(result, "30 % of the surface is inside out"));
+  result.orientation.areViewsKnown = true;
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_FALSE(hasWarning(result, "inside out"));
+}
+
+// Promise: parts that look to opposite sides where they face each other are told, with the place; but not before the
+// fit, which opens gaps that are still spanned.
+TEST(Warnings, PartsThatContradictEachOther)
+{
+  Reconstruction result;
+  const PointCloud cloud(makeGrid(8).points);
+  EXPECT_TRUE(warningsOf(result, cloud).empty());
+  result.orientation.contradiction = cloud.fromInput({ 0.5, 0.25, 0.125 });
+  EXPECT_TRUE(warningsOf(result, cloud).empty());
+  result.finish.emplace();
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_TRUE(hasWarning(result, "look to opposite sides, as around (0.5, 0.25, 0.125)"));
+}
+
+// Promise: slivers are told where they are more than a rounding of all triangles, however few these are.
+TEST(Warnings, Slivers)
+{
+  Reconstruction result;
+  result.quality = MeshQuality{};
+  const PointCloud cloud(makeGrid(8).points);
+  const auto isWarnedOf = [&](std::size_t slivers, std::size_t triangles)
+  {
+    result.quality->surface.slivers = slivers;
+    result.quality->surface.triangles = triangles;
+    result.warnings = warningsOf(result, cloud);
+    return hasWarning(result, "of the triangles (" + std::to_string(slivers) + ") are slivers");
+  };
+  EXPECT_FALSE(isWarnedOf(0, 0));
+  EXPECT_FALSE(isWarnedOf(0, 1000));
+  EXPECT_FALSE(isWarnedOf(2, 1000));
+  EXPECT_TRUE(isWarnedOf(3, 1000));
+  EXPECT_TRUE(hasWarning(result, "0.3 % of"));
+  EXPECT_TRUE(isWarnedOf(1, 400));
+}
+
+// Promise: views that lie farther apart than their points scatter are told.
+TEST(Warnings, SharedNoise)
+{
+  Reconstruction result;
+  result.quality = MeshQuality{};
+  result.finish = FinishReport{};
+  const PointCloud cloud(makeGrid(8).points);
+  result.finish->ownNoise = 0.01 / cloud.unit();
+  result.finish->sharedNoise = 0.02 / cloud.unit();
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_TRUE(hasWarning(result, "share an error of about 0.02, more than"));
+  result.finish->shareBetweenLayers = 0.4;
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_FALSE(hasWarning(result, "share an error"));
+  result.finish->shareBetweenLayers = 0.;
+  result.finish->sharedNoise = 0.009 / cloud.unit();
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_FALSE(hasWarning(result, "share an error"));
+}
+
+// Promise: a mesh between two layers of points is told.
+TEST(Warnings, BetweenLayers)
+{
+  Reconstruction result;
+  result.quality = MeshQuality{};
+  result.finish = FinishReport{};
+  result.finish->shareBetweenLayers = 0.4;
+  const PointCloud cloud(makeGrid(8).points);
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_TRUE(hasWarning(result, "between two layers of points at 40 % of its vertices"));
+  result.finish->shareBetweenLayers = 0.05;
+  result.warnings = warningsOf(result, cloud);
+  EXPECT_FALSE(hasWarning(result, "between two layers"));
 }
 }
