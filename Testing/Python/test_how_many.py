@@ -58,7 +58,9 @@ class HowMany(unittest.TestCase):
             (sphere(), {"vertices": 0, "ensemble": 2}, "ensemble"),
             (sphere(), {"vertices": 0, "automatic": True}, "automatic"),
             (sphere(), {"vertices": "auto", "levels": (10, 100)}, "levels"),
-            (sphere(), {"tolerance": 0.1, "levels": (100, 200)}, "levels"),
+            (sphere(), {"tolerance": 0.1, "levels": (100, 200)}, "tolerance and levels exclude"),
+            (sphere(), {"tolerance": 0.1, "vertices": 500}, "vertices and tolerance exclude"),
+            (sphere(), {"vertices": 500, "levels": (100, 200)}, "vertices and levels exclude"),
         ):
             with self.subTest(**more), self.assertRaisesRegex(ValueError, words):
                 neuralmesh.reconstruct(points, **more)

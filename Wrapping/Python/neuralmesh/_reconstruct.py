@@ -22,6 +22,7 @@ from ._types import (
     vtkPolyData,
 )
 
+_USUAL_VERTICES = 20000
 # Those that have names or places of their own in the signature.
 _NAMED = ("number_of_vertices", "seed", "variant", "order", "preset")
 # Time steps are for pipelines: a function gives the finished mesh. What gives more outputs are flags.
@@ -88,7 +89,7 @@ def reconstruct(
 # fmt: on
 def reconstruct(
     points: ArrayLike | vtkPointSet | vtkCompositeDataSet | Mesh | OfPyVista | str | os.PathLike,
-    vertices: int | Literal["auto"] = 20000,
+    vertices: int | Literal["auto"] = _USUAL_VERTICES,
     seed: int = 1,
     *,
     variant: str = "noise",
@@ -117,8 +118,8 @@ def reconstruct(
                 data, which may be larger than the memory: maximum_points are drawn from it. Points with NaN
                 or infinity are dropped. No normals are needed.
             vertices: The number of vertices of the mesh, from 4 to 1000000000. Or "auto", which is 0: as
-                many as the points support. A tolerance replaces it. Field data `Choice` of the mesh has the
-                reasons.
+                many as the points support. Field data `Choice` of the mesh has the reasons. A tolerance or
+                levels determine the size instead.
             seed: Seed of the random numbers, from 0 to 2147483647. The same points and seed give the same
                 bytes. Another seed gives another mesh of the same quality.
             variant: "noise_filtering", in which points far from the mesh move vertices less; "basic"; or
@@ -230,7 +231,7 @@ if reconstruct.__doc__:
 
 
 def make_filter(
-    vertices: int | Literal["auto"] = 20000,
+    vertices: int | Literal["auto"] = _USUAL_VERTICES,
     seed: int = 1,
     *,
     variant: str = "noise",
@@ -245,8 +246,7 @@ def make_filter(
     """The filter that reconstruct() executes, without input; the same errors."""
     known = PARAMETERS if ensemble is None else ENSEMBLE_PARAMETERS
     refuse_unknown(reconstruct, parameters, known)
-    if vertices == "auto" and levels is not None:
-        raise ValueError('vertices="auto" and levels exclude each other: levels are numbers of vertices.')
+    _require_one_size(vertices, parameters.get("tolerance"), levels)
     is_surface = parameters.get("input_is") == "surface"
     mesh = _world.NeuralMesh() if ensemble is None else _world.NeuralMeshEnsemble()
     if ensemble is not None:
@@ -265,14 +265,25 @@ def make_filter(
     assign(mesh, "preset", preset)
     for name, value in parameters.items():
         assign(mesh, name, value)
-    if parameters.get("tolerance") == 0:
-        raise ValueError("tolerance must be larger than 0; without it the number of vertices counts.")
     set_outer_side(mesh, viewpoints, up)
     if levels is not None and not isinstance(levels, Iterable):
         raise ValueError(f"levels must be several numbers of vertices, not {levels!r}")
     for level in () if levels is None else levels:
         _add_level(mesh, level)
     return mesh
+
+
+def _require_one_size(vertices: object, tolerance: object, levels: object) -> None:
+    if tolerance == 0:
+        raise ValueError("tolerance must be larger than 0; without it the number of vertices counts.")
+    sizes = {
+        "vertices": vertices != _USUAL_VERTICES,  # the default, if given, does no harm
+        "tolerance": bool(tolerance),
+        "levels": levels is not None,
+    }
+    given = [name for name, is_given in sizes.items() if is_given]
+    if len(given) > 1:
+        raise ValueError(f"{given[0]} and {given[1]} exclude each other: each determines the size of the mesh.")
 
 
 def _add_level(mesh: Any, level: object) -> None:
