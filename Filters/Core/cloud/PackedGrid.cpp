@@ -25,6 +25,14 @@ constexpr float MostCellsAlong = 4096.f;
 constexpr float RoundingMargin = 1.00001f;
 constexpr float Infinity = std::numeric_limits<float>::infinity();
 constexpr std::int32_t NoIndex = std::numeric_limits<std::int32_t>::max();
+
+/// Without the index in its last lane: its bits are those of a denormal number, with which processors compute a
+/// hundred times more slowly.
+Vector4 positionOf(Vector4 entry)
+{
+  entry.lanes[3] = 0.f;
+  return entry;
+}
 }
 
 /// What a query has found, by the lane in which it was.
@@ -207,7 +215,7 @@ void PackedGrid::sortBlock(std::size_t number)
   const std::uint32_t end = begins_[number + 1];
   for (std::uint32_t i = block.first; i < end; ++i)
   {
-    ++block.begins[cellInBlock(cellOf(unsorted_[i])) + 1];
+    ++block.begins[cellInBlock(cellOf(positionOf(unsorted_[i]))) + 1];
   }
   mostInCells_[number] = *std::max_element(block.begins.begin(), block.begins.end());
   std::partial_sum(block.begins.begin(), block.begins.end(), block.begins.begin());
@@ -215,7 +223,7 @@ void PackedGrid::sortBlock(std::size_t number)
   for (std::uint32_t i = block.first; i < end; ++i)
   {
     const Vector4 entry = unsorted_[i];
-    const std::size_t place = block.first + next[cellInBlock(cellOf(entry))]++;
+    const std::size_t place = block.first + next[cellInBlock(cellOf(positionOf(entry)))]++;
     x_[place] = entry[0];
     y_[place] = entry[1];
     z_[place] = entry[2];
