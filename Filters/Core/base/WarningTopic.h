@@ -30,6 +30,7 @@ enum class WarningTopic
   Slivers,
   InsideOut,
   NarrowHandles,
+  NarrowNecks,
   FinerThanNoise,
   GrowthStopped,
   MeshIsUnfinished,

@@ -54,6 +54,7 @@ std::optional<MeshQuality> measureQuality(const PointCloud& cloud, const Mesh& m
     return {};
   }
   quality.narrowHandles = findNarrowHandles(mesh, executor);
+  quality.narrowNecks = findNarrowNecks(mesh, executor);
   return quality;
 }
 }

@@ -7,6 +7,7 @@
 #include "fit/HeldOutPoints.h"
 #include "mesh/Mesh.h"
 #include "mesh/NarrowHandles.h"
+#include "mesh/NarrowNecks.h"
 #include "mesh/SurfaceReport.h"
 
 #include <optional>
@@ -25,6 +26,7 @@ struct MeshQuality
   /// other way round.
   double turnedShare = 0.;
   NarrowHandles narrowHandles;
+  NarrowNecks narrowNecks;
 };
 
 /// `triangles` are those of the mesh. Of very many points only some are measured; to the nearest triangle, of a surface,

@@ -249,18 +249,37 @@ void warnOfTurnedParts(double share, bool areViewsKnown, WarningList& warnings)
   }
 }
 
+std::string textOf(
+  const std::vector<Vector4>& places, std::size_t count, const PointCloud& cloud)
+{
+  std::string where;
+  for (const Vector4 place : places)
+  {
+    where += (where.empty() ? " around " : ", ") + placeText(cloud.toInput(place), cloud);
+  }
+  return where + (where.empty() ? "" : otherPlaces(count, places.size()));
+}
+
+void warnOfNecks(const NarrowNecks& necks, const PointCloud& cloud, WarningList& warnings)
+{
+  if (necks.count > 0)
+  {
+    warnings.add(WarningTopic::NarrowNecks,
+      "The mesh has " + counted(necks.count, "narrow neck", "narrow necks") +
+        textOf(necks.places, necks.count, cloud) + ": a loop of at most " +
+        std::to_string(NarrowLoop) +
+        " edges parts one side from the other. If these are two bodies, they have grown together. "
+        "Use more vertices, or a cloud for each body.");
+  }
+}
+
 void warnOfHandles(const NarrowHandles& handles, const PointCloud& cloud, WarningList& warnings)
 {
   if (handles.count == 0)
   {
     return;
   }
-  std::string where;
-  for (const Vector4 place : handles.places)
-  {
-    where += (where.empty() ? " around " : ", ") + placeText(cloud.toInput(place), cloud);
-  }
-  where += where.empty() ? "" : otherPlaces(handles.count, handles.places.size());
+  const std::string where = textOf(handles.places, handles.count, cloud);
   warnings.add(WarningTopic::NarrowHandles,
     "The mesh has at least " + counted(handles.count, "narrow handle", "narrow handles") + where +
       ": a loop of at most " + std::to_string(NarrowLoop) +
@@ -445,6 +464,7 @@ std::vector<std::string> warningsOf(
     warnOfSlivers(result.quality->surface, warnings);
     warnOfTurnedParts(result.quality->turnedShare, result.orientation.areViewsKnown, warnings);
     warnOfHandles(result.quality->narrowHandles, cloud, warnings);
+    warnOfNecks(result.quality->narrowNecks, cloud, warnings);
     warnOfVertices(result, cloud, warnings);
   }
   warnOfNoiseWebs(result.noiseWebs, cloud, warnings);

@@ -69,6 +69,19 @@ TEST(Warnings, TurnedPartsThatWereSeen)
   EXPECT_FALSE(hasWarning(result, "inside out"));
 }
 
+// Promise: bodies that may have grown together are told, with a place.
+TEST(Warnings, NarrowNecks)
+{
+  Reconstruction result;
+  result.quality = MeshQuality{};
+  result.quality->narrowNecks = { 3, { Vector4() } };
+  const std::vector<std::string> warnings = warningsOf(result, PointCloud(makeGrid(8).points));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(isAbout(warnings[0], WarningTopic::NarrowNecks));
+  EXPECT_NE(warnings[0].find("3 narrow necks around ("), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("and 2 other places"), std::string::npos) << warnings[0];
+}
+
 // Promise: parts that look to opposite sides where they face each other are told, with the place; but not before the
 // fit, which opens gaps that are still spanned.
 TEST(Warnings, PartsThatContradictEachOther)
