@@ -251,7 +251,8 @@ int CheckCase(const Case& input, int type, int variant, int preset)
   const int ofPoints = FilterTesting::Count(messages->AllText,
     { "[points-are-unexplained]", "[part-is-missing]", "[open-where-points-are]",
       "[mesh-is-coarse]", "[between-layers]", "[surface-without-points]", "[slivers]",
-      "[no-surface]", "[gap-is-spanned]", "[falls-into-pieces]", "[stays-open]" });
+      "[no-surface]", "[gap-is-spanned]", "[falls-into-pieces]", "[stays-open]",
+      "[narrow-necks]" });
   const int ofSides =
     FilterTesting::Count(messages->AllText, { "[side-is-unknown]", "[inside-out]" });
   // What is on a line gets no other warning.

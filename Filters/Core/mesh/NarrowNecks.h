@@ -18,6 +18,5 @@ struct NarrowNecks
 };
 
 /// Takes O(n). No vertex may be erased.
-NarrowNecks findNarrowNecks(
-  const Mesh& mesh, const Executor& executor = Executor::sequential());
+NarrowNecks findNarrowNecks(const Mesh& mesh, const Executor& executor = Executor::sequential());
 }

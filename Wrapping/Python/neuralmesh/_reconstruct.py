@@ -246,7 +246,6 @@ def make_filter(
     """The filter that reconstruct() executes, without input; the same errors."""
     known = PARAMETERS if ensemble is None else ENSEMBLE_PARAMETERS
     refuse_unknown(reconstruct, parameters, known)
-    _require_one_size(vertices, parameters.get("tolerance"), levels)
     is_surface = parameters.get("input_is") == "surface"
     mesh = _world.NeuralMesh() if ensemble is None else _world.NeuralMeshEnsemble()
     if ensemble is not None:
@@ -270,6 +269,7 @@ def make_filter(
         raise ValueError(f"levels must be several numbers of vertices, not {levels!r}")
     for level in () if levels is None else levels:
         _add_level(mesh, level)
+    _require_one_size(vertices, parameters.get("tolerance"), levels)
     return mesh
 
 
