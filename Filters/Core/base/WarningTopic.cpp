@@ -18,13 +18,13 @@ constexpr std::array WarningTags{ std::string_view("points-coincide"),
   std::string_view("triangles-intersect"), std::string_view("between-layers"),
   std::string_view("folds"), std::string_view("views-lie-apart"), std::string_view("slivers"),
   std::string_view("inside-out"), std::string_view("narrow-handles"),
-  std::string_view("narrow-necks"),
-  std::string_view("finer-than-noise"), std::string_view("growth-stopped"),
-  std::string_view("mesh-is-unfinished"), std::string_view("finer-than-data"),
-  std::string_view("fit-taken-back"), std::string_view("side-is-unknown"),
-  std::string_view("no-error-bars"), std::string_view("error-bars-too-short"),
-  std::string_view("other-number-of-vertices"), std::string_view("number-not-found"),
-  std::string_view("first-mesh"), std::string_view("surface-is-unsound") };
+  std::string_view("narrow-necks"), std::string_view("finer-than-noise"),
+  std::string_view("growth-stopped"), std::string_view("mesh-is-unfinished"),
+  std::string_view("finer-than-data"), std::string_view("fit-taken-back"),
+  std::string_view("side-is-unknown"), std::string_view("no-error-bars"),
+  std::string_view("error-bars-too-short"), std::string_view("other-number-of-vertices"),
+  std::string_view("number-not-found"), std::string_view("first-mesh"),
+  std::string_view("surface-is-unsound") };
 static_assert(WarningTags.size() == std::size_t(WarningTopic::SurfaceIsUnsound) + 1);
 }
 

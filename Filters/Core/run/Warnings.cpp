@@ -249,8 +249,7 @@ void warnOfTurnedParts(double share, bool areViewsKnown, WarningList& warnings)
   }
 }
 
-std::string textOf(
-  const std::vector<Vector4>& places, std::size_t count, const PointCloud& cloud)
+std::string textOf(const std::vector<Vector4>& places, std::size_t count, const PointCloud& cloud)
 {
   std::string where;
   for (const Vector4 place : places)
