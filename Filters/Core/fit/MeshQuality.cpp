@@ -53,8 +53,9 @@ std::optional<MeshQuality> measureQuality(const PointCloud& cloud, const Mesh& m
   {
     return {};
   }
-  quality.narrowHandles = findNarrowHandles(mesh, executor);
-  quality.narrowNecks = findNarrowNecks(mesh, executor);
+  const std::vector<NarrowStrip> strips = findNarrowStrips(mesh, executor);
+  quality.narrowHandles = findNarrowHandles(mesh, strips, executor);
+  quality.narrowNecks = findNarrowNecks(mesh, strips, executor);
   return quality;
 }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/NarrowHandles.h"
 
-#include "mesh/NarrowStrips.h"
 #include "mesh/Pieces.h"
 
 #include <algorithm>
@@ -18,14 +17,17 @@ constexpr std::size_t MostPlaces = 2;
 
 NarrowHandles findNarrowHandles(const Mesh& mesh, const Executor& executor)
 {
+  return genusOf(mesh, executor) == 0
+    ? NarrowHandles()
+    : findNarrowHandles(mesh, findNarrowStrips(mesh, executor), executor);
+}
+
+NarrowHandles findNarrowHandles(
+  const Mesh& mesh, std::span<const NarrowStrip> strips, const Executor& executor)
+{
   NarrowHandles result;
-  const long all = genusOf(mesh, executor);
+  const long all = strips.empty() ? 0 : genusOf(mesh, executor);
   if (all == 0)
-  {
-    return result;
-  }
-  const std::vector<NarrowStrip> strips = findNarrowStrips(mesh, executor);
-  if (strips.empty())
   {
     return result;
   }

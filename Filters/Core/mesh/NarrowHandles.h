@@ -3,8 +3,10 @@
 
 #include "base/Executor.h"
 #include "mesh/Mesh.h"
+#include "mesh/NarrowStrips.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -20,4 +22,7 @@ struct NarrowHandles
 /// Takes O(n), and no time where a mesh has no handle at all. No vertex may be erased.
 NarrowHandles findNarrowHandles(
   const Mesh& mesh, const Executor& executor = Executor::sequential());
+/// The same, by the strips of the mesh, see findNarrowStrips().
+NarrowHandles findNarrowHandles(
+  const Mesh& mesh, std::span<const NarrowStrip> strips, const Executor& executor);
 }

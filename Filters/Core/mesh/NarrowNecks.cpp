@@ -2,7 +2,6 @@
 #include "mesh/NarrowNecks.h"
 
 #include "base/DisjointSets.h"
-#include "mesh/NarrowStrips.h"
 #include "mesh/Pieces.h"
 
 #include <cstdint>
@@ -18,10 +17,10 @@ constexpr double LeastPartAtNeck = 0.002;
 constexpr std::size_t MostPlacesOfNecks = 2;
 }
 
-NarrowNecks findNarrowNecks(const Mesh& mesh, const Executor& executor)
+NarrowNecks findNarrowNecks(
+  const Mesh& mesh, std::span<const NarrowStrip> strips, const Executor& executor)
 {
   NarrowNecks result;
-  const std::vector<NarrowStrip> strips = findNarrowStrips(mesh, executor);
   if (strips.empty())
   {
     return result;
@@ -56,7 +55,7 @@ NarrowNecks findNarrowNecks(const Mesh& mesh, const Executor& executor)
       for (const VertexIndex neighbor : mesh.ring(v))
       {
         const std::uint32_t part = partOf[neighbor];
-        if (part != NoPart && first != NoPart && joined.root(part) != joined.root(first))
+        if (part != NoPart && first != NoPart && !joined.areJoined(part, first))
         {
           joined.join(part, first);
           isNeck = true;

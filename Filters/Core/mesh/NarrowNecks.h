@@ -3,8 +3,10 @@
 
 #include "base/Executor.h"
 #include "mesh/Mesh.h"
+#include "mesh/NarrowStrips.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace neuralmesh
@@ -17,6 +19,7 @@ struct NarrowNecks
   std::vector<Vector4> places; ///< of some of them, a few at most
 };
 
-/// Takes O(n). No vertex may be erased.
-NarrowNecks findNarrowNecks(const Mesh& mesh, const Executor& executor = Executor::sequential());
+/// By the strips of the mesh, see findNarrowStrips(). Takes O(n), and no time where there are none. No vertex may be erased.
+NarrowNecks findNarrowNecks(const Mesh& mesh, std::span<const NarrowStrip> strips,
+  const Executor& executor = Executor::sequential());
 }

@@ -249,7 +249,9 @@ void warnOfTurnedParts(double share, bool areViewsKnown, WarningList& warnings)
   }
 }
 
-std::string textOf(const std::vector<Vector4>& places, std::size_t count, const PointCloud& cloud)
+/// Of some of so many places.
+std::string placesText(
+  const std::vector<Vector4>& places, std::size_t count, const PointCloud& cloud)
 {
   std::string where;
   for (const Vector4 place : places)
@@ -265,7 +267,7 @@ void warnOfNecks(const NarrowNecks& necks, const PointCloud& cloud, WarningList&
   {
     warnings.add(WarningTopic::NarrowNecks,
       "The mesh has " + counted(necks.count, "narrow neck", "narrow necks") +
-        textOf(necks.places, necks.count, cloud) + ": a loop of at most " +
+        placesText(necks.places, necks.count, cloud) + ": a loop of at most " +
         std::to_string(NarrowLoop) +
         " edges parts one side from the other. If these are two bodies, they have grown together. "
         "Use more vertices, or a cloud for each body.");
@@ -278,7 +280,7 @@ void warnOfHandles(const NarrowHandles& handles, const PointCloud& cloud, Warnin
   {
     return;
   }
-  const std::string where = textOf(handles.places, handles.count, cloud);
+  const std::string where = placesText(handles.places, handles.count, cloud);
   warnings.add(WarningTopic::NarrowHandles,
     "The mesh has at least " + counted(handles.count, "narrow handle", "narrow handles") + where +
       ": a loop of at most " + std::to_string(NarrowLoop) +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Promise: nothing computes with denormal numbers, with which processors are a hundred times slower. What is no number, as
-// an index in a vector's last lane, looks like one.
+// Promise: what is no number, as an index in a vector's last lane, or memory that is not used, is not computed with: it
+// looks like a denormal number, with which processors are a hundred times slower.
 #include "cloud/PackedGrid.h"
 #include "mesh/Refinement.h"
 #include "run/Reconstruction.h"
